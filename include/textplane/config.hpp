@@ -1,0 +1,67 @@
+// textplane: version, inline ABI namespace and assert hook.
+//
+// Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of the
+// translation unit that change code or layout: the instruction-set baseline, fast-math, and Eigen's largest alignment. Two
+// translation units built with different flags therefore keep their own copies, and passing a type from one to the other
+// is a link error instead of a corrupt heap.
+//
+// This header and simd/targets are the only ones that read compiler macros.
+#ifndef TEXTPLANE_CONFIG_HPP
+#define TEXTPLANE_CONFIG_HPP
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#define TEXTPLANE_VERSION_MAJOR 0
+#define TEXTPLANE_VERSION_MINOR 1
+#define TEXTPLANE_VERSION_PATCH 0
+#define TEXTPLANE_VERSION_STRING "0.1.0"
+
+#if defined(__AVX512F__)
+#define TEXTPLANE_ABI_ISA avx512
+#elif defined(__AVX2__) && defined(__FMA__)
+#define TEXTPLANE_ABI_ISA avx2
+#elif defined(__AVX__)
+#define TEXTPLANE_ABI_ISA avx
+#elif defined(__SSE4_1__)
+#define TEXTPLANE_ABI_ISA sse41
+#else
+#define TEXTPLANE_ABI_ISA base
+#endif
+
+#if defined(__FAST_MATH__)
+#define TEXTPLANE_ABI_MATH fast
+#else
+#define TEXTPLANE_ABI_MATH ieee
+#endif
+
+#if EIGEN_MAX_ALIGN_BYTES >= 64
+#define TEXTPLANE_ABI_ALIGN a64
+#elif EIGEN_MAX_ALIGN_BYTES >= 32
+#define TEXTPLANE_ABI_ALIGN a32
+#elif EIGEN_MAX_ALIGN_BYTES >= 16
+#define TEXTPLANE_ABI_ALIGN a16
+#else
+#define TEXTPLANE_ABI_ALIGN a0
+#endif
+
+#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align) v##major##_##minor##_##isa##_##math##_##align
+#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align) TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align)
+#define TEXTPLANE_ABI                                                                                               \
+  TEXTPLANE_ABI_JOIN(TEXTPLANE_VERSION_MAJOR, TEXTPLANE_VERSION_MINOR, TEXTPLANE_ABI_ISA, TEXTPLANE_ABI_MATH,      \
+                     TEXTPLANE_ABI_ALIGN)
+
+#define TEXTPLANE_BEGIN_NAMESPACE \
+  namespace textplane {           \
+  inline namespace TEXTPLANE_ABI {
+#define TEXTPLANE_END_NAMESPACE \
+  }                             \
+  }
+
+// Checks of preconditions that only a bug in the caller can break. Off unless the embedder defines the macro, for example
+// as `assert(condition)`: the library itself never aborts.
+#ifndef TEXTPLANE_ASSERT
+#define TEXTPLANE_ASSERT(condition) static_cast<void>(0)
+#endif
+
+#endif  // TEXTPLANE_CONFIG_HPP

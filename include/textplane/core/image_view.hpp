@@ -1,0 +1,106 @@
+// ImageView: pixels that somebody else owns, with a stride; Image: the plain owner that pyramids and examples use.
+//
+// The centre of the top-left pixel is (0, 0). Strides are in bytes and may exceed the row; they may not be smaller.
+#ifndef TEXTPLANE_CORE_IMAGE_VIEW_HPP
+#define TEXTPLANE_CORE_IMAGE_VIEW_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "textplane/config.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A view of width x height pixels of type T (std::uint8_t or float, possibly const). Copying copies the view.
+/// No function of the library reads outside [data, data + (height - 1) * stride + width * sizeof(T)).
+template <class T>
+class ImageView {
+ public:
+  using Pixel = T;
+  using Byte = std::conditional_t<std::is_const<T>::value, const unsigned char, unsigned char>;
+
+  constexpr ImageView() noexcept = default;
+  /// Rows without gaps.
+  ImageView(T* data, int width, int height) noexcept
+      : ImageView(data, width, height, static_cast<std::ptrdiff_t>(width) * static_cast<std::ptrdiff_t>(sizeof(T))) {}
+  /// `stride`: distance of two rows in bytes.
+  ImageView(T* data, int width, int height, std::ptrdiff_t stride) noexcept
+      : data_(data), width_(width), height_(height), stride_(stride) {}
+  /// A view of mutable pixels converts to one of constant pixels.
+  template <class U, std::enable_if_t<std::is_same<T, const U>::value, int> = 0>
+  ImageView(const ImageView<U>& other) noexcept
+      : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
+
+  T* data() const noexcept { return data_; }
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+  std::ptrdiff_t stride() const noexcept { return stride_; }
+
+  /// Not null, not empty, and no row overlaps the next.
+  bool valid() const noexcept {
+    return data_ != nullptr && width_ > 0 && height_ > 0 &&
+           stride_ >= static_cast<std::ptrdiff_t>(width_) * static_cast<std::ptrdiff_t>(sizeof(T));
+  }
+
+  T* row(int y) const noexcept {
+    return reinterpret_cast<T*>(reinterpret_cast<Byte*>(data_) + static_cast<std::ptrdiff_t>(y) * stride_);
+  }
+  T& operator()(int x, int y) const noexcept { return row(y)[x]; }
+
+  /// (x, y) has a pixel on each side to interpolate between: inside [0, width - 1] x [0, height - 1]. False for NaN.
+  template <class S>
+  bool contains(const S& x, const S& y) const noexcept {
+    return x >= S(0) && y >= S(0) && x <= S(width_ - 1) && y <= S(height_ - 1);
+  }
+
+ private:
+  T* data_ = nullptr;
+  int width_ = 0;
+  int height_ = 0;
+  std::ptrdiff_t stride_ = 0;
+};
+
+/// An image that owns its pixels, rows without gaps. Construction and resize() allocate, nothing else does.
+template <class T>
+class Image {
+ public:
+  Image() = default;
+  Image(int width, int height, T value = T()) { resize(width, height, value); }
+
+  void resize(int width, int height, T value = T()) {
+    width_ = width > 0 ? width : 0;
+    height_ = height > 0 ? height : 0;
+    pixels_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), value);
+  }
+
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+  bool empty() const noexcept { return pixels_.empty(); }
+  T* data() noexcept { return pixels_.data(); }
+  const T* data() const noexcept { return pixels_.data(); }
+  T& operator()(int x, int y) noexcept { return pixels_[index(x, y)]; }
+  const T& operator()(int x, int y) const noexcept { return pixels_[index(x, y)]; }
+  T* row(int y) noexcept { return pixels_.data() + index(0, y); }
+  const T* row(int y) const noexcept { return pixels_.data() + index(0, y); }
+
+  ImageView<T> view() noexcept { return {pixels_.data(), width_, height_}; }
+  ImageView<const T> view() const noexcept { return {pixels_.data(), width_, height_}; }
+
+ private:
+  std::size_t index(int x, int y) const noexcept {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> pixels_;
+};
+
+using ImageView8 = ImageView<const std::uint8_t>;
+using ImageViewF = ImageView<const float>;
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_CORE_IMAGE_VIEW_HPP

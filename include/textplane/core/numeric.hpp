@@ -1,0 +1,165 @@
+// Small numeric tools that every room stands on: finite checks that survive -ffast-math, and the fixed-size symmetric
+// solvers. They are written out here, not taken from Eigen's out-of-line algorithms, because Eigen's weak symbols would be
+// shared between translation units with different instruction sets (see config.hpp).
+#ifndef TEXTPLANE_CORE_NUMERIC_HPP
+#define TEXTPLANE_CORE_NUMERIC_HPP
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "textplane/config.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+template <class S>
+using Vector2 = Eigen::Matrix<S, 2, 1>;
+template <class S>
+using Vector3 = Eigen::Matrix<S, 3, 1>;
+template <class S>
+using Vector6 = Eigen::Matrix<S, 6, 1>;
+template <class S>
+using Matrix3 = Eigen::Matrix<S, 3, 3>;
+
+/// Neither NaN nor infinite, decided on the bits so that -ffast-math cannot fold it away.
+inline bool is_finite(double x) noexcept {
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return (bits & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
+}
+inline bool is_finite(float x) noexcept {
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return (bits & 0x7f800000U) != 0x7f800000U;
+}
+/// Other scalars (dual numbers): x - x is zero exactly for finite x.
+template <class S>
+bool is_finite(const S& x) noexcept {
+  return x - x == S(0);
+}
+/// All coefficients of a dense Eigen expression are finite.
+template <class Derived>
+bool all_finite(const Eigen::DenseBase<Derived>& m) noexcept {
+  for (Eigen::Index c = 0; c < m.cols(); ++c)
+    for (Eigen::Index r = 0; r < m.rows(); ++r)
+      if (!is_finite(m.derived().coeff(r, c))) return false;
+  return true;
+}
+
+/// Cholesky factorisation A = L D L^T of a symmetric N x N matrix, only the lower triangle of which is read.
+///
+/// A pivot of at most `tolerance` times the diagonal entry it started from makes the matrix count as not positive definite.
+/// `ok()` then is false and solve() must not be called.
+template <class S, int N>
+class Ldlt {
+ public:
+  using Matrix = Eigen::Matrix<S, N, N>;
+  using Vector = Eigen::Matrix<S, N, 1>;
+
+  explicit Ldlt(const Matrix& a, S tolerance = S(16) * std::numeric_limits<S>::epsilon()) noexcept : l_(a) {
+    for (int j = 0; j < N; ++j) {
+      S d = l_(j, j);
+      for (int k = 0; k < j; ++k) d -= l_(j, k) * l_(j, k) * d_[k];
+      if (!(d > tolerance * a(j, j)) || !is_finite(d)) return;
+      d_[j] = d;
+      for (int i = j + 1; i < N; ++i) {
+        S s = l_(i, j);
+        for (int k = 0; k < j; ++k) s -= l_(i, k) * l_(j, k) * d_[k];
+        l_(i, j) = s / d;
+      }
+    }
+    ok_ = true;
+  }
+
+  bool ok() const noexcept { return ok_; }
+
+  Vector solve(const Vector& b) const noexcept {
+    Vector x = b;
+    for (int i = 0; i < N; ++i)
+      for (int k = 0; k < i; ++k) x[i] -= l_(i, k) * x[k];
+    for (int i = 0; i < N; ++i) x[i] /= d_[i];
+    for (int i = N - 1; i >= 0; --i)
+      for (int k = i + 1; k < N; ++k) x[i] -= l_(k, i) * x[k];
+    return x;
+  }
+
+  Matrix inverse() const noexcept {
+    Matrix inv;
+    for (int c = 0; c < N; ++c) {
+      Vector e;
+      for (int i = 0; i < N; ++i) e[i] = S(i == c ? 1 : 0);
+      const Vector x = solve(e);
+      for (int i = 0; i < N; ++i) inv(i, c) = x[i];
+    }
+    return inv;
+  }
+
+ private:
+  Matrix l_;
+  S d_[N] = {};
+  bool ok_ = false;
+};
+
+/// Eigenvalues (ascending) and eigenvectors (columns) of a symmetric N x N matrix by cyclic Jacobi rotations.
+template <class S, int N>
+struct SymmetricEigen {
+  Eigen::Matrix<S, N, 1> values;
+  Eigen::Matrix<S, N, N> vectors;
+};
+
+template <class S, int N>
+SymmetricEigen<S, N> symmetric_eigen(const Eigen::Matrix<S, N, N>& matrix) noexcept {
+  using std::abs;
+  using std::sqrt;
+  Eigen::Matrix<S, N, N> a = matrix;
+  SymmetricEigen<S, N> e;
+  e.vectors.setIdentity();
+  for (int sweep = 0; sweep < 30; ++sweep) {
+    S off = S(0), diagonal = S(0);
+    for (int i = 0; i < N; ++i) {
+      diagonal += a(i, i) * a(i, i);
+      for (int j = 0; j < i; ++j) off += a(i, j) * a(i, j);
+    }
+    const S epsilon = std::numeric_limits<S>::epsilon();
+    if (!(off > epsilon * epsilon * diagonal)) break;
+    for (int p = 0; p < N; ++p)
+      for (int q = p + 1; q < N; ++q) {
+        if (a(p, q) == S(0)) continue;
+        const S tau = (a(q, q) - a(p, p)) / (S(2) * a(p, q));
+        const S t = (tau >= S(0) ? S(1) : S(-1)) / (abs(tau) + sqrt(S(1) + tau * tau));
+        const S c = S(1) / sqrt(S(1) + t * t), s = t * c;
+        for (int k = 0; k < N; ++k) {
+          const S akp = a(k, p), akq = a(k, q);
+          a(k, p) = c * akp - s * akq;
+          a(k, q) = s * akp + c * akq;
+        }
+        for (int k = 0; k < N; ++k) {
+          const S apk = a(p, k), aqk = a(q, k);
+          a(p, k) = c * apk - s * aqk;
+          a(q, k) = s * apk + c * aqk;
+          const S vkp = e.vectors(k, p), vkq = e.vectors(k, q);
+          e.vectors(k, p) = c * vkp - s * vkq;
+          e.vectors(k, q) = s * vkp + c * vkq;
+        }
+      }
+  }
+  for (int i = 0; i < N; ++i) e.values[i] = a(i, i);
+  for (int i = 0; i < N; ++i)
+    for (int j = i + 1; j < N; ++j)
+      if (e.values[j] < e.values[i]) {
+        const S v = e.values[i];
+        e.values[i] = e.values[j];
+        e.values[j] = v;
+        for (int k = 0; k < N; ++k) {
+          const S w = e.vectors(k, i);
+          e.vectors(k, i) = e.vectors(k, j);
+          e.vectors(k, j) = w;
+        }
+      }
+  return e;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_CORE_NUMERIC_HPP
