@@ -1,0 +1,83 @@
+// Trajectory errors against ground truth: absolute (ATE, after Sim(3) alignment) and relative (RPE), path length, coverage.
+//
+// The alignment is Umeyama's (PAMI 1991) least squares, truth ~ s R estimate + t, with the rotation from Horn's quaternion.
+// A monocular estimate has no scale of its own, so relative errors use the scale of the alignment.
+#ifndef TEXTSLAM_IO_EVALUATE_HPP
+#define TEXTSLAM_IO_EVALUATE_HPP
+
+#include <cstddef>
+#include <vector>
+
+#include "io/trajectory.hpp"
+#include "textplane/core/status.hpp"
+
+namespace textslam {
+
+using textplane::Status;
+
+/// p -> scale R p + t.
+struct Similarity {
+  double scale = 1;
+  Matrix3<double> R = Matrix3<double>::Identity();
+  Vector3<double> t = Vector3<double>::Zero();
+
+  Vector3<double> operator*(const Vector3<double>& p) const { return scale * (R * p) + t; }
+  /// A camera pose of the source world as one of the target world; the rotation stays a rotation.
+  SE3d operator*(const SE3d& T_w_c) const { return {R * T_w_c.R, *this * T_w_c.t}; }
+};
+
+/// Indices of an estimated pose and of the true pose nearest in time.
+struct PosePair {
+  std::size_t estimate = 0, truth = 0;
+};
+
+/// One-to-one pairs at most `tolerance` seconds apart, the closest first where several compete; in order of time. Both inputs
+/// have increasing times.
+std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth,
+                                double tolerance);
+
+/// The similarity (or, without scale, the rigid motion) that minimises sum |to_i - S from_i|^2. Collinear points leave the turn
+/// about their line open: the sum is minimal still. Status::too_few below three points or when the sizes differ, degenerate when
+/// either set is a single place, non_finite for NaN; *out is then untouched.
+Status align_points(const std::vector<Vector3<double>>& from, const std::vector<Vector3<double>>& to, bool with_scale,
+                    Similarity* out);
+
+/// Zeros when n is 0. The median of an even number is the mean of the middle two.
+struct ErrorStatistics {
+  std::size_t n = 0;
+  double rmse = 0, mean = 0, median = 0, max = 0;
+};
+ErrorStatistics error_statistics(std::vector<double> errors);
+
+/// Relative errors over pairs of poses: |translation| and rotation angle of (true motion)^-1 (estimated motion).
+struct RelativeError {
+  ErrorStatistics translation;  ///< m, or the unit of the truth
+  ErrorStatistics rotation;     ///< degrees
+};
+
+struct EvaluationOptions {
+  double tolerance = 0.01;  ///< s, of the association
+  double distance = 0.1;    ///< m of true path, for the second relative error
+  bool with_scale = true;
+};
+
+struct TrajectoryEvaluation {
+  Status status = Status::too_few;  ///< of the alignment; the errors are zeros unless ok
+  std::size_t pairs = 0;            ///< associated poses
+  Similarity alignment;             ///< estimate's world -> truth's world
+  ErrorStatistics ate;              ///< m
+  RelativeError rpe_frame;     ///< over neighbouring pairs; those further apart than 1.5 times the usual interval are left out
+  double frame_interval = 0;   ///< s, the usual (median) interval of neighbouring pairs: 1/fps where every frame has truth
+  RelativeError rpe_distance;  ///< from each pair to the first one at least options.distance of true path later
+  double path_length = 0;      ///< m, of the whole ground truth
+  double coverage = 0;         ///< poses of the estimate over all frames of the sequence
+};
+
+/// `frames`: number of frames of the sequence. Never throws on odd data: status says why there is no error to report; pairs,
+/// path_length and coverage are set in any case.
+TrajectoryEvaluation evaluate_trajectory(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth,
+                                         std::size_t frames, const EvaluationOptions& options = {});
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_IO_EVALUATE_HPP

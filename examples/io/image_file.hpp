@@ -1,0 +1,35 @@
+// Image files: JPEG (libjpeg), PNG (libpng) and the PGM/PPM family into 8-bit grey images, and back.
+//
+// The format is told by the file's first bytes, never by its name. Colour becomes grey by (299 R + 587 G + 114 B + 500) / 1000;
+// a YCbCr JPEG gives its luma, which is the same weighting; samples of more than 8 bits are scaled down; alpha is ignored, and
+// so are gamma and colour profiles. A file that decodes only in part counts as broken: half a frame must not be tracked against.
+#ifndef TEXTSLAM_IO_IMAGE_FILE_HPP
+#define TEXTSLAM_IO_IMAGE_FILE_HPP
+
+#include <cstdint>
+#include <string>
+
+#include "io/names.hpp"
+
+namespace textslam {
+
+/// Images beyond either bound are refused before any memory is taken for their pixels.
+constexpr int kMaxImageSide = 16384;
+constexpr int kMaxImagePixels = 1 << 27;
+
+/// The image as grey values. Throws InputError (file, no line) when the file is missing, unreadable, of an unknown kind,
+/// corrupt, truncated or too large. Safe to call from several threads.
+Image<std::uint8_t> load_grey(const std::string& path);
+
+/// The bytes of a grey PNG. Throws std::invalid_argument for an invalid view.
+std::string encode_png(ImageView8 image);
+/// The bytes of a grey JPEG of the given quality, 1 to 100. Throws std::invalid_argument for an invalid view.
+std::string encode_jpeg(ImageView8 image, int quality);
+
+/// Writes the file as write_file() does: whole or not at all; std::runtime_error with the path on failure.
+void save_png(const std::string& path, ImageView8 image);
+void save_jpeg(const std::string& path, ImageView8 image, int quality = 92);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_IO_IMAGE_FILE_HPP

@@ -1,0 +1,42 @@
+// Text input: whole files, lines with their numbers, strict numbers. What every reader of this folder stands on.
+#ifndef TEXTSLAM_IO_TEXT_FILE_HPP
+#define TEXTSLAM_IO_TEXT_FILE_HPP
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace textslam {
+
+/// The bytes of a file of at most 1 GiB. Throws InputError with the system's reason when it cannot be opened or read.
+std::string read_file(const std::string& path);
+
+struct TextLine {
+  std::string text;  ///< without line end
+  int number = 0;    ///< from 1
+};
+
+/// The lines of a text file that are not blank; LF or CR LF, a byte-order mark is dropped. Throws InputError for a
+/// file that cannot be read, and with the line for a NUL byte: that is not a text.
+std::vector<TextLine> read_lines(const std::string& path);
+
+/// Without blanks at both ends.
+std::string_view trimmed(std::string_view text);
+/// The runs of characters between blanks.
+std::vector<std::string_view> split_blanks(std::string_view text);
+
+/// A finite decimal number and nothing else, blanks at its ends aside; independent of the locale. False for anything
+/// else, NaN, infinity and overflow included.
+bool parse_number(std::string_view text, double* value);
+/// parse_number(), or InputError that quotes the text and says `what` it should be.
+double require_number(std::string_view text, const std::string& file, int line, const std::string& what);
+/// The text as it can be shown in a message: at most 40 characters, anything unprintable as '?'.
+std::string quoted(std::string_view text);
+/// The shortest decimal that reads back as the same double; "-0" becomes "0".
+std::string shortest(double value);
+/// The text with every byte that is not part of well-formed UTF-8 replaced by U+FFFD.
+std::string well_formed_utf8(std::string_view text);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_IO_TEXT_FILE_HPP
