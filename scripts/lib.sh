@@ -1,0 +1,71 @@
+# shellcheck shell=sh disable=SC2034
+# Shared by the scripts of this folder, which source it.
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+jobs=$(nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
+
+# A compiler cache is used where there is one, never asked for.
+if [ -z "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] && command -v ccache >/dev/null 2>&1; then
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+
+# Debian and Ubuntu package names. "a|b": either will do, a is the one that gets installed.
+packages_build='cmake g++ make libeigen3-dev'
+packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
+  nlohmann-json3-dev fonts-dejavu-core"
+packages_test="$packages_demo libgtest-dev libopencv-dev"
+packages_ci="$packages_test clang"
+
+say() { printf '\n== %s\n' "$*"; }
+warn() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
+die() {
+  warn "$*"
+  exit 1
+}
+
+is_installed() {
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null || true)" = installed ]
+}
+
+# missing_packages LIST: the packages of LIST that are not installed, on standard output.
+missing_packages() {
+  for entry in $1; do
+    found=no
+    for name in $(printf '%s' "$entry" | tr '|' ' '); do
+      if is_installed "$name"; then found=yes; fi
+    done
+    if [ "$found" = no ]; then printf '%s ' "${entry%%|*}"; fi
+  done
+}
+
+# apt_get ARGUMENTS: apt-get that asks no questions, through sudo where we are not root.
+apt_get() {
+  if [ "$(id -u)" -eq 0 ]; then
+    DEBIAN_FRONTEND=noninteractive apt-get "$@"
+  elif [ -t 0 ]; then
+    sudo DEBIAN_FRONTEND=noninteractive apt-get "$@"
+  else
+    sudo -n DEBIAN_FRONTEND=noninteractive apt-get "$@"
+  fi
+}
+
+# install_packages LIST: installs with apt what is missing. Where that cannot be done it names the packages and goes on:
+# CMake finds the libraries, or says which one it misses.
+install_packages() {
+  if ! command -v dpkg-query >/dev/null 2>&1 || ! command -v apt-get >/dev/null 2>&1; then
+    warn "no apt here: make sure that the equivalents of these Debian packages are installed:"
+    warn "$(printf '%s' "$1" | tr -s ' \n' ' ' | sed 's/|[^ ]*//g')"
+    return 0
+  fi
+  missing=$(missing_packages "$1")
+  if [ -z "$missing" ]; then return 0; fi
+  say "installing: $missing"
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null 2>&1; then
+    warn "not root and no sudo: install them yourself if the build does not find them"
+    return 0
+  fi
+  apt_get update -qq || warn "apt-get update failed, trying with the package lists at hand"
+  # shellcheck disable=SC2086  # a list of words
+  apt_get install -y -qq --no-install-recommends $missing ||
+    warn "apt could not install all of them: install them yourself if the build does not find them"
+}
