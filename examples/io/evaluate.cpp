@@ -1,0 +1,184 @@
+#include "io/evaluate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace textslam {
+
+namespace {
+
+using Vector = Vector3<double>;
+
+constexpr double kDegrees = 57.295779513082320877;
+
+// Horn 1987: the rotation that maximises sum to_i . R from_i is the eigenvector of the largest eigenvalue of this matrix.
+Matrix3<double> horn_rotation(const Matrix3<double>& m /* sum from_i to_i^T */) {
+  Eigen::Matrix4d n;
+  n << m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0),  //
+      m(1, 2) - m(2, 1), m(0, 0) - m(1, 1) - m(2, 2), m(0, 1) + m(1, 0), m(2, 0) + m(0, 2),   //
+      m(2, 0) - m(0, 2), m(0, 1) + m(1, 0), m(1, 1) - m(0, 0) - m(2, 2), m(1, 2) + m(2, 1),   //
+      m(0, 1) - m(1, 0), m(2, 0) + m(0, 2), m(1, 2) + m(2, 1), m(2, 2) - m(0, 0) - m(1, 1);
+  const Eigen::Vector4d q = textplane::symmetric_eigen<double, 4>(n).vectors.col(3);
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+class RelativeErrors {
+ public:
+  RelativeErrors(const std::vector<SE3d>& estimate, const std::vector<SE3d>& truth) : estimate_(estimate), truth_(truth) {}
+
+  void add(std::size_t i, std::size_t j) {
+    const SE3d true_motion = truth_[i].inverse() * truth_[j];
+    const SE3d error = true_motion.inverse() * (estimate_[i].inverse() * estimate_[j]);
+    translation_.push_back(error.t.norm());
+    rotation_.push_back(kDegrees * textplane::so3_log(error.R).norm());
+  }
+  RelativeError result() { return {error_statistics(std::move(translation_)), error_statistics(std::move(rotation_))}; }
+
+ private:
+  const std::vector<SE3d>& estimate_;
+  const std::vector<SE3d>& truth_;
+  std::vector<double> translation_, rotation_;
+};
+
+}  // namespace
+
+std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth,
+                                double tolerance) {
+  struct Candidate {
+    double gap;
+    PosePair pair;
+  };
+  std::vector<Candidate> candidates;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    const double time = estimate[i].timestamp;
+    while (first < truth.size() && truth[first].timestamp < time - tolerance) ++first;
+    for (std::size_t j = first; j < truth.size() && truth[j].timestamp <= time + tolerance; ++j) {
+      candidates.push_back({std::abs(truth[j].timestamp - time), {i, j}});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+  std::vector<bool> estimate_taken(estimate.size()), truth_taken(truth.size());
+  std::vector<PosePair> pairs;
+  for (const Candidate& candidate : candidates) {
+    const PosePair& pair = candidate.pair;
+    if (estimate_taken[pair.estimate] || truth_taken[pair.truth]) continue;
+    estimate_taken[pair.estimate] = truth_taken[pair.truth] = true;
+    pairs.push_back(pair);
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.estimate < b.estimate; });
+  // A tolerance above the spacing of the poses lets leftovers pair across closer pairs: time must run forwards on both sides.
+  const auto gap = [&](const PosePair& p) { return std::abs(truth[p.truth].timestamp - estimate[p.estimate].timestamp); };
+  std::vector<PosePair> ordered;
+  for (const PosePair& pair : pairs) {
+    while (!ordered.empty() && ordered.back().truth > pair.truth && gap(pair) < gap(ordered.back())) ordered.pop_back();
+    if (ordered.empty() || ordered.back().truth < pair.truth) ordered.push_back(pair);
+  }
+  return ordered;
+}
+
+Status align_points(const std::vector<Vector>& from, const std::vector<Vector>& to, bool with_scale, Similarity* out) {
+  const std::size_t n = from.size();
+  if (n < 3 || to.size() != n) return Status::too_few;
+  Vector from_mean = Vector::Zero(), to_mean = Vector::Zero();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!textplane::all_finite(from[i]) || !textplane::all_finite(to[i])) return Status::non_finite;
+    from_mean += from[i];
+    to_mean += to[i];
+  }
+  from_mean /= static_cast<double>(n);
+  to_mean /= static_cast<double>(n);
+  Matrix3<double> correlation = Matrix3<double>::Zero();
+  double from_spread = 0, to_spread = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector a = from[i] - from_mean, b = to[i] - to_mean;
+    correlation += a * b.transpose();
+    from_spread += a.squaredNorm();
+    to_spread += b.squaredNorm();
+  }
+  // What is left of identical points after rounding is not a spread.
+  const auto is_single_place = [n](double spread, const Vector& mean) {
+    return !(spread > 1e-24 * static_cast<double>(n) * mean.squaredNorm()) || !(spread > 0);
+  };
+  if (is_single_place(from_spread, from_mean) || is_single_place(to_spread, to_mean)) return Status::degenerate;
+  Similarity result;
+  result.R = horn_rotation(correlation);
+  // sum to . R from = trace(R correlation); it can be negative only where no rotation fits better than a point would.
+  if (with_scale) result.scale = (result.R * correlation).trace() / from_spread;
+  if (!(result.scale > 0) || !textplane::is_finite(result.scale)) return Status::degenerate;
+  result.t = to_mean - result.scale * (result.R * from_mean);
+  *out = result;
+  return Status::ok;
+}
+
+ErrorStatistics error_statistics(std::vector<double> errors) {
+  ErrorStatistics statistics;
+  statistics.n = errors.size();
+  if (errors.empty()) return statistics;
+  double squares = 0, sum = 0;
+  for (const double e : errors) {
+    squares += e * e;
+    sum += e;
+  }
+  const double n = static_cast<double>(errors.size());
+  statistics.rmse = std::sqrt(squares / n);
+  statistics.mean = sum / n;
+  statistics.max = *std::max_element(errors.begin(), errors.end());
+  statistics.median = median_of(std::move(errors));
+  return statistics;
+}
+
+TrajectoryEvaluation evaluate_trajectory(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth,
+                                         std::size_t frames, const EvaluationOptions& options) {
+  TrajectoryEvaluation result;
+  if (frames > 0) result.coverage = static_cast<double>(estimate.size()) / static_cast<double>(frames);
+  // Distance walked until each true pose.
+  std::vector<double> walked(truth.size(), 0.0);
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    walked[i] = walked[i - 1] + (truth[i].T_w_c.t - truth[i - 1].T_w_c.t).norm();
+  }
+  if (!walked.empty()) result.path_length = walked.back();
+
+  const std::vector<PosePair> pairs = associate(estimate, truth, options.tolerance);
+  result.pairs = pairs.size();
+  std::vector<Vector> from, to;
+  for (const PosePair& pair : pairs) {
+    from.push_back(estimate[pair.estimate].T_w_c.t);
+    to.push_back(truth[pair.truth].T_w_c.t);
+  }
+  result.status = align_points(from, to, options.with_scale, &result.alignment);
+  if (!textplane::is_ok(result.status)) return result;
+
+  std::vector<SE3d> aligned, reference;
+  std::vector<double> errors, intervals;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    aligned.push_back(result.alignment * estimate[pairs[k].estimate].T_w_c);
+    reference.push_back(truth[pairs[k].truth].T_w_c);
+    errors.push_back((aligned[k].t - reference[k].t).norm());
+    if (k > 0) intervals.push_back(truth[pairs[k].truth].timestamp - truth[pairs[k - 1].truth].timestamp);
+  }
+  result.ate = error_statistics(std::move(errors));
+
+  result.frame_interval = median_of(intervals);
+  RelativeErrors by_frame(aligned, reference), by_distance(aligned, reference);
+  for (std::size_t k = 1; k < pairs.size(); ++k) {
+    if (intervals[k - 1] <= 1.5 * result.frame_interval) by_frame.add(k - 1, k);
+  }
+  for (std::size_t i = 0, j = 0; i < pairs.size(); ++i) {
+    while (j < pairs.size() && walked[pairs[j].truth] - walked[pairs[i].truth] < options.distance) ++j;
+    if (j == pairs.size()) break;
+    by_distance.add(i, j);
+  }
+  result.rpe_frame = by_frame.result();
+  result.rpe_distance = by_distance.result();
+  return result;
+}
+
+}  // namespace textslam

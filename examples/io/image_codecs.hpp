@@ -1,0 +1,28 @@
+// The image formats behind io/image_file.hpp, bytes to pixels and back. `path` is for messages alone.
+#ifndef TEXTSLAM_IO_IMAGE_CODECS_HPP
+#define TEXTSLAM_IO_IMAGE_CODECS_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "io/names.hpp"
+
+namespace textslam {
+
+/// Each throws InputError unless the whole image decodes.
+Image<std::uint8_t> decode_jpeg(const std::string& bytes, const std::string& path);
+Image<std::uint8_t> decode_png(const std::string& bytes, const std::string& path);
+Image<std::uint8_t> decode_pnm(const std::string& bytes, const std::string& path);
+
+/// Throws InputError for an empty or too large image: before memory is taken for its pixels.
+void check_image_size(std::size_t width, std::size_t height, const std::string& path);
+
+/// Grey value of a colour.
+inline std::uint8_t grey_of(int r, int g, int b) {
+  return static_cast<std::uint8_t>((299 * r + 587 * g + 114 * b + 500) / 1000);
+}
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_IO_IMAGE_CODECS_HPP
