@@ -1,5 +1,6 @@
 #include "io/sequence.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -45,7 +46,7 @@ Settings read_settings(const std::string& path) {
     if (first == ' ' || first == '\t' || first == '-') continue;
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos || colon == 0) {
-      throw InputError(path, line.number, "expected 'key: value', not " + quoted(text));
+      throw InputError(path, line.number, "expected 'key: value', not " + shown(text));
     }
     const std::string key(trimmed(text.substr(0, colon)));
     const auto [entry, is_new] = settings.emplace(key, Setting{std::string(scalar(text.substr(colon + 1))), line.number});
@@ -83,7 +84,7 @@ class CameraReader {
   }
   [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
     const Setting* setting = find(key);
-    throw InputError(path_, setting->line, key + " " + reason + ", not " + quoted(setting->value));
+    throw InputError(path_, setting->line, key + " " + reason + ", not " + shown(setting->value));
   }
 
  private:
@@ -104,7 +105,7 @@ std::vector<FrameRef> read_frames(const std::string& folder, const std::string& 
     if (path.empty()) throw InputError(images_file, line.number, "the image's path is missing after the timestamp");
     if (!frames.empty() && !(frame.timestamp > frames.back().timestamp)) {
       throw InputError(images_file, line.number,
-                       "times must increase: " + quoted(time) + " does not follow line " + std::to_string(frames.back().line));
+                       "times must increase: " + shown(time) + " does not follow line " + std::to_string(frames.back().line));
     }
     frame.path = (fs::path(folder) / path).string();
     frame.stem = fs::path(path).stem().string();

@@ -101,12 +101,12 @@ bool parse_number(std::string_view text, double* value) {
 double require_number(std::string_view text, const std::string& file, int line, const std::string& what) {
   double value = 0;
   if (!parse_number(text, &value)) {
-    throw InputError(file, line, what + " should be a finite number, not " + quoted(trimmed(text)));
+    throw InputError(file, line, what + " should be a finite number, not " + shown(trimmed(text)));
   }
   return value;
 }
 
-std::string quoted(std::string_view text) {
+std::string shown(std::string_view text) {
   constexpr std::size_t kShown = 40;
   std::string out = "'";
   for (const char c : text.substr(0, kShown)) out += c >= ' ' && c <= '~' ? c : '?';

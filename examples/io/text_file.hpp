@@ -31,7 +31,7 @@ bool parse_number(std::string_view text, double* value);
 /// parse_number(), or InputError that quotes the text and says `what` it should be.
 double require_number(std::string_view text, const std::string& file, int line, const std::string& what);
 /// The text as it can be shown in a message: at most 40 characters, anything unprintable as '?'.
-std::string quoted(std::string_view text);
+std::string shown(std::string_view text);
 /// The shortest decimal that reads back as the same double; "-0" becomes "0".
 std::string shortest(double value);
 /// The text with every byte that is not part of well-formed UTF-8 replaced by U+FFFD.
