@@ -22,6 +22,20 @@ using Vector6 = Eigen::Matrix<S, 6, 1>;
 template <class S>
 using Matrix3 = Eigen::Matrix<S, 3, 3>;
 
+namespace detail {
+// The scalar that sums over measurements of type S run in: double for float, else S itself.
+template <class S>
+struct WideScalar {
+  using type = S;
+};
+template <>
+struct WideScalar<float> {
+  using type = double;
+};
+template <class S>
+using Wide = typename WideScalar<S>::type;
+}  // namespace detail
+
 /// Neither NaN nor infinite, decided on the bits so that -ffast-math cannot fold it away.
 inline bool is_finite(double x) noexcept {
   std::uint64_t bits;
@@ -122,12 +136,14 @@ SymmetricEigen<S, N> symmetric_eigen(const Eigen::Matrix<S, N, N>& matrix) noexc
       for (int j = 0; j < i; ++j) off += a(i, j) * a(i, j);
     }
     const S epsilon = std::numeric_limits<S>::epsilon();
-    if (!(off > epsilon * epsilon * diagonal)) break;
+    // The first sweep always runs: an off-diagonal zero of a dual number may carry a derivative.
+    if (sweep > 0 && !(off > epsilon * epsilon * diagonal)) break;
     for (int p = 0; p < N; ++p)
       for (int q = p + 1; q < N; ++q) {
-        if (a(p, q) == S(0)) continue;
-        const S tau = (a(q, q) - a(p, p)) / (S(2) * a(p, q));
-        const S t = (tau >= S(0) ? S(1) : S(-1)) / (abs(tau) + sqrt(S(1) + tau * tau));
+        const S gap = a(q, q) - a(p, p), twice = S(2) * a(p, q);
+        const S length = abs(gap) + sqrt(gap * gap + twice * twice);
+        if (!(length > S(0))) continue;
+        const S t = (gap >= S(0) ? twice : S(-twice)) / length;
         const S c = S(1) / sqrt(S(1) + t * t), s = t * c;
         for (int k = 0; k < N; ++k) {
           const S akp = a(k, p), akq = a(k, q);

@@ -1,0 +1,302 @@
+// theta (see plane.hpp) fitted to inverse depths, to matches of two views of known pose, and to points.
+//
+// The fits solve 3 x 3 systems by this library's own Cholesky, report rank, condition and covariance, and divide by no
+// coordinate. float input is summed in double. Outliers are the caller's: run RANSAC outside.
+#ifndef TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
+#define TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "textplane/core/numeric.hpp"
+#include "textplane/core/se3.hpp"
+#include "textplane/core/status.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A fitted plane. `value` is usable where is_ok(status); with behind_camera it holds the algebraic solution, else zero.
+template <class S>
+struct PlaneFit {
+  Vector3<S> value = Vector3<S>::Zero();  ///< theta in the host frame.
+  /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative ones)
+  /// multiply it by sigma^2. Zero unless rank is 3.
+  Matrix3<S> covariance = Matrix3<S>::Zero();
+  int rank = 0;                                    ///< Of the weighted design matrix (0 to 3).
+  S condition = std::numeric_limits<S>::max();     ///< Its largest over smallest singular value; max() unless rank is 3.
+  S sigma = S(0);                                  ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
+  Status status = Status::too_few;
+};
+
+namespace detail {
+
+/// Normal equations A theta = b of rows that are multiples of m~^T.
+template <class W>
+struct PlaneSums {
+  Matrix3<W> A = Matrix3<W>::Zero();
+  Vector3<W> b = Vector3<W>::Zero();
+
+  void add(const Vector3<W>& m, const W& weight, const W& rhs) noexcept {
+    const Vector3<W> wm = weight * m;
+    A += wm * m.transpose();
+    b += rhs * m;
+  }
+};
+
+/// Rank and condition of a design matrix from its 3 x 3 normal matrix, for input rounded to S and sums in Wide<S>.
+template <class S>
+void set_rank(const Matrix3<Wide<S>>& A, PlaneFit<S>* fit) noexcept {
+  using std::sqrt;
+  using W = Wide<S>;
+  const auto e = symmetric_eigen<W, 3>(A);
+  const W input = W(16) * W(std::numeric_limits<S>::epsilon()), sums = W(64) * std::numeric_limits<W>::epsilon();
+  const W ratio = input * input > sums ? input * input : sums;
+  fit->rank = 0;
+  if (!all_finite(e.values) || !(e.values[2] > W(0))) return;
+  for (int i = 0; i < 3; ++i) fit->rank += e.values[i] > ratio * e.values[2] ? 1 : 0;
+  if (fit->rank == 3) fit->condition = S(sqrt(e.values[2] / e.values[0]));
+}
+
+/// weight[i], or 1; status of the weight in *status.
+template <class S>
+Wide<S> plane_weight(const S* weight, int i, Status* status) noexcept {
+  if (!weight) return Wide<S>(1);
+  if (!is_finite(weight[i])) *status = Status::non_finite;
+  else if (weight[i] < S(0)) *status = Status::invalid_argument;
+  return Wide<S>(weight[i]);
+}
+
+template <class S>
+void set_covariance(const Ldlt<Wide<S>, 3>& information, PlaneFit<S>* fit) noexcept {
+  const Matrix3<Wide<S>> c = information.inverse();
+  fit->covariance = ((c + c.transpose()) / Wide<S>(2)).template cast<S>();
+}
+
+template <class S>
+PlaneFit<S> with_status(PlaneFit<S> fit, Status status) noexcept {
+  fit.status = status;
+  return fit;
+}
+template <class S>
+PlaneFit<S> failed_plane(Status status) noexcept {
+  return with_status(PlaneFit<S>(), status);
+}
+
+}  // namespace detail
+
+/// theta from n >= 3 inverse depths: weighted least squares of m~_i^T theta = rho_i (DESIGN section 3).
+///
+/// m: homogeneous normalised points (third entry 1); rho: their inverse depths; weight: 1 / variance of each rho, or null
+/// for ones; a weight of 0 leaves its row out. Degrees of freedom of sigma: n - 3.
+/// Status: too_few (n < 3, rank still reported), rank_deficient (collinear or coincident points), behind_camera (the
+/// solution has rho <= 0 at one of the points), non_finite, invalid_argument (null pointer, negative n or weight).
+template <class S>
+PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const S* weight, int n) noexcept {
+  using std::sqrt;
+  using W = detail::Wide<S>;
+  if (n < 0 || (n > 0 && (!m || !rho))) return detail::failed_plane<S>(Status::invalid_argument);
+  detail::PlaneSums<W> sums;
+  int used = 0;
+  for (int i = 0; i < n; ++i) {
+    Status status = Status::ok;
+    const W w = detail::plane_weight(weight, i, &status);
+    if (!all_finite(m[i]) || !is_finite(rho[i])) status = Status::non_finite;
+    if (status != Status::ok) return detail::failed_plane<S>(status);
+    sums.add(m[i].template cast<W>(), w, w * W(rho[i]));
+    used += w > W(0) ? 1 : 0;
+  }
+  PlaneFit<S> fit;
+  detail::set_rank(sums.A, &fit);
+  if (used < 3) return fit;
+  const Ldlt<W, 3> ldlt(sums.A);
+  if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::rank_deficient);
+  Vector3<W> theta = ldlt.solve(sums.b);
+  // One step of refinement on the residuals brings the normal equations to the accuracy of an orthogonal factorisation.
+  Vector3<W> correction = Vector3<W>::Zero();
+  for (int i = 0; i < n; ++i) {
+    const Vector3<W> mi = m[i].template cast<W>();
+    correction += (weight ? W(weight[i]) : W(1)) * (W(rho[i]) - mi.dot(theta)) * mi;
+  }
+  theta += ldlt.solve(correction);
+  W chi2 = W(0);
+  fit.status = Status::ok;
+  for (int i = 0; i < n; ++i) {
+    const W fitted = theta.dot(m[i].template cast<W>()), r = W(rho[i]) - fitted, w = weight ? W(weight[i]) : W(1);
+    chi2 += w * r * r;
+    if (w > W(0) && !(fitted > W(0))) fit.status = Status::behind_camera;
+  }
+  if (!all_finite(theta) || !is_finite(chi2)) return detail::failed_plane<S>(Status::non_finite);
+  fit.value = theta.template cast<S>();
+  detail::set_covariance(ldlt, &fit);
+  if (used > 3 && chi2 > W(0)) fit.sigma = S(sqrt(chi2 / W(used - 3)));
+  return fit;
+}
+
+/// theta from n >= 3 matches between two views of known relative pose (paper, eq. 5; DESIGN section 3).
+///
+/// The linear system [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i gives the start; up to three Gauss-Newton steps on the
+/// target's reprojection error make it the maximum-likelihood estimate for isotropic noise on the target points.
+/// host_m, target_m: homogeneous normalised points (third entry 1); T_t_h: host to target; weight: 1 / variance of one
+/// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` are those of the linear
+/// system; degrees of freedom of sigma: 2 n - 3.
+/// Status: too_few, rank_deficient (collinear), degenerate (no baseline, or parallax below the rounding error, as after a
+/// pure rotation), behind_camera (a match ends behind a camera), non_finite, invalid_argument.
+template <class S>
+PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, int n, const SE3<S>& T_t_h,
+                               const S* weight = nullptr) noexcept {
+  using std::sqrt;
+  using W = detail::Wide<S>;
+  if (n < 0 || (n > 0 && (!host_m || !target_m))) return detail::failed_plane<S>(Status::invalid_argument);
+  if (!all_finite(T_t_h)) return detail::failed_plane<S>(Status::non_finite);
+  const SE3<W> T = T_t_h.template cast<W>();
+  detail::PlaneSums<W> linear;
+  W weight_sum = W(0);
+  int used = 0;
+  for (int i = 0; i < n; ++i) {
+    Status status = Status::ok;
+    const W w = detail::plane_weight(weight, i, &status);
+    if (!all_finite(host_m[i]) || !all_finite(target_m[i])) status = Status::non_finite;
+    if (status != Status::ok) return detail::failed_plane<S>(status);
+    const Vector3<W> m = host_m[i].template cast<W>(), mt = target_m[i].template cast<W>(), Rm = T.R * m;
+    const Vector3<W> e = mt.cross(T.t);
+    linear.add(m, w * e.squaredNorm(), -w * e.dot(mt.cross(Rm)));
+    weight_sum += w;
+    used += w > W(0) ? 1 : 0;
+  }
+  PlaneFit<S> fit;
+  detail::set_rank(linear.A, &fit);
+  if (used < 3) return fit;
+  if (fit.rank == 0) return detail::with_status(fit, Status::degenerate);
+  const Ldlt<W, 3> start(linear.A);
+  if (fit.rank < 3 || !start.ok()) return detail::with_status(fit, Status::rank_deficient);
+
+  Vector3<W> theta = start.solve(linear.b), previous = theta;
+  const W epsilon = std::numeric_limits<W>::epsilon(), rounding = weight_sum * (W(64) * epsilon) * (W(64) * epsilon);
+  W chi2 = std::numeric_limits<W>::max(), parallax = W(0);
+  Matrix3<W> information = linear.A;
+  fit.status = Status::behind_camera;
+  for (int step = 0;; ++step) {
+    detail::PlaneSums<W> sums;
+    W trial_chi2 = W(0), trial_parallax = W(0);
+    bool in_front = all_finite(theta);
+    for (int i = 0; i < n && in_front; ++i) {
+      const W w = weight ? W(weight[i]) : W(1);
+      if (w == W(0)) continue;
+      const Vector3<W> m = host_m[i].template cast<W>(), mt = target_m[i].template cast<W>();
+      const W rho = theta.dot(m);
+      const Vector3<W> q = T.R * m + rho * T.t;
+      in_front = rho > W(0) && q[2] > W(0);
+      if (!in_front) break;
+      const W u = q[0] / q[2], v = q[1] / q[2], eu = u - mt[0], ev = v - mt[1];
+      const W du = (T.t[0] - u * T.t[2]) / q[2], dv = (T.t[1] - v * T.t[2]) / q[2];  // d (u, v) / d rho
+      sums.add(m, w * (du * du + dv * dv), -w * (du * eu + dv * ev));
+      trial_chi2 += w * (eu * eu + ev * ev);
+      const W shift = (du * du + dv * dv) * rho * rho;
+      if (shift > trial_parallax) trial_parallax = shift;
+    }
+    const bool better = in_front && is_finite(trial_chi2) && (step == 0 || trial_chi2 <= chi2 + rounding);
+    if (!better) {
+      theta = previous;
+      break;
+    }
+    fit.status = Status::ok;
+    chi2 = trial_chi2;
+    parallax = trial_parallax;
+    information = sums.A;
+    const Ldlt<W, 3> ldlt(sums.A);
+    if (step == 3 || !ldlt.ok()) break;
+    previous = theta;
+    theta += ldlt.solve(sums.b);
+  }
+  if (!all_finite(theta)) return detail::failed_plane<S>(Status::non_finite);
+  fit.value = theta.template cast<S>();
+  if (fit.status != Status::ok) return fit;
+  const W smallest = W(64) * W(std::numeric_limits<S>::epsilon());
+  const Ldlt<W, 3> ldlt(information);
+  if (!(parallax > smallest * smallest)) fit.status = Status::degenerate;
+  else if (!ldlt.ok()) fit.status = Status::rank_deficient;
+  if (fit.status != Status::ok) {
+    fit.value.setZero();
+    return fit;
+  }
+  detail::set_covariance(ldlt, &fit);
+  if (chi2 > W(0)) fit.sigma = S(sqrt(chi2 / W(2 * used - 3)));
+  return fit;
+}
+
+/// theta of n >= 3 points of the host frame by total least squares: the plane that minimises the weighted sum of squared
+/// distances. weight: 1 / variance of a point along each axis (isotropic), or null for ones; 0 leaves its point out.
+///
+/// covariance to first order: |theta|^2 (sum w p p^T)^-1. Degrees of freedom of sigma (a length): n - 3.
+/// Status: too_few, rank_deficient (collinear or coincident), behind_camera (the plane passes through the camera centre),
+/// non_finite, invalid_argument.
+template <class S>
+PlaneFit<S> plane_from_points(const Vector3<S>* p, int n, const S* weight = nullptr) noexcept {
+  using std::sqrt;
+  using W = detail::Wide<S>;
+  if (n < 0 || (n > 0 && !p)) return detail::failed_plane<S>(Status::invalid_argument);
+  detail::PlaneSums<W> sums;
+  W weight_sum = W(0);
+  int used = 0;
+  for (int i = 0; i < n; ++i) {
+    Status status = Status::ok;
+    const W w = detail::plane_weight(weight, i, &status);
+    if (!all_finite(p[i])) status = Status::non_finite;
+    if (status != Status::ok) return detail::failed_plane<S>(status);
+    sums.add(p[i].template cast<W>(), w, w);
+    weight_sum += w;
+    used += w > W(0) ? 1 : 0;
+  }
+  PlaneFit<S> fit;
+  detail::set_rank(sums.A, &fit);
+  if (used < 3) return fit;
+  const Vector3<W> centre = sums.b / weight_sum;
+  Matrix3<W> scatter = Matrix3<W>::Zero();
+  for (int i = 0; i < n; ++i) {
+    const Vector3<W> r = p[i].template cast<W>() - centre;
+    scatter += (weight ? W(weight[i]) : W(1)) * r * r.transpose();
+  }
+  PlaneFit<S> flat;
+  detail::set_rank(scatter, &flat);
+  const auto e = symmetric_eigen<W, 3>(scatter);
+  const Ldlt<W, 3> ldlt(sums.A);
+  if (flat.rank < 2 || fit.rank < 2) return detail::with_status(fit, Status::rank_deficient);
+  if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::behind_camera);
+  const Vector3<W> normal = e.vectors.col(0);
+  const Vector3<W> theta = normal / normal.dot(centre);
+  if (!all_finite(theta)) return detail::with_status(fit, Status::behind_camera);
+  const W length2 = theta.squaredNorm();
+  fit.value = theta.template cast<S>();
+  detail::set_covariance(ldlt, &fit);
+  fit.covariance *= S(length2);
+  if (used > 3 && e.values[0] > W(0)) fit.sigma = S(sqrt(e.values[0] / W(used - 3)));
+  fit.status = Status::ok;
+  return fit;
+}
+
+namespace detail {
+/// Scalar of a container of Vector3: anything with data() and size().
+template <class Points>
+using PointScalar = typename std::decay_t<decltype(*std::declval<const Points&>().data())>::Scalar;
+}  // namespace detail
+
+/// Container forms of the three fits. Containers of different sizes give invalid_argument. Weights go by the pointer forms.
+template <class Points, class Depths, class S = detail::PointScalar<Points>>
+PlaneFit<S> plane_from_inverse_depths(const Points& m, const Depths& rho) noexcept {
+  if (m.size() != rho.size()) return detail::failed_plane<S>(Status::invalid_argument);
+  return plane_from_inverse_depths<S>(m.data(), rho.data(), nullptr, static_cast<int>(m.size()));
+}
+template <class HostPoints, class TargetPoints, class Pose, class S = detail::PointScalar<HostPoints>>
+PlaneFit<S> plane_from_matches(const HostPoints& host_m, const TargetPoints& target_m, const Pose& T_t_h) noexcept {
+  if (host_m.size() != target_m.size()) return detail::failed_plane<S>(Status::invalid_argument);
+  return plane_from_matches<S>(host_m.data(), target_m.data(), static_cast<int>(host_m.size()), to_se3(T_t_h));
+}
+template <class Points, class S = detail::PointScalar<Points>>
+PlaneFit<S> plane_from_points(const Points& p) noexcept {
+  return plane_from_points<S>(p.data(), static_cast<int>(p.size()));
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
