@@ -1,0 +1,283 @@
+// The joint cost of one camera pose over text objects and points, as a problem for minimise(); its terms, options and memory.
+//
+//   C(T_t_w) = sum_points rho(|e|^2 / sigma^2) + sum_texts lambda_w c,    e = reprojection error in px
+//
+// with c the robust photometric cost of a text object (residual.hpp) and lambda_w as in weighting.hpp: the paper's equation
+// E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega), which is also the left
+// perturbation of every T_t_h = T_t_w T_w_h.
+#ifndef TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
+#define TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "textplane/photometry/residual.hpp"
+#include "textplane/solver/gauss_newton.hpp"
+#include "textplane/solver/levels.hpp"
+#include "textplane/solver/weighting.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A text object whose host pose and plane are held fixed. Its pixels come from `patch` (not owned).
+struct PoseTextTerm {
+  const TextPatch* patch = nullptr;
+  Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
+  SE3d T_w_h;                                       ///< Host camera to world.
+  double weight = 1;                                ///< On top of lambda_w.
+};
+
+/// A known 3D point and where it was seen.
+struct PosePointTerm {
+  Vector3<double> p_w = Vector3<double>::Zero();
+  Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
+  double sigma = 1;                              ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep.
+};
+
+/// Settings of refine_pose() and align_pose().
+struct PoseOptions {
+  PhotometricOptions photometric;
+  /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's residual in units of
+  /// 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the paper's E_text.
+  Weighting weighting = Weighting::variance;
+  double sigma_photo = 0.3;
+  double sigma_rep = 1;
+  /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
+  Robust point_robust{RobustKind::huber, 2.4477};
+  SolveOptions solve;      ///< Of each level.
+  int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
+  int finest_level = 0;
+};
+
+namespace detail {
+struct PoseSystem {
+  Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
+  Vector6<double> b = Vector6<double>::Zero();
+  double cost = 0;
+  Status status = Status::too_few;
+};
+
+// What the last linearisation found out about a text.
+struct PoseTextState {
+  std::size_t offset = 0;  // Of its visible set.
+  double weight = 0;       // lambda_w times the term's weight, for the visible set.
+  double zncc = 0;
+  int visible = 0;  // 0: it took no part.
+};
+
+template <class View>
+class PoseProblem;
+}  // namespace detail
+
+/// Memory of refine_pose(), to be reused from frame to frame. Not to be shared by two threads at a time.
+class PoseWorkspace {
+ public:
+  /// Makes room for these terms (every level of their patches). The only member that allocates; never shrinks.
+  void reserve(const PoseTextTerm* texts, int text_count, int point_count) {
+    std::size_t pixels = 0;
+    int largest = 0;
+    for (int i = 0; i < text_count; ++i) {
+      const int n = pixel_count(texts[i]);
+      pixels += static_cast<std::size_t>(n);
+      largest = std::max(largest, n);
+    }
+    photometric_.reserve(largest);
+    if (visible_.size() < pixels) visible_.resize(pixels);
+    if (text_count > 0 && texts_.size() < static_cast<std::size_t>(text_count)) texts_.resize(static_cast<std::size_t>(text_count));
+    if (point_count > 0 && points_.size() < static_cast<std::size_t>(point_count))
+      points_.resize(static_cast<std::size_t>(point_count));
+  }
+
+  /// reserve() was called for at least these terms.
+  bool fits(const PoseTextTerm* texts, int text_count, int point_count) const noexcept {
+    std::size_t pixels = 0;
+    for (int i = 0; i < text_count; ++i) {
+      const int n = pixel_count(texts[i]);
+      if (n > photometric_.capacity()) return false;
+      pixels += static_cast<std::size_t>(n);
+    }
+    return pixels <= visible_.size() && static_cast<std::size_t>(text_count) <= texts_.size() &&
+           static_cast<std::size_t>(point_count) <= points_.size();
+  }
+
+ private:
+  template <class View>
+  friend class detail::PoseProblem;
+
+  static int pixel_count(const PoseTextTerm& term) noexcept {
+    std::size_t most = 0;
+    if (term.patch)
+      for (const PatchLevel& level : term.patch->levels) most = std::max(most, level.x.size());
+    return static_cast<int>(most);
+  }
+
+  PhotometricWorkspace photometric_;
+  std::vector<std::uint8_t> visible_;  // Visible sets of the last linearisation, text after text.
+  std::vector<detail::PoseTextState> texts_;
+  std::vector<std::uint8_t> points_;  // 1: took part in the last linearisation.
+};
+
+namespace detail {
+
+// Input of one level for 8-bit and float targets alike; invalid, as photometric_input(), where a side lacks the level.
+template <class View>
+auto level_input(const TextPatch& patch, int level, const View& target, const Pinhole<double>& camera) noexcept {
+  using Pixel = std::remove_const_t<typename std::decay_t<decltype(target.level[0])>::Pixel>;
+  BasicPhotometricInput<Pixel> in;
+  if (level < 0 || level >= patch.level_count() || level >= target.levels || level >= kMaxPyramidLevels) return in;
+  const auto l = static_cast<std::size_t>(level);
+  in.patch = patch.levels[l].view();
+  in.host_camera = patch.camera.at_level(level);
+  in.target_camera = camera.at_level(level);
+  in.target = target.level[l];
+  return in;
+}
+
+/// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than 89.9 degrees
+/// off the optical axis).
+inline bool reproject(const PosePointTerm& term, const SE3d& T_t_w, const Pinhole<double>& camera, Vector3<double>* p,
+                      Vector2<double>* e) noexcept {
+  *p = T_t_w * term.p_w;
+  const double z = (*p)[2];
+  if (!(z > 0) || !(z * z > 1e-6 * p->squaredNorm())) return false;
+  *e = camera.project(*p) - term.px;
+  return is_finite((*e)[0]) && is_finite((*e)[1]) && term.sigma > 0 && is_finite(term.sigma);
+}
+
+template <class View>
+class PoseProblem {
+ public:
+  using State = SE3d;
+  static constexpr int kParameters = 6;
+
+  PoseProblem(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count, const View& target,
+              const Pinhole<double>& camera, const PoseOptions& options, PoseWorkspace& workspace) noexcept
+      : texts_(texts), points_(points), text_count_(text_count), point_count_(point_count), target_(target), camera_(camera),
+        options_(options), memory_(workspace) {}
+
+  void set_level(int level) noexcept { level_ = level; }
+
+  PoseSystem linearise(const SE3d& T_t_w) noexcept {
+    PoseSystem system;
+    Status trouble = Status::too_few;
+    visible_pixels_ = active_points_ = active_texts_ = 0;
+    std::size_t offset = 0;
+    for (int i = 0; i < text_count_; ++i) {
+      PoseTextState& state = text(i);
+      state = PoseTextState{offset, 0, 0, 0};
+      const Status status = add_text(texts_[i], T_t_w, state, system);
+      if (!is_ok(status)) {
+        if (trouble == Status::too_few) trouble = status;
+        continue;
+      }
+      offset += static_cast<std::size_t>(texts_[i].patch->levels[static_cast<std::size_t>(level_)].x.size());
+      visible_pixels_ += state.visible;
+      ++active_texts_;
+    }
+    for (int i = 0; i < point_count_; ++i) {
+      const bool active = add_point(points_[i], T_t_w, system);
+      memory_.points_[static_cast<std::size_t>(i)] = active;
+      active_points_ += active;
+    }
+    for (int i = 0; i < 6; ++i)
+      for (int j = i + 1; j < 6; ++j) system.H(i, j) = system.H(j, i);
+    system.status = active_texts_ + active_points_ > 0 ? Status::ok : trouble;
+    return system;
+  }
+
+  Evaluation evaluate(const SE3d& T_t_w) noexcept {
+    Evaluation e;
+    int lost_pixels = 0, lost_points = 0;
+    for (int i = 0; i < text_count_; ++i) {
+      const PoseTextState& state = text(i);
+      if (state.visible == 0) continue;
+      const PoseTextTerm& term = texts_[i];
+      const PhotometricCost c =
+          reference::evaluate(level_input(*term.patch, level_, target_, camera_), term.theta, T_t_w * term.T_w_h,
+                              options_.photometric, memory_.photometric_, memory_.visible_.data() + state.offset);
+      // An object that is lost as a whole costs what two uncorrelated patches would.
+      e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
+      lost_pixels += is_ok(c.status) ? c.lost : state.visible;
+    }
+    for (int i = 0; i < point_count_; ++i) {
+      if (!memory_.points_[static_cast<std::size_t>(i)]) continue;
+      Vector3<double> p;
+      Vector2<double> r;
+      if (reproject(points_[i], T_t_w, camera_, &p, &r)) {
+        e.cost += options_.point_robust.rho(r.squaredNorm() / (points_[i].sigma * points_[i].sigma));
+      } else {
+        // Behind the camera: as wrong as a point can be that projects into an image about as wide as the focal length is long.
+        e.cost += options_.point_robust.rho(camera_.fx * camera_.fx / (points_[i].sigma * points_[i].sigma));
+        ++lost_points;
+      }
+    }
+    const double pixels = visible_pixels_ > 0 ? static_cast<double>(lost_pixels) / visible_pixels_ : 0.0;
+    const double points = active_points_ > 0 ? static_cast<double>(lost_points) / active_points_ : 0.0;
+    e.lost_fraction = std::max(pixels, points);
+    return e;
+  }
+
+  SE3d retract(const SE3d& T_t_w, const Vector6<double>& xi) const noexcept { return se3_exp(xi) * T_t_w; }
+
+  /// Of the last linearisation.
+  const PoseTextState& text_state(int i) const noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
+  int visible_pixels() const noexcept { return visible_pixels_; }
+  int active_texts() const noexcept { return active_texts_; }
+
+ private:
+  PoseTextState& text(int i) noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
+
+  Status add_text(const PoseTextTerm& term, const SE3d& T_t_w, PoseTextState& state, PoseSystem& system) noexcept {
+    if (!term.patch || !(term.weight > 0) || !is_finite(term.weight)) return Status::invalid_argument;
+    const auto input = level_input(*term.patch, level_, target_, camera_);
+    const NormalEquations<6> n =
+        reference::linearise_pose(input, term.theta, T_t_w * term.T_w_h, options_.photometric, memory_.photometric_);
+    if (!is_ok(n.status)) return n.status;
+    state.visible = n.visible;
+    state.zncc = n.zncc;
+    state.weight =
+        term.weight * text_weight(options_.weighting, options_.sigma_rep, options_.sigma_photo, n.visible);
+    std::copy_n(memory_.photometric_.visible(), input.patch.n, memory_.visible_.data() + state.offset);
+    for (int i = 0; i < 6; ++i) {
+      system.b[i] += state.weight * n.b[i];
+      for (int j = 0; j <= i; ++j) system.H(i, j) += state.weight * n.H(i, j);
+    }
+    system.cost += state.weight * n.cost;
+    return Status::ok;
+  }
+
+  bool add_point(const PosePointTerm& term, const SE3d& T_t_w, PoseSystem& system) noexcept {
+    Vector3<double> p;
+    Vector2<double> e;
+    if (!reproject(term, T_t_w, camera_, &p, &e)) return false;
+    const double information = 1.0 / (term.sigma * term.sigma), r2 = e.squaredNorm() * information;
+    const double weight = options_.point_robust.weight(r2) * information;
+    const double iz = 1.0 / p[2], u = p[0] * iz, v = p[1] * iz, fx = camera_.fx, fy = camera_.fy;
+    // d e / d xi from dp = v + omega x p.
+    const double jx[6] = {fx * iz, 0, -fx * u * iz, -fx * u * v, fx * (1 + u * u), -fx * v};
+    const double jy[6] = {0, fy * iz, -fy * v * iz, -fy * (1 + v * v), fy * u * v, fy * u};
+    for (int i = 0; i < 6; ++i) {
+      const double wx = weight * jx[i], wy = weight * jy[i];
+      system.b[i] += wx * e[0] + wy * e[1];
+      for (int j = 0; j <= i; ++j) system.H(i, j) += wx * jx[j] + wy * jy[j];
+    }
+    system.cost += options_.point_robust.rho(r2);
+    return true;
+  }
+
+  const PoseTextTerm* texts_;
+  const PosePointTerm* points_;
+  int text_count_, point_count_;
+  const View& target_;
+  const Pinhole<double>& camera_;
+  const PoseOptions& options_;
+  PoseWorkspace& memory_;
+  int level_ = 0;
+  int visible_pixels_ = 0, active_points_ = 0, active_texts_ = 0;
+};
+}  // namespace detail
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
