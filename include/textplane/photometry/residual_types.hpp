@@ -1,0 +1,132 @@
+// What the photometric kernels take and give: inputs, options, sums and the scratch memory.
+#ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_TYPES_HPP
+#define TEXTPLANE_PHOTOMETRY_RESIDUAL_TYPES_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "textplane/core/camera.hpp"
+#include "textplane/core/image_view.hpp"
+#include "textplane/core/numeric.hpp"
+#include "textplane/core/status.hpp"
+#include "textplane/photometry/patch.hpp"
+#include "textplane/photometry/pyramid.hpp"
+#include "textplane/photometry/robust.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// How derivatives treat the mean and the norm s of the target intensities.
+enum class Normalisation : std::uint8_t {
+  exact,   ///< Through both: dI~ = (1/s) (1 - 1 1^T / N - I~ I~^T) dI.
+  frozen,  ///< Both held: dI~ = dI / s, as the published TextSLAM code does.
+};
+
+/// Settings of the photometric residual.
+struct PhotometricOptions {
+  Normalisation normalisation = Normalisation::exact;
+  /// Acts on r sqrt(N), that is, delta is in units of 1/sqrt(N): on the difference of two patches of unit variance. The
+  /// default 0.5 is 1.345 sigma (95 % efficiency) for the residuals of a match with ZNCC 0.93, since E = sigma^2 and
+  /// ZNCC = 1 - E / 2.
+  Robust robust{RobustKind::huber, 0.5};
+  int min_visible = 15;       ///< The paper's minimum; fewer visible pixels are Status::too_few.
+  double min_contrast = 1.0;  ///< Least population standard deviation of either side, in intensity units.
+
+  bool valid() const noexcept { return robust.valid() && is_finite(min_contrast); }
+};
+
+/// One host patch seen in one target image, T being the pixel type of the target. All three are of one pyramid level: the
+/// cameras are Pinhole::at_level() of it.
+template <class T>
+struct BasicPhotometricInput {
+  PatchView patch;
+  Pinhole<double> host_camera, target_camera;
+  ImageView<const T> target;
+};
+using PhotometricInput = BasicPhotometricInput<std::uint8_t>;
+using PhotometricInputF = BasicPhotometricInput<float>;
+
+/// The input of pyramid level `level`; `target_camera` is that of level 0. A level that the patch or the target lacks gives
+/// an input that every kernel answers with Status::invalid_argument.
+inline PhotometricInput photometric_input(const TextPatch& patch, int level, const PyramidView& target,
+                                          const Pinhole<double>& target_camera) noexcept {
+  PhotometricInput in;
+  if (level < 0 || level >= patch.level_count() || level >= target.levels || level >= kMaxPyramidLevels) return in;
+  const auto l = static_cast<std::size_t>(level);
+  in.patch = patch.levels[l].view();
+  in.host_camera = patch.camera.at_level(level);
+  in.target_camera = target_camera.at_level(level);
+  in.target = target.level[l];
+  return in;
+}
+
+/// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P), and
+/// the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless is_ok(status).
+template <int P>
+struct NormalEquations {
+  Eigen::Matrix<double, P, P> H = Eigen::Matrix<double, P, P>::Zero();
+  Eigen::Matrix<double, P, 1> b = Eigen::Matrix<double, P, 1>::Zero();
+  double cost = 0.0;   ///< Sum of rho(N r^2) / N.
+  double error = 0.0;  ///< E = sum of r^2, in [0, 4].
+  double zncc = 0.0;   ///< 1 - E / 2.
+  int visible = 0;     ///< N.
+  double mean = 0.0;   ///< Of the target intensities of the visible pixels.
+  double s = 0.0;      ///< ||I - mean|| of the same.
+  Status status = Status::invalid_argument;
+};
+
+/// Value of the photometric cost. All zero unless is_ok(status), `visible` and `lost` excepted.
+struct PhotometricCost {
+  double cost = 0.0;   ///< Sum of rho(N r^2) / N over the visible pixels, plus the charge for the lost ones.
+  double error = 0.0;  ///< E = sum of r^2 over the visible pixels, in [0, 4].
+  double zncc = 0.0;   ///< 1 - E / 2.
+  int visible = 0;     ///< N.
+  int lost = 0;        ///< Pixels of the given set that are not visible now.
+  Status status = Status::invalid_argument;
+};
+
+/// What residuals() found out besides the residuals.
+struct ResidualSummary {
+  int visible = 0;    ///< N.
+  double mean = 0.0;  ///< Of the target intensities of the visible pixels.
+  double s = 0.0;     ///< ||I - mean|| of the same.
+  Status status = Status::invalid_argument;
+};
+
+/// Scratch memory of the photometric kernels: one for each thread, for any number of calls.
+class PhotometricWorkspace {
+ public:
+  PhotometricWorkspace() = default;
+  explicit PhotometricWorkspace(int n) { reserve(n); }
+
+  /// Makes room for patches of n pixels. The only member that allocates; never shrinks.
+  void reserve(int n) {
+    if (n <= capacity()) return;
+    const auto size = static_cast<std::size_t>(n);
+    visible_.resize(size);
+    host_.resize(size);
+    target_.resize(size);
+    rows_.resize(size * kMaxRow);
+  }
+  /// Kernels answer Status::invalid_argument for patches of more pixels than this.
+  int capacity() const noexcept { return static_cast<int>(visible_.size()); }
+
+  /// The visible set of the last linearise_*() or residuals() call that got as far as looking at the pixels: a byte for each
+  /// pixel of its patch, 1 where visible. evaluate() leaves it alone, so that it can be passed there as `on_set`.
+  const std::uint8_t* visible() const noexcept { return visible_.data(); }
+
+  /// Buffers of the kernels.
+  std::uint8_t* visible_flags() noexcept { return visible_.data(); }
+  double* host() noexcept { return host_.data(); }
+  double* target() noexcept { return target_.data(); }
+  double* rows() noexcept { return rows_.data(); }
+
+ private:
+  static constexpr std::size_t kMaxRow = 9;
+  std::vector<std::uint8_t> visible_;
+  std::vector<double> host_, target_, rows_;
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_PHOTOMETRY_RESIDUAL_TYPES_HPP

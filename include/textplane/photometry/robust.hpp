@@ -1,0 +1,66 @@
+// Robust costs as functions of the squared residual.
+#ifndef TEXTPLANE_PHOTOMETRY_ROBUST_HPP
+#define TEXTPLANE_PHOTOMETRY_ROBUST_HPP
+
+#include <cmath>
+#include <cstdint>
+
+#include "textplane/core/numeric.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
+
+/// A robust cost rho(r^2) that is r^2 near zero, and its derivative, the weight of iteratively re-weighted least squares.
+///
+/// With d = delta, in the unit of the residual r, and r2 = r^2 >= 0:
+///   l2      rho = r2                                           weight = 1
+///   huber   rho = r2 for |r| <= d, else 2 d |r| - d^2          weight = min(1, d / |r|);   rho = w r2 (2 - w)
+///   cauchy  rho = d^2 log(1 + r2 / d^2)                        weight = 1 / (1 + r2 / d^2)
+///   tukey   rho = d^2 / 3 (1 - (1 - r2 / d^2)^3), else d^2/3   weight = (1 - r2 / d^2)^2, 0 for |r| > d
+struct Robust {
+  RobustKind kind = RobustKind::huber;
+  double delta = 1.0;
+
+  /// A known kind with a finite positive delta (l2 ignores it).
+  bool valid() const noexcept {
+    if (kind == RobustKind::l2) return true;
+    return (kind == RobustKind::huber || kind == RobustKind::cauchy || kind == RobustKind::tukey) && is_finite(delta) &&
+           delta > 0.0;
+  }
+
+  double rho(double r2) const noexcept {
+    const double d2 = delta * delta;
+    switch (kind) {
+      case RobustKind::l2: return r2;
+      case RobustKind::huber: return r2 <= d2 ? r2 : 2.0 * delta * std::sqrt(r2) - d2;
+      case RobustKind::cauchy: return d2 * std::log1p(r2 / d2);
+      case RobustKind::tukey: {
+        if (r2 >= d2) return d2 / 3.0;
+        const double u = 1.0 - r2 / d2;
+        return d2 / 3.0 * (1.0 - u * u * u);
+      }
+    }
+    return r2;
+  }
+
+  /// d rho / d r2, in [0, 1].
+  double weight(double r2) const noexcept {
+    const double d2 = delta * delta;
+    switch (kind) {
+      case RobustKind::l2: return 1.0;
+      case RobustKind::huber: return r2 <= d2 ? 1.0 : delta / std::sqrt(r2);
+      case RobustKind::cauchy: return 1.0 / (1.0 + r2 / d2);
+      case RobustKind::tukey: {
+        if (r2 >= d2) return 0.0;
+        const double u = 1.0 - r2 / d2;
+        return u * u;
+      }
+    }
+    return 1.0;
+  }
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_PHOTOMETRY_ROBUST_HPP
