@@ -20,7 +20,7 @@ say() { printf '\n== %s\n' "$*"; }
 warn() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
 die() {
   warn "$*"
-  exit 1
+  exit 2
 }
 
 is_installed() {
