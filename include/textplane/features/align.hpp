@@ -1,0 +1,181 @@
+// Aligning a normalised template to an image by translation: inverse compositional, invariant to gain and bias.
+//
+// Baker and Matthews, "Lucas-Kanade 20 years on", IJCV 2004, on zero-mean unit-norm intensities (patch_template.hpp): the
+// Hessian and the Jacobian belong to the template, an iteration costs one pass over the target's samples.
+#ifndef TEXTPLANE_FEATURES_ALIGN_HPP
+#define TEXTPLANE_FEATURES_ALIGN_HPP
+
+#include <cmath>
+#include <cstdint>
+
+#include "textplane/features/patch_template.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Parameters of track_klt() and align_template(). Pixels are those of the level worked on, unless said otherwise.
+struct KltOptions {
+  int half_window = 9;        ///< Patch of 2 half_window + 1 pixels a side, in [1, kMaxPatchHalf]. track_klt() only.
+  int levels = 4;             ///< Pyramid levels used, at most those that exist. track_klt() only.
+  int max_iterations = 20;    ///< On every level.
+  float epsilon = 0.01F;      ///< px: a step shorter than this ends a level.
+  float min_contrast = 1.5F;  ///< Intensity: smallest standard deviation of a patch, in template and target.
+  float min_eigenvalue = 0.003F;  ///< 1/px^2: smallest eigenvalue of J~^T J~ (a straight edge has 0).
+  float min_zncc = 0.7F;          ///< Smallest correlation of a successful track.
+  float max_forward_backward = 1.0F;  ///< px of level 0; 0 or less: no backward pass. track_klt() only.
+};
+
+/// A tracked or aligned point. Never holds a NaN.
+struct KltResult {
+  Vector2<float> px = Vector2<float>::Zero();  ///< Level-0 px for track_klt(); the guess where no estimate exists.
+  float zncc = 0;      ///< Correlation of the patch on the finest level, at px to within the last step; 0 if unknown.
+  float fb_error = 0;  ///< Forward-backward error, px; 0 where no backward pass was run.
+  Status status = Status::invalid_argument;
+};
+
+namespace detail {
+
+// Sums over the target's samples v, taken relative to an offset near their mean so that floats keep their digits.
+struct AlignSums {
+  float v = 0, vv = 0;  // sum v, sum v^2
+  float tv = 0;         // sum T~ v
+  float xv = 0, yv = 0;  // sum J~ v
+};
+
+template <int Lanes>
+AlignSums align_sums(const PatchTemplate& t, const ImageView8& image, const SampleWindow& window, float offset) noexcept {
+  const int side = t.side();
+  float c_v[Lanes] = {}, c_vv[Lanes] = {}, c_tv[Lanes] = {}, c_xv[Lanes] = {}, c_yv[Lanes] = {};
+  float upper[Lanes], lower[Lanes];
+  std::uint8_t padded[Lanes + 1] = {};
+  lerp_row<Lanes>(window_row(image, window.x, window.y, side, Lanes, padded), window.fx, upper);
+  for (int y = 0; y < side; ++y) {
+    lerp_row<Lanes>(window_row(image, window.x, window.y + y + 1, side, Lanes, padded), window.fx, lower);
+    const float* value = t.value + y * Lanes;
+    const float* jx = t.jx + y * Lanes;
+    const float* jy = t.jy + y * Lanes;
+    for (int i = 0; i < Lanes; ++i) {
+      const float v = upper[i] + window.fy * (lower[i] - upper[i]) - offset;
+      c_v[i] += v;
+      c_vv[i] += v * v;
+      c_tv[i] += value[i] * v;
+      c_xv[i] += jx[i] * v;
+      c_yv[i] += jy[i] * v;
+    }
+    for (int i = 0; i < Lanes; ++i) upper[i] = lower[i];
+  }
+  AlignSums sums;
+  for (int i = 0; i < side; ++i) {
+    sums.v += c_v[i];
+    sums.vv += c_vv[i];
+    sums.tv += c_tv[i];
+    sums.xv += c_xv[i];
+    sums.yv += c_yv[i];
+  }
+  return sums;
+}
+
+struct Alignment {
+  float x = 0, y = 0, zncc = 0;
+  Status status = Status::invalid_argument;
+};
+
+// Iterates from (x, y). The template is valid. Fails with out_of_view, no_contrast or rank_deficient, leaving (x, y) at the
+// start; otherwise the result is the last estimate.
+inline Alignment align_translation(const PatchTemplate& t, const ImageView8& image, float x, float y,
+                                   const KltOptions& options) noexcept {
+  Alignment result{x, y, 0, Status::iteration_limit};
+  const float determinant = t.hxx * t.hyy - t.hxy * t.hxy;
+  if (!(t.min_eigenvalue > options.min_eigenvalue) || !(determinant > 0.0F)) {
+    result.status = Status::rank_deficient;
+    return result;
+  }
+  const float start_x = x, start_y = y;
+  const float n = static_cast<float>(t.count()), min_vv = options.min_contrast * options.min_contrast * n;
+  const float longest = static_cast<float>(t.half);
+  float best_zncc = -2.0F, best_x = x, best_y = y;
+  float step_x = 0, step_y = 0;
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    SampleWindow window;
+    if (!place_window(image, x, y, t.half, &window)) return {start_x, start_y, 0, Status::out_of_view};
+    const float offset = static_cast<float>(image(window.x + t.half, window.y + t.half));
+    const AlignSums sums =
+        t.stride == 16 ? align_sums<16>(t, image, window, offset) : align_sums<24>(t, image, window, offset);
+    const float variance = sums.vv - sums.v * sums.v / n;
+    if (!(variance > min_vv) || !(variance > 0.0F)) return {start_x, start_y, 0, Status::no_contrast};
+    const float inverse = 1.0F / std::sqrt(variance);
+    const float zncc = sums.tv * inverse;
+    // A long step that made matters worse is halved; short ones are left to the fixed point, which interpolation may put
+    // a few hundredths of a pixel from the largest correlation.
+    if (zncc < best_zncc && step_x * step_x + step_y * step_y > 0.0625F) {
+      step_x *= 0.5F;
+      step_y *= 0.5F;
+      x = best_x + step_x;
+      y = best_y + step_y;
+      continue;
+    }
+    best_zncc = zncc;
+    best_x = x;
+    best_y = y;
+    const float bx = sums.xv * inverse, by = sums.yv * inverse;
+    step_x = -(t.hyy * bx - t.hxy * by) / determinant;
+    step_y = -(t.hxx * by - t.hxy * bx) / determinant;
+    const float length2 = step_x * step_x + step_y * step_y;
+    if (length2 > longest * longest) {
+      const float scale = longest / std::sqrt(length2);
+      step_x *= scale;
+      step_y *= scale;
+    }
+    x += step_x;
+    y += step_y;
+    if (length2 < options.epsilon * options.epsilon) {
+      best_x = x;
+      best_y = y;
+      result.status = Status::converged;
+      break;
+    }
+  }
+  result.x = best_x;
+  result.y = best_y;
+  result.zncc = best_zncc > -1.0F ? (best_zncc < 1.0F ? best_zncc : 1.0F) : -1.0F;
+  return result;
+}
+
+inline bool valid_options(const KltOptions& options) noexcept {
+  return options.max_iterations >= 1 && options.epsilon > 0.0F && is_finite(options.epsilon) &&
+         is_finite(options.min_contrast) && is_finite(options.min_eigenvalue) && is_finite(options.min_zncc);
+}
+
+}  // namespace detail
+
+/// Refines the position of template `t` in `target` from `start` (px of that image), a translation of 2 parameters that
+/// minimises || T~ - I~ ||^2 over zero-mean unit-norm patches.
+/// On Status::converged or iteration_limit px is the estimate and zncc its correlation. Otherwise: out_of_view (px = start),
+/// no_contrast and rank_deficient (too little texture, px = start), diverged (zncc < min_zncc; px and zncc as found),
+/// non_finite (px = 0), invalid_argument, or the status of a failed template. No allocation; any number of threads.
+inline KltResult align_template(const PatchTemplate& t, const ImageView8& target, const Vector2<float>& start,
+                                const KltOptions& options = {}) noexcept {
+  KltResult result;
+  if (!all_finite(start)) {
+    result.status = Status::non_finite;
+    return result;
+  }
+  result.px = start;
+  if (!target.valid() || !detail::valid_options(options)) return result;
+  if (!is_ok(t.status)) {
+    result.status = t.status;
+    return result;
+  }
+  if (t.contrast() < options.min_contrast) {
+    result.status = Status::no_contrast;
+    return result;
+  }
+  const detail::Alignment a = detail::align_translation(t, target, start[0], start[1], options);
+  result.px = {a.x, a.y};
+  result.zncc = a.zncc;
+  result.status = is_ok(a.status) && a.zncc < options.min_zncc ? Status::diverged : a.status;
+  return result;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_FEATURES_ALIGN_HPP
