@@ -1,0 +1,253 @@
+// The linear algebra of a window: normal equations in blocks, the Schur complement that eliminates the landmarks, back-substitution,
+// and the covariance of landmarks. Knows nothing of images or projections.
+//
+//   [ H_cc  W  ] [x_c]     [g_c]
+//   [ W^T   V  ] [x_l] = - [g_l],   S = H_cc - W V^-1 W^T,   S x_c = -(g_c - W V^-1 g_l),   x_l = -V^-1 (g_l + W^T x_c)
+//
+// with V block diagonal, 3 x 3 a landmark. All sums run in the order of the window's vectors.
+#ifndef TEXTPLANE_SOLVER_WINDOW_SCHUR_HPP
+#define TEXTPLANE_SOLVER_WINDOW_SCHUR_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "textplane/solver/block_cholesky.hpp"
+#include "textplane/solver/window_structure.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+
+class WindowSchur {
+ public:
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  using Matrix63 = Eigen::Matrix<double, 6, 3>;
+
+  /// Pivots of at most this share of their diagonal entry count as undetermined.
+  static constexpr double kRankTolerance = 1e-11;
+
+  /// Zeroes the sums for the pattern of `structure`, which must outlive the use.
+  void begin(const WindowStructure& structure) {
+    structure_ = &structure;
+    const auto slots = structure.slot_camera.size(), landmarks = static_cast<std::size_t>(structure.landmarks());
+    camera_.reset(structure.cameras());
+    camera_gradient_.assign(6 * static_cast<std::size_t>(structure.cameras()), 0.0);
+    coupling_.assign(slots, Matrix63::Zero());
+    landmark_.assign(landmarks, Matrix3<double>::Zero());
+    landmark_gradient_.assign(landmarks, Vector3<double>::Zero());
+    scale_row_.clear();
+  }
+
+  /// The equality sum of row . x = 0 on the translations of two cameras (-1: a fixed frame, no entries): the scale gauge.
+  void set_scale_row(int camera_a, const Vector3<double>& row_a, int camera_b, const Vector3<double>& row_b) {
+    scale_row_.assign(camera_gradient_.size(), 0.0);
+    for (int i = 0; i < 3; ++i) {
+      if (camera_a >= 0) at(scale_row_, 6 * camera_a + i) = row_a[i];
+      if (camera_b >= 0) at(scale_row_, 6 * camera_b + i) = row_b[i];
+    }
+    scale_cameras_[0] = std::max(camera_a, camera_b);
+    scale_cameras_[1] = std::min(camera_a, camera_b);
+  }
+
+  void add_camera(int camera, const Matrix6& H, const Vector6<double>& g) noexcept {
+    camera_.at(camera, camera) += H;
+    for (int i = 0; i < 6; ++i) at(camera_gradient_, 6 * camera + i) += g[i];
+  }
+  /// The block d/d xi_a d/d xi_b, a != b.
+  void add_cameras(int a, int b, const Matrix6& H) noexcept {
+    if (a > b)
+      camera_.at(a, b) += H;
+    else
+      camera_.at(b, a) += H.transpose();
+  }
+  void add_landmark(int landmark, const Matrix3<double>& H, const Vector3<double>& g) noexcept {
+    at(landmark_, landmark) += H;
+    at(landmark_gradient_, landmark) += g;
+  }
+  void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
+
+  /// Builds and factorises S of the system damped by lambda times its diagonal. False where numbers overflowed. With lambda 0 landmarks
+  /// and cameras that the system does not determine are marked (landmark_deficient(), camera_deficient()) and held in those directions.
+  bool reduce(double lambda) {
+    const WindowStructure& s = *structure_;
+    const int cameras = s.cameras(), landmarks = s.landmarks();
+    lambda_ = lambda;
+    reduced_ = camera_;
+    read_diagonal(cameras);
+    for (int c = 0; c < cameras; ++c)
+      for (int i = 0; i < 6; ++i) reduced_.at(c, c)(i, i) += lambda * at(diagonal_, 6 * c + i);
+    camera_step_.resize(camera_gradient_.size());
+    for (std::size_t i = 0; i < camera_step_.size(); ++i) camera_step_[i] = -camera_gradient_[i];
+    inverse_.assign(landmark_.size(), Matrix3<double>::Zero());
+    landmark_deficient_.assign(landmark_.size(), 0);
+    eliminated_.resize(coupling_.size());
+    landmark_step_.resize(landmark_.size());
+
+    for (int l = 0; l < landmarks; ++l) {
+      if (!at(s.landmark_free, l)) continue;
+      invert(l);
+      const int begin = at(s.slot_begin, l), end = at(s.slot_begin, l + 1);
+      for (int i = begin; i < end; ++i) {
+        at(eliminated_, i).noalias() = at(coupling_, i) * at(inverse_, l);
+        const int ci = at(s.slot_camera, i);
+        const Vector6<double> g = at(eliminated_, i) * at(landmark_gradient_, l);
+        for (int k = 0; k < 6; ++k) at(camera_step_, 6 * ci + k) += g[k];
+        for (int j = begin; j <= i; ++j)
+          subtract_outer<3>(at(eliminated_, i).data(), at(coupling_, j).data(), reduced_.at(ci, at(s.slot_camera, j)).data());
+      }
+    }
+    add_scale_weight();
+    return reduced_.factorise(diagonal_.data(), lambda > 0 ? 0 : kRankTolerance) >= 0;
+  }
+
+  /// After reduce(): the step of all parameters. False where it is not finite.
+  bool solve() {
+    const WindowStructure& s = *structure_;
+    reduced_.solve(camera_step_.data());
+    if (!scale_row_.empty()) {
+      scale_solution_ = scale_row_;
+      reduced_.solve(scale_solution_.data());
+      apply_scale_row(camera_step_.data());
+    }
+    for (double x : camera_step_)
+      if (!is_finite(x)) return false;
+    for (int l = 0; l < s.landmarks(); ++l) {
+      Vector3<double> g = at(landmark_gradient_, l);
+      for (int i = at(s.slot_begin, l); i < at(s.slot_begin, l + 1); ++i)
+        g += at(coupling_, i).transpose() * camera_step(at(s.slot_camera, i));
+      at(landmark_step_, l) = -(at(inverse_, l) * g);
+      if (!all_finite(at(landmark_step_, l))) return false;
+    }
+    return true;
+  }
+
+  Vector6<double> camera_step(int camera) const noexcept {
+    return Eigen::Map<const Vector6<double>>(camera_step_.data() + 6 * camera);
+  }
+  const Vector3<double>& landmark_step(int landmark) const noexcept { return at(landmark_step_, landmark); }
+
+  /// What the quadratic model says the step takes off the cost: -g.x + lambda x.D x.
+  double predicted_decrease() const noexcept {
+    double sum = 0;
+    for (std::size_t i = 0; i < camera_step_.size(); ++i)
+      sum += camera_step_[i] * (lambda_ * diagonal_[i] * camera_step_[i] - camera_gradient_[i]);
+    for (int l = 0; l < structure_->landmarks(); ++l) {
+      if (!at(structure_->landmark_free, l)) continue;
+      const Vector3<double>& x = at(landmark_step_, l);
+      sum += x.dot(lambda_ * damping(l).cwiseProduct(x) - at(landmark_gradient_, l));
+    }
+    return sum;
+  }
+
+  /// After reduce(0).
+  bool camera_deficient(int camera) const noexcept { return reduced_.deficient(camera); }
+  bool landmark_deficient(int landmark) const noexcept { return at(landmark_deficient_, landmark) != 0; }
+
+  /// Half the gradient of the cost, J^T W r.
+  Vector6<double> camera_gradient(int camera) const noexcept {
+    return Eigen::Map<const Vector6<double>>(camera_gradient_.data() + 6 * camera);
+  }
+  const Vector3<double>& landmark_gradient(int landmark) const noexcept { return at(landmark_gradient_, landmark); }
+
+  const Matrix3<double>& information(int landmark) const noexcept { return at(landmark_, landmark); }
+
+  /// After reduce(0): the landmark's 3 x 3 block of the inverse of the whole system (under the scale gauge):
+  /// V^-1 + V^-1 W^T S^-1 W V^-1.
+  Matrix3<double> covariance(int landmark) {
+    const WindowStructure& s = *structure_;
+    const int begin = at(s.slot_begin, landmark), end = at(s.slot_begin, landmark + 1);
+    Matrix3<double> out = at(inverse_, landmark);
+    if (!scale_row_.empty()) {
+      scale_solution_ = scale_row_;
+      reduced_.solve(scale_solution_.data());
+    }
+    for (int c = 0; c < 3; ++c) {
+      column_.assign(camera_gradient_.size(), 0.0);
+      for (int i = begin; i < end; ++i)
+        for (int k = 0; k < 6; ++k) at(column_, 6 * at(s.slot_camera, i) + k) = at(eliminated_, i)(k, c);
+      reduced_.solve(column_.data());
+      if (!scale_row_.empty()) apply_scale_row(column_.data());
+      for (int i = begin; i < end; ++i)
+        out.col(c) += at(eliminated_, i).transpose() *
+                      Eigen::Map<const Vector6<double>>(column_.data() + 6 * at(s.slot_camera, i));
+    }
+    return 0.5 * (out + out.transpose());
+  }
+
+ private:
+  // Marquardt's diagonal of the cameras, never zero.
+  void read_diagonal(int cameras) {
+    diagonal_.resize(6 * static_cast<std::size_t>(cameras));
+    double largest = 0;
+    for (int c = 0; c < cameras; ++c)
+      for (int i = 0; i < 6; ++i) {
+        at(diagonal_, 6 * c + i) = reduced_.at(c, c)(i, i);
+        largest = std::max(largest, at(diagonal_, 6 * c + i));
+      }
+    const double floor = largest > 0 ? 1e-12 * largest : 1;
+    for (double& d : diagonal_) d = std::max(d, floor);
+  }
+
+  Vector3<double> damping(int l) const noexcept {
+    const Vector3<double> d = at(landmark_, l).diagonal();
+    return d.cwiseMax(1e-9 * d.sum());
+  }
+
+  // (V + lambda D)^-1. A landmark without parallax keeps a trace of damping even where lambda is 0; one without information does not move.
+  void invert(int l) noexcept {
+    Matrix3<double> v = at(landmark_, l);
+    v.diagonal() += lambda_ * damping(l);
+    const Ldlt<double, 3> plain(v, lambda_ > 0 ? 1e-15 : kRankTolerance);
+    if (plain.ok()) {
+      at(inverse_, l) = plain.inverse();
+      return;
+    }
+    at(landmark_deficient_, l) = 1;
+    v.diagonal() += 1e-9 * damping(l);
+    const Ldlt<double, 3> damped(v);
+    if (damped.ok()) at(inverse_, l) = damped.inverse();
+  }
+
+  // With n the scale row, S + w n n^T has the same solutions under n.x = 0 and is regular where n carries the only missing
+  // direction.
+  void add_scale_weight() noexcept {
+    if (scale_row_.empty()) return;
+    double weight = 0;
+    for (std::size_t i = 0; i < scale_row_.size(); ++i)
+      if (scale_row_[i] != 0) weight = std::max(weight, diagonal_[i]);
+    for (int a : scale_cameras_)
+      for (int b : scale_cameras_)
+        if (a >= b && b >= 0)
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+              reduced_.at(a, b)(i, j) += weight * at(scale_row_, 6 * a + i) * at(scale_row_, 6 * b + j);
+  }
+
+  // x <- x - S^-1 n (n.x) / (n.S^-1 n), so that n.x = 0.
+  void apply_scale_row(double* x) const noexcept {
+    double nx = 0, nn = 0;
+    for (std::size_t i = 0; i < scale_row_.size(); ++i) {
+      nx += scale_row_[i] * x[i];
+      nn += scale_row_[i] * scale_solution_[i];
+    }
+    if (!(nn > 0)) return;
+    for (std::size_t i = 0; i < scale_row_.size(); ++i) x[i] -= scale_solution_[i] * (nx / nn);
+  }
+
+  const WindowStructure* structure_ = nullptr;
+  double lambda_ = 0;
+  BlockCholesky camera_, reduced_;
+  std::vector<double> camera_gradient_, camera_step_, diagonal_, column_;
+  std::vector<double> scale_row_, scale_solution_;
+  int scale_cameras_[2] = {-1, -1};
+  std::vector<Matrix63> coupling_, eliminated_;
+  std::vector<Matrix3<double>> landmark_, inverse_;
+  std::vector<Vector3<double>> landmark_gradient_, landmark_step_;
+  std::vector<std::uint8_t> landmark_deficient_;
+};
+
+}  // namespace detail
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SOLVER_WINDOW_SCHUR_HPP

@@ -1,0 +1,273 @@
+// The terms of a window's cost: reprojection errors of points and photometric errors of texts, their derivatives by poses and
+// landmarks, and their values at a trial state.
+#ifndef TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
+#define TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "textplane/solver/window_schur.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+
+/// Cost of a trial on the visible sets of the last linearisation.
+struct WindowTrial {
+  double cost = 0;
+  double lost_fraction = 0;
+  bool possible = false;  ///< False where a point went behind a camera or the cost is not finite.
+};
+
+class WindowTerms {
+ public:
+  /// Resets what the solver writes back, finds unusable elements and linearises the texts once. Allocates where the window exceeds
+  /// every earlier one.
+  void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
+    for (WindowFrame& f : w.frames) f.status = Status::ok;
+    for (WindowPoint& p : w.points) p.status = all_finite(p.p_w) ? Status::ok : Status::non_finite;
+    for (WindowPointObservation& k : w.point_observations) {
+      Vector3<double> p_c;
+      k.chi2 = 0;
+      if (!all_finite(k.px) || !is_finite(k.sigma))
+        k.status = Status::non_finite;
+      else if (!(k.sigma > 0))
+        k.status = Status::invalid_argument;
+      else if (at(w.points, k.point).status != Status::ok)
+        k.status = Status::too_few;
+      else
+        k.status = in_front(k, x, o, &p_c) ? Status::ok : Status::behind_camera;
+    }
+    int longest = 0;
+    for (WindowText& t : w.texts) {
+      t.covariance.setZero();
+      t.information.setZero();
+      t.zncc = 0;
+      t.used_observations = 0;
+      t.status = !all_finite(t.theta)                                            ? Status::non_finite
+                 : !t.patch || !is_ok(t.patch->status) || !t.patch->camera.valid() ? Status::invalid_argument
+                                                                                   : Status::ok;
+      if (t.status == Status::ok && o.text_level < t.patch->level_count())
+        longest = std::max(longest, at(t.patch->levels, o.text_level).view().n);
+    }
+    photometric_.reserve(longest);
+    mask_begin_.assign(w.text_observations.size() + 1, 0);
+    for (std::size_t k = 0; k < w.text_observations.size(); ++k) {
+      WindowTextObservation& ob = w.text_observations[k];
+      const WindowText& t = at(w.texts, ob.text);
+      ob.zncc = 0;
+      ob.visible = 0;
+      ob.status = t.status != Status::ok        ? Status::too_few
+                  : ob.frame == t.host          ? Status::degenerate
+                  : !is_finite(ob.weight)       ? Status::non_finite
+                  : !(ob.weight > 0)            ? Status::invalid_argument
+                                                : Status::ok;
+      const bool pixels = ob.status == Status::ok && o.text_level < t.patch->level_count();
+      mask_begin_[k + 1] = mask_begin_[k] + (pixels ? static_cast<std::size_t>(at(t.patch->levels, o.text_level).view().n) : 0);
+    }
+    mask_.resize(mask_begin_.back());
+    text_.resize(w.text_observations.size());
+    for (int k = 0; k < count(w.text_observations); ++k)
+      if (at(w.text_observations, k).status == Status::ok) at(w.text_observations, k).status = linearise_text(w, o, x, k);
+  }
+
+  /// Text normal equations at x, for the active observations; those that fail are taken out for good, with their status.
+  void linearise_texts(Window& w, const WindowOptions& o, const WindowState& x, WindowStructure& s) {
+    for (int k = 0; k < count(s.text_active); ++k) {
+      if (!at(s.text_active, k)) continue;
+      at(w.text_observations, k).status = linearise_text(w, o, x, k);
+      if (at(w.text_observations, k).status != Status::ok) at(s.text_active, k) = 0;
+    }
+  }
+
+  /// All sums at x, with the texts as linearised last. Returns the cost.
+  double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
+                    WindowSchur& out) const {
+    out.begin(s);
+    double cost = 0;
+    for (int k = 0; k < count(s.point_active); ++k)
+      if (at(s.point_active, k)) cost += add_point(w, o, x, s, k, out);
+    for (int k = 0; k < count(s.text_active); ++k)
+      if (at(s.text_active, k)) cost += add_text(w, o, x, s, k, out);
+    if (s.scale_a >= 0) {
+      const SE3<double>&a = at(x.T_w_c, s.scale_a), &b = at(x.T_w_c, s.scale_b);
+      const Vector3<double> u = (b.t - a.t).normalized();
+      out.set_scale_row(at(s.camera_of_frame, s.scale_a), -(a.R.transpose() * u), at(s.camera_of_frame, s.scale_b),
+                        b.R.transpose() * u);
+    }
+    return cost;
+  }
+
+  /// Cost of the trial y. A point that would go behind one of its cameras takes back its position in x: one such point must not spoil
+  /// the step of all others.
+  WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s, WindowState& y) {
+    WindowTrial trial;
+    bool taken_back = true;
+    for (int pass = 0; taken_back; ++pass) {
+      taken_back = false;
+      trial.cost = 0;
+      for (int k = 0; k < count(s.point_active); ++k) {
+        if (!at(s.point_active, k)) continue;
+        const WindowPointObservation& ob = at(w.point_observations, k);
+        Vector3<double> p_c;
+        if (in_front(ob, y, o, &p_c)) {
+          trial.cost += o.point_robust.rho(chi2(w, ob, p_c));
+        } else {
+          if (pass > 0) return trial;
+          at(y.landmark, ob.point) = at(x.landmark, ob.point);
+          taken_back = true;
+        }
+      }
+    }
+    int lost = 0, pixels = 0;
+    for (int k = 0; k < count(s.text_active); ++k) {
+      if (!at(s.text_active, k)) continue;
+      const WindowTextObservation& ob = at(w.text_observations, k);
+      const WindowText& t = at(w.texts, ob.text);
+      const int visible = at(text_, k).visible;
+      const PhotometricCost c =
+          reference::evaluate(photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera),
+                              at(y.landmark, count(w.points) + ob.text), relative_pose(t, ob, y), o.photometric, photometric_, mask(k));
+      pixels += visible;
+      lost += is_ok(c.status) ? c.lost : visible;
+      trial.cost += weight(o, ob, visible) * (is_ok(c.status) ? c.cost : o.photometric.robust.rho(2.0));
+    }
+    trial.lost_fraction = pixels > 0 ? static_cast<double>(lost) / pixels : 0;
+    trial.possible = is_finite(trial.cost);
+    return trial;
+  }
+
+  /// Writes chi2, zncc and visible counts of all observations at x; texts as linearised last.
+  void report(Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s) {
+    for (WindowPointObservation& k : w.point_observations) {
+      Vector3<double> p_c;
+      const bool usable = k.status != Status::non_finite && k.status != Status::invalid_argument;
+      const bool front = usable && in_front(k, x, o, &p_c);
+      k.chi2 = front ? chi2(w, k, p_c) : std::numeric_limits<double>::max();
+      if (k.status == Status::ok && !front) k.status = Status::behind_camera;
+    }
+    for (int k = 0; k < count(s.text_active); ++k) {
+      if (!at(s.text_active, k)) continue;
+      WindowTextObservation& ob = at(w.text_observations, k);
+      WindowText& t = at(w.texts, ob.text);
+      ob.zncc = at(text_, k).zncc;
+      ob.visible = at(text_, k).visible;
+      t.zncc += ob.zncc;
+      ++t.used_observations;
+    }
+    for (WindowText& t : w.texts)
+      if (t.used_observations > 0) t.zncc /= t.used_observations;
+  }
+
+  /// Mean distance from the cameras of what the active observations see: the length that steps are compared with.
+  double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s) const {
+    double sum = 0;
+    int n = 0;
+    for (int k = 0; k < count(s.point_active); ++k) {
+      Vector3<double> p_c;
+      if (!at(s.point_active, k) || !in_front(at(w.point_observations, k), x, o, &p_c)) continue;
+      sum += p_c[2];
+      ++n;
+    }
+    for (int k = 0; k < count(s.text_active); ++k) {
+      if (!at(s.text_active, k)) continue;
+      sum += 1 / at(x.landmark, count(w.points) + at(w.text_observations, k).text).norm();
+      ++n;
+    }
+    return n > 0 ? sum / n : 1;
+  }
+
+ private:
+  using Matrix6 = WindowSchur::Matrix6;
+  using Matrix63 = WindowSchur::Matrix63;
+
+  static bool in_front(const WindowPointObservation& k, const WindowState& x, const WindowOptions& o, Vector3<double>* p_c) noexcept {
+    const SE3<double>& T = at(x.T_w_c, k.frame);
+    *p_c = T.R.transpose() * (at(x.landmark, k.point) - T.t);
+    return (*p_c)[2] > o.min_depth && all_finite(*p_c);
+  }
+  static double chi2(const Window& w, const WindowPointObservation& k, const Vector3<double>& p_c) noexcept {
+    return (w.camera.project(p_c) - k.px).squaredNorm() / (k.sigma * k.sigma);
+  }
+  static SE3<double> relative_pose(const WindowText& t, const WindowTextObservation& k, const WindowState& x) noexcept {
+    return at(x.T_w_c, k.frame).inverse() * at(x.T_w_c, t.host);
+  }
+  static double weight(const WindowOptions& o, const WindowTextObservation& k, int visible) noexcept {
+    return k.weight * text_weight(o.weighting, o.sigma_rep, o.sigma_photo, visible);
+  }
+  const std::uint8_t* mask(int k) const noexcept { return mask_.data() + at(mask_begin_, k); }
+
+  Status linearise_text(const Window& w, const WindowOptions& o, const WindowState& x, int k) noexcept {
+    const WindowTextObservation& ob = at(w.text_observations, k);
+    const WindowText& t = at(w.texts, ob.text);
+    NormalEquations<9>& out = at(text_, k);
+    out = reference::linearise_pose_plane(photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera),
+                                          at(x.landmark, count(w.points) + ob.text), relative_pose(t, ob, x), o.photometric,
+                                          photometric_);
+    if (is_ok(out.status))
+      std::copy_n(photometric_.visible(), at(mask_begin_, k + 1) - at(mask_begin_, k), mask_.begin() + static_cast<std::ptrdiff_t>(at(mask_begin_, k)));
+    return out.status;
+  }
+
+  // p_c = T_w_c^-1 p_w: d p_c = -v + [p_c]x omega for T_w_c <- T_w_c Exp(v, omega), and R_w_c^T d p_w.
+  static double add_point(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s, int k,
+                          WindowSchur& out) noexcept {
+    const WindowPointObservation& ob = at(w.point_observations, k);
+    Vector3<double> p_c;
+    in_front(ob, x, o, &p_c);
+    Eigen::Matrix<double, 2, 3> J;
+    const Vector2<double> e = w.camera.project(p_c, &J) - ob.px;
+    const double information = 1 / (ob.sigma * ob.sigma), r2 = e.squaredNorm() * information;
+    const double weight = o.point_robust.weight(r2) * information;
+    const int camera = at(s.camera_of_frame, ob.frame), slot = at(s.point_slot, k);
+    const bool free = at(s.landmark_free, ob.point) != 0;
+    Eigen::Matrix<double, 2, 6> J_camera;
+    Eigen::Matrix<double, 2, 3> J_point;
+    if (camera >= 0) {
+      J_camera << -J, J * hat(p_c);
+      const Eigen::Matrix<double, 6, 2> wJt = weight * J_camera.transpose();
+      out.add_camera(camera, wJt * J_camera, wJt * e);
+    }
+    if (free) {
+      J_point = J * at(x.T_w_c, ob.frame).R.transpose();
+      const Eigen::Matrix<double, 3, 2> wJt = weight * J_point.transpose();
+      out.add_landmark(ob.point, wJt * J_point, wJt * e);
+    }
+    if (slot >= 0) out.add_coupling(slot, weight * (J_camera.transpose() * J_point));
+    return o.point_robust.rho(r2);
+  }
+
+  // The 9 parameters (xi of T_t_h, left; theta) seen from the two world poses: host = Ad(T_t_h), target = -1.
+  double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s, int k,
+                  WindowSchur& out) const noexcept {
+    const WindowTextObservation& ob = at(w.text_observations, k);
+    const WindowText& t = at(w.texts, ob.text);
+    const NormalEquations<9>& ne = at(text_, k);
+    const double scale = weight(o, ob, ne.visible);
+    const int landmark = count(w.points) + ob.text;
+    const int host = at(s.camera_of_frame, t.host), target = at(s.camera_of_frame, ob.frame);
+    const Matrix6 A = adjoint(relative_pose(t, ob, x));
+    const Matrix6 pose = scale * ne.H.topLeftCorner<6, 6>();
+    const Vector6<double> g = scale * ne.b.head<6>();
+    const Matrix63 cross = scale * ne.H.topRightCorner<6, 3>();
+    if (host >= 0) out.add_camera(host, A.transpose() * pose * A, A.transpose() * g);
+    if (target >= 0) out.add_camera(target, pose, -g);
+    if (host >= 0 && target >= 0) out.add_cameras(host, target, -(A.transpose() * pose));
+    if (at(s.landmark_free, landmark)) out.add_landmark(landmark, scale * ne.H.bottomRightCorner<3, 3>(), scale * ne.b.tail<3>());
+    if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), A.transpose() * cross);
+    if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), -cross);
+    return scale * ne.cost;
+  }
+
+  PhotometricWorkspace photometric_;
+  std::vector<NormalEquations<9>> text_;
+  std::vector<std::uint8_t> mask_;
+  std::vector<std::size_t> mask_begin_;
+};
+
+}  // namespace detail
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
