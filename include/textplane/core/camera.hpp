@@ -72,8 +72,9 @@ struct RadialTangential {
             y * radial + p1 * (r2 + S(2) * y * y) + S(2) * p2 * x * y};
   }
 
-  /// Inverse of distort() by Newton's method to a residual below 1e-12 (float: 1e-6). Status::degenerate, and `m` untouched, where the lens
-  /// model folds over (its Jacobian is singular or reversed) or the iteration does not settle; non_finite for NaN.
+  /// Inverse of distort() by Newton's method: one step beyond a residual of 1e-12 (float: 1e-6), so that the derivative of a
+  /// dual number has settled too. Status::degenerate, and `m` untouched, where the lens model folds over (its Jacobian is
+  /// singular or reversed) or the iteration does not settle; non_finite for NaN.
   Status undistort(const Vector2<S>& distorted, Vector2<S>* m) const noexcept {
     using std::abs;
     if (!all_finite(distorted)) return Status::non_finite;
@@ -84,12 +85,12 @@ struct RadialTangential {
       const Vector2<S> e = distort(x, &J) - distorted;
       const S det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
       if (!(det > S(1e-6)) || !all_finite(e)) return Status::degenerate;
+      x[0] -= (J(1, 1) * e[0] - J(0, 1) * e[1]) / det;
+      x[1] -= (J(0, 0) * e[1] - J(1, 0) * e[0]) / det;
       if (abs(e[0]) < tolerance && abs(e[1]) < tolerance) {
         *m = x;
         return Status::ok;
       }
-      x[0] -= (J(1, 1) * e[0] - J(0, 1) * e[1]) / det;
-      x[1] -= (J(0, 0) * e[1] - J(1, 0) * e[0]) / det;
     }
     return Status::degenerate;
   }

@@ -19,6 +19,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A fitted plane. `value` is usable where is_ok(status); with behind_camera it holds the algebraic solution, else zero.
 template <class S>
 struct PlaneFit {
+  using Scalar = S;
   Vector3<S> value = Vector3<S>::Zero();  ///< theta in the host frame.
   /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative ones)
   /// multiply it by sigma^2. Zero unless rank is 3.
@@ -92,7 +93,8 @@ PlaneFit<S> failed_plane(Status status) noexcept {
 /// Status: too_few (n < 3, rank still reported), rank_deficient (collinear or coincident points), behind_camera (the
 /// solution has rho <= 0 at one of the points), non_finite, invalid_argument (null pointer, negative n or weight).
 template <class S>
-PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const S* weight, int n) noexcept {
+PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const typename PlaneFit<S>::Scalar* weight,
+                                      int n) noexcept {
   using std::sqrt;
   using W = detail::Wide<S>;
   if (n < 0 || (n > 0 && (!m || !rho))) return detail::failed_plane<S>(Status::invalid_argument);
@@ -144,7 +146,7 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const S
 /// pure rotation), behind_camera (a match ends behind a camera), non_finite, invalid_argument.
 template <class S>
 PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, int n, const SE3<S>& T_t_h,
-                               const S* weight = nullptr) noexcept {
+                               const typename PlaneFit<S>::Scalar* weight = nullptr) noexcept {
   using std::sqrt;
   using W = detail::Wide<S>;
   if (n < 0 || (n > 0 && (!host_m || !target_m))) return detail::failed_plane<S>(Status::invalid_argument);
@@ -232,7 +234,8 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
 /// Status: too_few, rank_deficient (collinear or coincident), behind_camera (the plane passes through the camera centre),
 /// non_finite, invalid_argument.
 template <class S>
-PlaneFit<S> plane_from_points(const Vector3<S>* p, int n, const S* weight = nullptr) noexcept {
+PlaneFit<S> plane_from_points(const Vector3<S>* p, int n,
+                              const typename PlaneFit<S>::Scalar* weight = nullptr) noexcept {
   using std::sqrt;
   using W = detail::Wide<S>;
   if (n < 0 || (n > 0 && !p)) return detail::failed_plane<S>(Status::invalid_argument);
