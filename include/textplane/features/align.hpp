@@ -43,13 +43,12 @@ struct AlignSums {
 
 template <int Lanes>
 AlignSums align_sums(const PatchTemplate& t, const ImageView8& image, const SampleWindow& window, float offset) noexcept {
-  const int side = t.side();
   float c_v[Lanes] = {}, c_vv[Lanes] = {}, c_tv[Lanes] = {}, c_xv[Lanes] = {}, c_yv[Lanes] = {};
   float upper[Lanes], lower[Lanes];
   std::uint8_t padded[Lanes + 1] = {};
-  lerp_row<Lanes>(window_row(image, window.x, window.y, side, Lanes, padded), window.fx, upper);
-  for (int y = 0; y < side; ++y) {
-    lerp_row<Lanes>(window_row(image, window.x, window.y + y + 1, side, Lanes, padded), window.fx, lower);
+  lerp_row<Lanes>(window_row(image, window.x, window.y, t.columns, Lanes, padded), window.fx, upper);
+  for (int y = 0; y < t.rows; ++y) {
+    lerp_row<Lanes>(window_row(image, window.x, window.y + y + 1, t.columns, Lanes, padded), window.fx, lower);
     const float* value = t.value + y * Lanes;
     const float* jx = t.jx + y * Lanes;
     const float* jy = t.jy + y * Lanes;
@@ -64,7 +63,7 @@ AlignSums align_sums(const PatchTemplate& t, const ImageView8& image, const Samp
     for (int i = 0; i < Lanes; ++i) upper[i] = lower[i];
   }
   AlignSums sums;
-  for (int i = 0; i < side; ++i) {
+  for (int i = 0; i < t.columns; ++i) {
     sums.v += c_v[i];
     sums.vv += c_vv[i];
     sums.tv += c_tv[i];
@@ -79,8 +78,35 @@ struct Alignment {
   Status status = Status::invalid_argument;
 };
 
-// Iterates from (x, y). The template is valid. Fails with out_of_view, no_contrast or rank_deficient, leaving (x, y) at the
-// start; otherwise the result is the last estimate.
+// Sums at the position (x, y) of the point, and their correlation. Status::out_of_view or no_contrast without one.
+struct Correlation {
+  AlignSums sums;
+  float inverse_norm = 0;  // 1 / ||I - mean||
+  float zncc = 0;
+  Status status = Status::out_of_view;
+};
+
+inline Correlation correlate(const PatchTemplate& t, const ImageView8& image, float x, float y,
+                             float min_contrast) noexcept {
+  Correlation c;
+  SampleWindow window;
+  if (!place_window(image, x - static_cast<float>(t.left), y - static_cast<float>(t.top), t.columns, t.rows, &window))
+    return c;
+  const float offset = static_cast<float>(image(window.x + t.left, window.y + t.top));
+  c.sums = t.stride == 16 ? align_sums<16>(t, image, window, offset) : align_sums<24>(t, image, window, offset);
+  const float n = static_cast<float>(t.count());
+  const float variance = c.sums.vv - c.sums.v * c.sums.v / n;
+  c.status = Status::no_contrast;
+  if (!(variance > min_contrast * min_contrast * n) || !(variance > 1e-6F * n)) return c;
+  c.inverse_norm = 1.0F / std::sqrt(variance);
+  c.zncc = c.sums.tv * c.inverse_norm;
+  c.zncc = c.zncc > -1.0F ? (c.zncc < 1.0F ? c.zncc : 1.0F) : -1.0F;
+  c.status = Status::ok;
+  return c;
+}
+
+// Iterates from (x, y); the template is valid. out_of_view and no_contrast where there is no patch to start from (x, y
+// stay) or, out_of_view, where the last step led out of the image (x, y: the best inside); rank_deficient.
 inline Alignment align_translation(const PatchTemplate& t, const ImageView8& image, float x, float y,
                                    const KltOptions& options) noexcept {
   Alignment result{x, y, 0, Status::iteration_limit};
@@ -89,34 +115,26 @@ inline Alignment align_translation(const PatchTemplate& t, const ImageView8& ima
     result.status = Status::rank_deficient;
     return result;
   }
-  const float start_x = x, start_y = y;
-  const float n = static_cast<float>(t.count()), min_vv = options.min_contrast * options.min_contrast * n;
-  const float longest = static_cast<float>(t.half);
-  float best_zncc = -2.0F, best_x = x, best_y = y;
+  const float longest = 0.5F * static_cast<float>(t.columns < t.rows ? t.columns : t.rows);
   float step_x = 0, step_y = 0;
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
-    SampleWindow window;
-    if (!place_window(image, x, y, t.half, &window)) return {start_x, start_y, 0, Status::out_of_view};
-    const float offset = static_cast<float>(image(window.x + t.half, window.y + t.half));
-    const AlignSums sums =
-        t.stride == 16 ? align_sums<16>(t, image, window, offset) : align_sums<24>(t, image, window, offset);
-    const float variance = sums.vv - sums.v * sums.v / n;
-    if (!(variance > min_vv) || !(variance > 0.0F)) return {start_x, start_y, 0, Status::no_contrast};
-    const float inverse = 1.0F / std::sqrt(variance);
-    const float zncc = sums.tv * inverse;
-    // A long step that made matters worse is halved; short ones are left to the fixed point, which interpolation may put
-    // a few hundredths of a pixel from the largest correlation.
-    if (zncc < best_zncc && step_x * step_x + step_y * step_y > 0.0625F) {
+    const Correlation c = correlate(t, image, x, y, options.min_contrast);
+    if (iteration == 0 && !is_ok(c.status)) {
+      result.status = c.status;
+      return result;
+    }
+    // A long step that made matters worse, or left the image, is halved; short ones are left to the fixed point, which
+    // interpolation may put a few hundredths of a pixel from the largest correlation.
+    const bool worse = c.zncc < result.zncc && step_x * step_x + step_y * step_y > 0.0625F;
+    if (iteration > 0 && (!is_ok(c.status) || worse)) {
       step_x *= 0.5F;
       step_y *= 0.5F;
-      x = best_x + step_x;
-      y = best_y + step_y;
+      x = result.x + step_x;
+      y = result.y + step_y;
+      result.status = worse ? Status::iteration_limit : c.status;
       continue;
     }
-    best_zncc = zncc;
-    best_x = x;
-    best_y = y;
-    const float bx = sums.xv * inverse, by = sums.yv * inverse;
+    const float bx = c.sums.xv * c.inverse_norm, by = c.sums.yv * c.inverse_norm;
     step_x = -(t.hyy * bx - t.hxy * by) / determinant;
     step_y = -(t.hxx * by - t.hxy * bx) / determinant;
     const float length2 = step_x * step_x + step_y * step_y;
@@ -125,18 +143,11 @@ inline Alignment align_translation(const PatchTemplate& t, const ImageView8& ima
       step_x *= scale;
       step_y *= scale;
     }
+    result = {x, y, c.zncc, Status::iteration_limit};
     x += step_x;
     y += step_y;
-    if (length2 < options.epsilon * options.epsilon) {
-      best_x = x;
-      best_y = y;
-      result.status = Status::converged;
-      break;
-    }
+    if (length2 < options.epsilon * options.epsilon) return {x, y, c.zncc, Status::converged};
   }
-  result.x = best_x;
-  result.y = best_y;
-  result.zncc = best_zncc > -1.0F ? (best_zncc < 1.0F ? best_zncc : 1.0F) : -1.0F;
   return result;
 }
 

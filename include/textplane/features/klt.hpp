@@ -8,30 +8,76 @@
 #include <cmath>
 
 #include "textplane/features/align.hpp"
+#include "textplane/geometry/quad.hpp"
 #include "textplane/photometry/pyramid.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 
+// Extents of a coarse level's patch: cut where the borders of either image are nearer than half_window, so that points near
+// a border keep their coarse levels. `at` and `start` are the point and its estimate in px of the level.
+inline void cut_extents(const Vector2<float>& at, const Vector2<float>& start, const ImageView8& from,
+                        const ImageView8& to, int half, PatchTemplate* t) noexcept {
+  const auto room = [half](float a, float b) {
+    const float least = a - 1.0F < b ? a - 1.0F : b;  // the gradients of the template need one pixel more
+    return least < static_cast<float>(half) ? (least > 0.0F ? static_cast<int>(least) : 0) : half;
+  };
+  t->left = room(at[0], start[0]);
+  t->top = room(at[1], start[1]);
+  t->columns = t->left + 1 + room(static_cast<float>(from.width() - 1) - at[0], static_cast<float>(to.width() - 1) - start[0]);
+  t->rows = t->top + 1 + room(static_cast<float>(from.height() - 1) - at[1], static_cast<float>(to.height() - 1) - start[1]);
+}
+
+// Where the descent on the coarsest level missed: aligns anew from the best correlation on a grid round the start, and
+// returns that or `missed`, whichever correlates better.
+inline Alignment search(const PatchTemplate& t, const ImageView8& image, const Vector2<float>& start,
+                        const Alignment& missed, const KltOptions& options) noexcept {
+  constexpr int kRadius = 3;
+  constexpr float kSpacing = 1.5F;
+  float best = -2.0F, best_x = 0, best_y = 0;
+  for (int j = -kRadius; j <= kRadius; ++j)
+    for (int i = -kRadius; i <= kRadius; ++i) {
+      const float x = start[0] + kSpacing * static_cast<float>(i), y = start[1] + kSpacing * static_cast<float>(j);
+      const Correlation c = correlate(t, image, x, y, options.min_contrast);
+      if (!is_ok(c.status) || c.zncc <= best) continue;
+      best = c.zncc;
+      best_x = x;
+      best_y = y;
+    }
+  if (best < -1.0F) return missed;
+  const Alignment found = align_translation(t, image, best_x, best_y, options);
+  return is_ok(found.status) && found.zncc > missed.zncc ? found : missed;
+}
+
 // One direction: the patch round `source` (level 0 of `from`) is looked for in `to`, starting at `guess`. A coarse level
-// where patch or target leaves the image, or where the patch has no texture, is skipped; the finest must succeed.
+// that does not work out is skipped, the finest must succeed.
 inline Alignment track_one(const PyramidView& from, const PyramidView& to, const Vector2<float>& source,
                            const Vector2<float>& guess, int levels, const KltOptions& options) noexcept {
+  constexpr int kMinSide = 7;  // of a cut patch
   PatchTemplate t;
   Alignment found{guess[0], guess[1], 0, Status::out_of_view};
   for (int level = levels - 1; level >= 0; --level) {
-    const std::size_t l = static_cast<std::size_t>(level);
-    const float scale = 1.0F / static_cast<float>(1 << level);
-    Status status = extract_upright_template(from.level[l], (source[0] + 0.5F) * scale - 0.5F,
-                                             (source[1] + 0.5F) * scale - 0.5F, options.half_window, &t);
-    if (is_ok(status) && t.contrast() < options.min_contrast) status = Status::no_contrast;
-    Alignment a{0, 0, 0, status};
-    if (is_ok(status))
-      a = align_translation(t, to.level[l], (found.x + 0.5F) * scale - 0.5F, (found.y + 0.5F) * scale - 0.5F, options);
-    if (is_ok(a.status)) {
-      found.x = (a.x + 0.5F) / scale - 0.5F;
-      found.y = (a.y + 0.5F) / scale - 0.5F;
+    const ImageView8& from_image = from.level[static_cast<std::size_t>(level)];
+    const ImageView8& to_image = to.level[static_cast<std::size_t>(level)];
+    const Vector2<float> at = point_to_level(source, level);
+    const Vector2<float> start = point_to_level(Vector2<float>(found.x, found.y), level);
+    if (level == 0) {
+      t.left = t.top = options.half_window;
+      t.columns = t.rows = 2 * options.half_window + 1;
+    } else {
+      cut_extents(at, start, from_image, to_image, options.half_window, &t);
+      if (t.columns < kMinSide || t.rows < kMinSide) continue;
+    }
+    Alignment a{start[0], start[1], 0, extract_upright_template(from_image, at[0], at[1], &t)};
+    if (is_ok(a.status) && t.contrast() < options.min_contrast) a.status = Status::no_contrast;
+    if (is_ok(a.status)) a = align_translation(t, to_image, start[0], start[1], options);
+    if (level > 0 && is_ok(t.status) && a.zncc < options.min_zncc)
+      a = search(t, to_image, start, a, options);
+    if (is_ok(a.status) || (level > 0 && a.status == Status::out_of_view)) {
+      const Vector2<float> px = point_from_level(Vector2<float>(a.x, a.y), level);
+      found.x = px[0];
+      found.y = px[1];
     }
     found.zncc = a.zncc;
     found.status = a.status;

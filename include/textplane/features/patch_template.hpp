@@ -1,6 +1,6 @@
-// PatchTemplate: a small square patch, zero mean and unit norm, with the Jacobian of the normalised intensities.
+// PatchTemplate: a small patch, zero mean and unit norm, with the Jacobian of the normalised intensities.
 //
-// T~ = (T - mean) / s over the (2 half + 1)^2 samples, s = ||T - mean|| (DESIGN section 3). For a translation the gradient
+// T~ = (T - mean) / s over the N samples, s = ||T - mean|| (DESIGN section 3). For a translation the gradient
 // of the normalised patch is J~ = (1/s) (I - 1 1^T/N - T~ T~^T) grad T. J~ is orthogonal to 1 and to T~, so in the
 // inverse-compositional step sum J~ (I~ - T~) = (1/s_I) sum J~ I: neither gain nor bias of the target enters.
 #ifndef TEXTPLANE_FEATURES_PATCH_TEMPLATE_HPP
@@ -20,12 +20,13 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Largest half width of a template: 21 x 21 samples.
 constexpr int kMaxPatchHalf = 10;
 
-/// A normalised patch with gradients, ready to be aligned. Fixed capacity (6 KB), no allocation, freely copied.
-/// Rows are `stride` floats apart (16 or 24); the columns past 2 half + 1 hold zeros.
+/// A normalised patch with gradients, ready to be aligned: a rectangle of columns x rows samples, of which the one at
+/// (left, top) is the point itself. Fixed capacity (6 KB), no allocation, freely copied. Rows are `stride` floats apart (16
+/// or 24); the columns past `columns` hold zeros.
 struct PatchTemplate {
   static constexpr int kCapacity = 21 * 24;
 
-  int half = 0;
+  int left = 0, top = 0, columns = 0, rows = 0;
   int stride = 0;
   float mean = 0;           ///< Intensity.
   float s = 0;              ///< ||T - mean||, intensity.
@@ -36,28 +37,27 @@ struct PatchTemplate {
   float jx[kCapacity];     ///< dT~/dx, 1/px.
   float jy[kCapacity];
 
-  int side() const noexcept { return 2 * half + 1; }
-  int count() const noexcept { return side() * side(); }
+  int count() const noexcept { return columns * rows; }
   /// Population standard deviation of the intensities.
   float contrast() const noexcept { return count() > 0 ? s / std::sqrt(static_cast<float>(count())) : 0.0F; }
 };
 
 namespace detail {
 
-// Lanes of a row buffer for patches of this half width: a multiple of 8, so that loops over it have constant trip counts.
-constexpr int patch_stride(int half) noexcept { return half <= 7 ? 16 : 24; }
+// Floats in a row of a patch so many columns wide: constants, so that loops over rows have constant trip counts.
+constexpr int patch_stride(int columns) noexcept { return columns <= 15 ? 16 : 24; }
 
-// A square window of samples at a constant sub-pixel offset, inside the image: first sample at (x + fx, y + fy), and the
-// pixels x .. x + side, y .. y + side all exist.
+// A window of samples at a constant sub-pixel offset, inside the image: first sample at (x + fx, y + fy); the pixels
+// x .. x + columns, y .. y + rows all exist.
 struct SampleWindow {
   int x = 0, y = 0;
   float fx = 0, fy = 0;
 };
 
-// False where a sample of the window centred at (cx, cy) falls outside the image, or for NaN.
-inline bool place_window(const ImageView8& image, float cx, float cy, int half, SampleWindow* window) noexcept {
-  const float left = cx - static_cast<float>(half), top = cy - static_cast<float>(half);
-  const int last_x = image.width() - 2 - 2 * half, last_y = image.height() - 2 - 2 * half;
+// False where a sample of the window whose first one is at (left, top) falls outside the image, or for NaN.
+inline bool place_window(const ImageView8& image, float left, float top, int columns, int rows,
+                         SampleWindow* window) noexcept {
+  const int last_x = image.width() - 1 - columns, last_y = image.height() - 1 - rows;
   if (last_x < 0 || last_y < 0) return false;
   if (!(left >= 0.0F && top >= 0.0F && left <= static_cast<float>(last_x + 1) && top <= static_cast<float>(last_y + 1)))
     return false;
@@ -71,13 +71,13 @@ inline bool place_window(const ImageView8& image, float cx, float cy, int half, 
   return true;
 }
 
-// Pointer to `lanes` + 1 readable bytes that start with pixels x .. x + side of a row: the row itself, or near the right
-// border a zero-padded copy.
-inline const std::uint8_t* window_row(const ImageView8& image, int x, int y, int side, int lanes,
+// Pointer to `lanes` + 1 readable bytes that start with pixels x .. x + columns of a row: the row itself, or near the
+// right border a zero-padded copy.
+inline const std::uint8_t* window_row(const ImageView8& image, int x, int y, int columns, int lanes,
                                       std::uint8_t* padded) noexcept {
   const std::uint8_t* row = image.row(y) + x;
   if (x + lanes < image.width()) return row;
-  std::memcpy(padded, row, static_cast<std::size_t>(side + 1));
+  std::memcpy(padded, row, static_cast<std::size_t>(columns + 1));
   return padded;
 }
 
@@ -92,21 +92,20 @@ inline void lerp_row(const std::uint8_t* p, float fx, float* out) noexcept {
 
 // Patch with a border of one sample for the differences; its rows are 8 floats longer than those of the template.
 struct PaddedPatch {
-  float value[(2 * kMaxPatchHalf + 3) * (patch_stride(kMaxPatchHalf) + 8)];
+  float value[(2 * kMaxPatchHalf + 3) * (patch_stride(2 * kMaxPatchHalf + 1) + 8)];
 };
 
-// Bilinear samples of the window with half width `half` + 1 round (cx, cy), whole rows at constant sub-pixel weights.
+// Bilinear samples, whole rows at constant sub-pixel weights, of a window of columns x rows that begins at (left, top).
 // False where it leaves the image.
 template <int Pitch>
-bool sample_padded(const ImageView8& image, float cx, float cy, int half, PaddedPatch* patch) noexcept {
+bool sample_padded(const ImageView8& image, float left, float top, int columns, int rows, PaddedPatch* patch) noexcept {
   SampleWindow window;
-  if (!place_window(image, cx, cy, half + 1, &window)) return false;
-  const int side = 2 * half + 3;
+  if (!place_window(image, left, top, columns, rows, &window)) return false;
   std::uint8_t padded[Pitch + 1] = {};
   float upper[Pitch], lower[Pitch];
-  lerp_row<Pitch>(window_row(image, window.x, window.y, side, Pitch, padded), window.fx, upper);
-  for (int y = 0; y < side; ++y) {
-    lerp_row<Pitch>(window_row(image, window.x, window.y + y + 1, side, Pitch, padded), window.fx, lower);
+  lerp_row<Pitch>(window_row(image, window.x, window.y, columns, Pitch, padded), window.fx, upper);
+  for (int y = 0; y < rows; ++y) {
+    lerp_row<Pitch>(window_row(image, window.x, window.y + y + 1, columns, Pitch, padded), window.fx, lower);
     float* out = patch->value + y * Pitch;
     for (int i = 0; i < Pitch; ++i) out[i] = upper[i] + window.fy * (lower[i] - upper[i]);
     for (int i = 0; i < Pitch; ++i) upper[i] = lower[i];
@@ -119,22 +118,22 @@ bool sample_padded(const ImageView8& image, float cx, float cy, int half, Padded
 template <int Lanes>
 void normalise_template(const PaddedPatch& patch, PatchTemplate* t) noexcept {
   constexpr int pitch = Lanes + 8;
-  const int side = t->side();
+  const int columns = t->columns, rows = t->rows;
   float column[Lanes] = {};
-  for (int y = 0; y < side; ++y) {
+  for (int y = 0; y < rows; ++y) {
     const float* row = patch.value + (y + 1) * pitch + 1;
     for (int i = 0; i < Lanes; ++i) column[i] += row[i];
   }
   float sum = 0;
-  for (int i = 0; i < side; ++i) sum += column[i];
-  const float n = static_cast<float>(side * side);
+  for (int i = 0; i < columns; ++i) sum += column[i];
+  const float n = static_cast<float>(t->count());
   const float mean = sum / n;
   t->mean = mean;
 
   float mask[Lanes];
-  for (int i = 0; i < Lanes; ++i) mask[i] = i < side ? 1.0F : 0.0F;
+  for (int i = 0; i < Lanes; ++i) mask[i] = i < columns ? 1.0F : 0.0F;
   float c_vv[Lanes] = {}, c_x[Lanes] = {}, c_y[Lanes] = {}, c_vx[Lanes] = {}, c_vy[Lanes] = {};
-  for (int y = 0; y < side; ++y) {
+  for (int y = 0; y < rows; ++y) {
     const float* above = patch.value + y * pitch + 1;
     const float* row = above + pitch;
     const float* below = row + pitch;
@@ -156,7 +155,7 @@ void normalise_template(const PaddedPatch& patch, PatchTemplate* t) noexcept {
     }
   }
   float vv = 0, mx = 0, my = 0, vx = 0, vy = 0;
-  for (int i = 0; i < side; ++i) {
+  for (int i = 0; i < columns; ++i) {
     vv += c_vv[i];
     mx += c_x[i];
     my += c_y[i];
@@ -174,7 +173,7 @@ void normalise_template(const PaddedPatch& patch, PatchTemplate* t) noexcept {
   vx /= vv;
   vy /= vv;
   float c_xx[Lanes] = {}, c_xy[Lanes] = {}, c_yy[Lanes] = {};
-  for (int y = 0; y < side; ++y) {
+  for (int y = 0; y < rows; ++y) {
     float* value = t->value + y * Lanes;
     float* jx = t->jx + y * Lanes;
     float* jy = t->jy + y * Lanes;
@@ -190,7 +189,7 @@ void normalise_template(const PaddedPatch& patch, PatchTemplate* t) noexcept {
     }
   }
   t->hxx = t->hxy = t->hyy = 0;
-  for (int i = 0; i < side; ++i) {
+  for (int i = 0; i < columns; ++i) {
     t->hxx += c_xx[i];
     t->hxy += c_xy[i];
     t->hyy += c_yy[i];
@@ -209,13 +208,13 @@ inline void normalise_template(const PaddedPatch& patch, PatchTemplate* t) noexc
   }
 }
 
-// An unwarped patch round `centre`.
-inline Status extract_upright_template(const ImageView8& image, float cx, float cy, int half, PatchTemplate* t) noexcept {
+// An unwarped template round (x, y) of the extents that `t` holds; one more ring of samples is read.
+inline Status extract_upright_template(const ImageView8& image, float x, float y, PatchTemplate* t) noexcept {
   PaddedPatch patch;
-  t->half = half;
-  t->stride = patch_stride(half);
-  const bool inside = t->stride == 16 ? sample_padded<24>(image, cx, cy, half, &patch)
-                                      : sample_padded<32>(image, cx, cy, half, &patch);
+  const float left = x - static_cast<float>(t->left + 1), top = y - static_cast<float>(t->top + 1);
+  t->stride = patch_stride(t->columns);
+  const bool inside = t->stride == 16 ? sample_padded<24>(image, left, top, t->columns + 2, t->rows + 2, &patch)
+                                      : sample_padded<32>(image, left, top, t->columns + 2, t->rows + 2, &patch);
   if (!inside) return t->status = Status::out_of_view;
   normalise_template(patch, t);
   return t->status;
@@ -231,14 +230,14 @@ inline Status extract_upright_template(const ImageView8& image, float cx, float 
 /// singular A; non_finite; invalid_argument. No allocation; any number of threads.
 inline Status extract_template(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int half,
                                PatchTemplate* t) noexcept {
-  t->half = 0;
-  t->stride = 0;
+  t->left = t->top = t->columns = t->rows = t->stride = 0;
   if (!image.valid() || half < 1 || half > kMaxPatchHalf) return t->status = Status::invalid_argument;
   if (!all_finite(centre) || !all_finite(A)) return t->status = Status::non_finite;
   const float a = A(0, 0), b = A(0, 1), c = A(1, 0), d = A(1, 1);
   if (!(std::abs(a * d - b * c) > 1e-6F)) return t->status = Status::degenerate;
-  t->half = half;
-  t->stride = detail::patch_stride(half);
+  t->left = t->top = half;
+  t->columns = t->rows = 2 * half + 1;
+  t->stride = detail::patch_stride(t->columns);
   // The window's image is a parallelogram: it lies inside where its corners do.
   const float reach = static_cast<float>(half + 1);
   const float extent_x = reach * (std::abs(a) + std::abs(b)), extent_y = reach * (std::abs(c) + std::abs(d));
