@@ -58,8 +58,9 @@ std::vector<Detection> read_pair(const std::string& boxes, const std::string& wo
   if (!fs::exists(words, error)) return detections;
   const std::vector<TextLine> lines = read_lines(words);
   if (lines.size() != detections.size()) {
-    throw InputError(words, 0, std::to_string(lines.size()) + " words for the " + std::to_string(detections.size()) +
-                                   " boxes of " + boxes);
+    throw InputError(
+        words, 0,
+        std::to_string(lines.size()) + " words for the " + std::to_string(detections.size()) + " boxes of " + boxes);
   }
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string_view line = lines[i].text;
@@ -105,7 +106,8 @@ std::string format_detections(const std::vector<Detection>& detections) {
       out += shortest(corner[0]) + "," + shortest(corner[1]) + ",";
     }
     std::string text = detection.text.empty() ? kUnreadText : detection.text;
-    std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\0'; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\0'; }, ' ');
     out += text + "\n";
   }
   return out;

@@ -1,12 +1,12 @@
 // Text detections from files, one file a frame, in raw image pixels (before undistortion).
 //
 // Two formats, looked for in this order; a frame without a file has no detections:
-//   detections/<stem>.txt       ICDAR: `x1,y1,x2,y2,x3,y3,x4,y4,text` a line, clockwise from the text's top left. The text is
-//                               everything after the eighth comma, commas included; `###`, and no text at all, mean unread.
-//   <stem>_dete.txt with <stem>_mean.txt, in detections/ or in text/: the pair that the published TextSLAM reads. The first has
-//                               eight numbers a line, the second `word,score` for the same boxes in the same order (split at the
-//                               last comma). There the boxes belong to the undistorted image; they are mapped back through
-//                               the lens here, so that all detections are raw pixels. Without the second file the text is unread.
+// - detections/<stem>.txt, ICDAR: `x1,y1,x2,y2,x3,y3,x4,y4,text` a line, clockwise from the text's top left. The text
+//   is everything after the eighth comma, commas included; `###`, and no text at all, mean unread.
+// - <stem>_dete.txt with <stem>_mean.txt, in detections/ or in text/: the pair that the published TextSLAM reads. The
+//   first has eight numbers a line, the second `word,score` for the same boxes in the same order (split at the last
+//   comma). There the boxes belong to the undistorted image; they are mapped back through the lens here, so that all
+//   detections are raw pixels. Without the second file the text is unread.
 // Blank lines are skipped; a byte-order mark and CR LF are accepted; bytes that are not UTF-8 become U+FFFD.
 #ifndef TEXTSLAM_IO_DETECTIONS_HPP
 #define TEXTSLAM_IO_DETECTIONS_HPP
@@ -27,14 +27,15 @@ struct Detection {
   double score = 1;                ///< of the recognition; the ICDAR format has none
 };
 
-/// The detections of one frame. Throws InputError with file and line for a bad number, too few columns, or a pair whose files
-/// do not have the same number of entries.
+/// The detections of one frame. Throws InputError with file and line for a bad number, too few columns, or a pair whose
+/// files do not have the same number of entries.
 std::vector<Detection> read_detections(const Sequence& sequence, const FrameRef& frame);
 
 /// The detections of one ICDAR file. Throws InputError as above, and when the file is missing.
 std::vector<Detection> read_icdar(const std::string& path);
 
-/// The ICDAR text; numbers survive the round trip exactly, scores are not part of the format, line breaks in a text become spaces.
+/// The ICDAR text; numbers survive the round trip exactly, scores are not part of the format, line breaks in a text
+/// become spaces.
 std::string format_detections(const std::vector<Detection>& detections);
 /// Writes an ICDAR file as write_file() does.
 void write_detections(const std::string& path, const std::vector<Detection>& detections);

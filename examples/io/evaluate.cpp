@@ -12,7 +12,8 @@ using Vector = Vector3<double>;
 
 constexpr double kDegrees = 57.295779513082320877;
 
-// Horn 1987: the rotation that maximises sum to_i . R from_i is the eigenvector of the largest eigenvalue of this matrix.
+// Horn 1987: the rotation that maximises sum to_i . R from_i is the eigenvector of the largest eigenvalue of this
+// matrix.
 Matrix3<double> horn_rotation(const Matrix3<double>& m /* sum from_i to_i^T */) {
   Eigen::Matrix4d n;
   n << m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0),  //
@@ -32,7 +33,8 @@ double median_of(std::vector<double> values) {
 
 class RelativeErrors {
  public:
-  RelativeErrors(const std::vector<SE3d>& estimate, const std::vector<SE3d>& truth) : estimate_(estimate), truth_(truth) {}
+  RelativeErrors(const std::vector<SE3d>& estimate, const std::vector<SE3d>& truth)
+      : estimate_(estimate), truth_(truth) {}
 
   void add(std::size_t i, std::size_t j) {
     const SE3d true_motion = truth_[i].inverse() * truth_[j];
@@ -75,8 +77,11 @@ std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const 
     pairs.push_back(pair);
   }
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.estimate < b.estimate; });
-  // A tolerance above the spacing of the poses lets leftovers pair across closer pairs: time must run forwards on both sides.
-  const auto gap = [&](const PosePair& p) { return std::abs(truth[p.truth].timestamp - estimate[p.estimate].timestamp); };
+  // A tolerance above the spacing of the poses lets leftovers pair across closer pairs: time must run forwards on both
+  // sides.
+  const auto gap = [&](const PosePair& p) {
+    return std::abs(truth[p.truth].timestamp - estimate[p.estimate].timestamp);
+  };
   std::vector<PosePair> ordered;
   for (const PosePair& pair : pairs) {
     while (!ordered.empty() && ordered.back().truth > pair.truth && gap(pair) < gap(ordered.back())) ordered.pop_back();
@@ -136,8 +141,9 @@ ErrorStatistics error_statistics(std::vector<double> errors) {
   return statistics;
 }
 
-TrajectoryEvaluation evaluate_trajectory(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth,
-                                         std::size_t frames, const EvaluationOptions& options) {
+TrajectoryEvaluation evaluate_trajectory(const std::vector<StampedPose>& estimate,
+                                         const std::vector<StampedPose>& truth, std::size_t frames,
+                                         const EvaluationOptions& options) {
   TrajectoryEvaluation result;
   if (frames > 0) result.coverage = static_cast<double>(estimate.size()) / static_cast<double>(frames);
   // Distance walked until each true pose.

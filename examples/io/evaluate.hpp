@@ -1,7 +1,8 @@
-// Trajectory errors against ground truth: absolute (ATE, after Sim(3) alignment) and relative (RPE), path length, coverage.
+// Trajectory errors against ground truth: absolute (ATE, after Sim(3) alignment) and relative (RPE), path,
+// coverage.
 //
-// The alignment is Umeyama's (PAMI 1991) least squares, truth ~ s R estimate + t, with the rotation from Horn's quaternion.
-// A monocular estimate has no scale of its own, so relative errors use the scale of the alignment.
+// The alignment is Umeyama's (PAMI 1991) least squares, truth ~ s R estimate + t, with the rotation from Horn's
+// quaternion. A monocular estimate has no scale of its own, so relative errors use the scale of the alignment.
 #ifndef TEXTSLAM_IO_EVALUATE_HPP
 #define TEXTSLAM_IO_EVALUATE_HPP
 
@@ -31,14 +32,14 @@ struct PosePair {
   std::size_t estimate = 0, truth = 0;
 };
 
-/// One-to-one pairs at most `tolerance` seconds apart, the closest first where several compete; in order of time. Both inputs
-/// have increasing times.
+/// One-to-one pairs at most `tolerance` seconds apart, the closest first where several compete; in order of time. Both
+/// inputs have increasing times.
 std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth,
                                 double tolerance);
 
-/// The similarity (or, without scale, the rigid motion) that minimises sum |to_i - S from_i|^2. Collinear points leave the turn
-/// about their line open: the sum is minimal still. Status::too_few below three points or when the sizes differ, degenerate when
-/// either set is a single place, non_finite for NaN; *out is then untouched.
+/// The similarity (or, without scale, the rigid motion) that minimises sum |to_i - S from_i|^2. Collinear points leave
+/// the turn about their line open: the sum is minimal still. Status::too_few below three points or when the sizes
+/// differ, degenerate when either set is a single place, non_finite for NaN; *out is then untouched.
 Status align_points(const std::vector<Vector3<double>>& from, const std::vector<Vector3<double>>& to, bool with_scale,
                     Similarity* out);
 
@@ -66,17 +67,19 @@ struct TrajectoryEvaluation {
   std::size_t pairs = 0;            ///< associated poses
   Similarity alignment;             ///< estimate's world -> truth's world
   ErrorStatistics ate;              ///< m
-  RelativeError rpe_frame;     ///< over neighbouring pairs; those further apart than 1.5 times the usual interval are left out
-  double frame_interval = 0;   ///< s, the usual (median) interval of neighbouring pairs: 1/fps where every frame has truth
+  /// Over neighbouring pairs; those further apart than 1.5 times the usual interval are left out.
+  RelativeError rpe_frame;
+  double frame_interval = 0;   ///< s, the usual (median) interval of those: 1/fps where every frame has truth
   RelativeError rpe_distance;  ///< from each pair to the first one at least options.distance of true path later
   double path_length = 0;      ///< m, of the whole ground truth
   double coverage = 0;         ///< poses of the estimate over all frames of the sequence
 };
 
-/// `frames`: number of frames of the sequence. Never throws on odd data: status says why there is no error to report; pairs,
-/// path_length and coverage are set in any case.
-TrajectoryEvaluation evaluate_trajectory(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth,
-                                         std::size_t frames, const EvaluationOptions& options = {});
+/// `frames`: number of frames of the sequence. Never throws on odd data: status says why there is no error to report;
+/// pairs, path_length and coverage are set in any case.
+TrajectoryEvaluation evaluate_trajectory(const std::vector<StampedPose>& estimate,
+                                         const std::vector<StampedPose>& truth, std::size_t frames,
+                                         const EvaluationOptions& options = {});
 
 }  // namespace textslam
 

@@ -13,7 +13,8 @@ void check_image_size(std::size_t width, std::size_t height, const std::string& 
   if (width == 0 || height == 0) throw InputError(path, 0, "the image is empty");
   constexpr std::size_t kSide = kMaxImageSide, kPixels = kMaxImagePixels;
   if (width > kSide || height > kSide || width * height > kPixels) {
-    throw InputError(path, 0, "the image is too large: " + std::to_string(width) + " x " + std::to_string(height) + " px");
+    throw InputError(path, 0,
+                     "the image is too large: " + std::to_string(width) + " x " + std::to_string(height) + " px");
   }
 }
 
@@ -23,7 +24,8 @@ Image<std::uint8_t> load_grey(const std::string& path) {
   if (bytes.empty()) throw InputError(path, 0, "the file is empty");
   if (starts_with("\xFF\xD8\xFF")) return decode_jpeg(bytes, path);
   if (starts_with("\x89PNG\r\n\x1A\n")) return decode_png(bytes, path);
-  if (bytes.size() > 2 && bytes[0] == 'P' && (bytes[1] == '2' || bytes[1] == '3' || bytes[1] == '5' || bytes[1] == '6')) {
+  if (bytes.size() > 2 && bytes[0] == 'P' &&
+      (bytes[1] == '2' || bytes[1] == '3' || bytes[1] == '5' || bytes[1] == '6')) {
     return decode_pnm(bytes, path);
   }
   throw InputError(path, 0, "this is not a JPEG, PNG, PGM or PPM image");
@@ -31,6 +33,8 @@ Image<std::uint8_t> load_grey(const std::string& path) {
 
 void save_png(const std::string& path, ImageView8 image) { write_file(path, encode_png(image)); }
 
-void save_jpeg(const std::string& path, ImageView8 image, int quality) { write_file(path, encode_jpeg(image, quality)); }
+void save_jpeg(const std::string& path, ImageView8 image, int quality) {
+  write_file(path, encode_jpeg(image, quality));
+}
 
 }  // namespace textslam

@@ -1,8 +1,9 @@
 // Image files: JPEG (libjpeg), PNG (libpng) and the PGM/PPM family into 8-bit grey images, and back.
 //
-// The format is told by the file's first bytes, never by its name. Colour becomes grey by (299 R + 587 G + 114 B + 500) / 1000;
-// a YCbCr JPEG gives its luma, which is the same weighting; samples of more than 8 bits are scaled down; alpha is ignored, and
-// so are gamma and colour profiles. A file that decodes only in part counts as broken: half a frame must not be tracked against.
+// The format is told by the file's first bytes, never by its name. Colour becomes grey by (299 R + 587 G + 114 B + 500)
+// / 1000; a YCbCr JPEG gives its luma, which is the same weighting; samples of more than 8 bits are scaled down; alpha
+// is ignored, and so are gamma and colour profiles. A file that decodes only in part counts as broken: half a frame
+// must not be tracked against.
 #ifndef TEXTSLAM_IO_IMAGE_FILE_HPP
 #define TEXTSLAM_IO_IMAGE_FILE_HPP
 
@@ -17,8 +18,8 @@ namespace textslam {
 constexpr int kMaxImageSide = 16384;
 constexpr int kMaxImagePixels = 1 << 27;
 
-/// The image as grey values. Throws InputError (file, no line) when the file is missing, unreadable, of an unknown kind,
-/// corrupt, truncated or too large. Safe to call from several threads.
+/// The image as grey values. Throws InputError (file, no line) when the file is missing, unreadable, of an unknown
+/// kind, corrupt, truncated or too large. Safe to call from several threads.
 Image<std::uint8_t> load_grey(const std::string& path);
 
 /// The bytes of a grey PNG. Throws std::invalid_argument for an invalid view.

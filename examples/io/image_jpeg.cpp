@@ -1,5 +1,5 @@
-// JPEG by libjpeg. Its errors come back by longjmp, which skips destructors: every setjmp below stands in a function whose
-// frame, and all frames under it, hold nothing to destroy. Owners live in the callers.
+// JPEG by libjpeg. Its errors come back by longjmp, which skips destructors: every setjmp below stands in a function
+// whose frame, and all frames under it, hold nothing to destroy. Owners live in the callers.
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>

@@ -45,7 +45,8 @@ void create_output_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throw std::runtime_error(path + ": cannot make the folder: " + error.message());
-  if (!std::filesystem::is_directory(path, error)) throw std::runtime_error(path + ": cannot make the folder: not a folder");
+  if (!std::filesystem::is_directory(path, error))
+    throw std::runtime_error(path + ": cannot make the folder: not a folder");
 }
 
 }  // namespace textslam

@@ -35,8 +35,8 @@ std::string_view scalar(std::string_view text) {
   return trimmed(text.substr(0, comment));
 }
 
-// The top-level `key: value` lines. Indented lines and list items belong to keys of other programs; directives and document
-// marks are passed over, "%YAML:1.0" of OpenCV included, which a YAML parser refuses.
+// The top-level `key: value` lines. Indented lines and list items belong to keys of other programs; directives and
+// document marks are passed over, "%YAML:1.0" of OpenCV included, which a YAML parser refuses.
 Settings read_settings(const std::string& path) {
   Settings settings;
   for (const TextLine& line : read_lines(path)) {
@@ -49,7 +49,8 @@ Settings read_settings(const std::string& path) {
       throw InputError(path, line.number, "expected 'key: value', not " + shown(text));
     }
     const std::string key(trimmed(text.substr(0, colon)));
-    const auto [entry, is_new] = settings.emplace(key, Setting{std::string(scalar(text.substr(colon + 1))), line.number});
+    const auto [entry, is_new] =
+        settings.emplace(key, Setting{std::string(scalar(text.substr(colon + 1))), line.number});
     if (!is_new) {
       throw InputError(path, line.number, key + " is given twice, first in line " + std::to_string(entry->second.line));
     }
@@ -104,8 +105,9 @@ std::vector<FrameRef> read_frames(const std::string& folder, const std::string& 
     frame.timestamp = require_number(time, images_file, line.number, "the timestamp");
     if (path.empty()) throw InputError(images_file, line.number, "the image's path is missing after the timestamp");
     if (!frames.empty() && !(frame.timestamp > frames.back().timestamp)) {
-      throw InputError(images_file, line.number,
-                       "times must increase: " + shown(time) + " does not follow line " + std::to_string(frames.back().line));
+      throw InputError(
+          images_file, line.number,
+          "times must increase: " + shown(time) + " does not follow line " + std::to_string(frames.back().line));
     }
     frame.path = (fs::path(folder) / path).string();
     frame.stem = fs::path(path).stem().string();

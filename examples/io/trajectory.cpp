@@ -32,9 +32,11 @@ std::vector<StampedPose> read_tum(const std::string& path) {
                        "a pose has 8 columns (timestamp tx ty tz qx qy qz qw), not " + std::to_string(words.size()));
     }
     double v[8];
-    for (int i = 0; i < 8; ++i) v[i] = require_number(words[static_cast<std::size_t>(i)], path, line.number, kColumns[i]);
+    for (int i = 0; i < 8; ++i)
+      v[i] = require_number(words[static_cast<std::size_t>(i)], path, line.number, kColumns[i]);
     if (!poses.empty() && !(v[0] > poses.back().timestamp)) {
-      throw InputError(path, line.number, "times must increase: " + shown(words[0]) + " does not follow the pose before");
+      throw InputError(path, line.number,
+                       "times must increase: " + shown(words[0]) + " does not follow the pose before");
     }
     const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
     const double norm = q.norm();

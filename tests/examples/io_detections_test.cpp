@@ -41,7 +41,9 @@ TEST_F(DetectionsTest, EmptyFileMeansNoDetections) {
 }
 
 TEST_F(DetectionsTest, Icdar) {
-  const auto d = read("\xEF\xBB\xBF" "1,2,30.5,2,30.5,-4e0,1,40,EXIT\r\n\n387.5, 171.7,501.2,171.7,501.2,247.0,387.5,247.0,###\n");
+  const auto d = read(
+      "\xEF\xBB\xBF"
+      "1,2,30.5,2,30.5,-4e0,1,40,EXIT\r\n\n387.5, 171.7,501.2,171.7,501.2,247.0,387.5,247.0,###\n");
   ASSERT_EQ(d.size(), 2u);
   expect_quad(d[0].quad, {1, 2, 30.5, 2, 30.5, -4, 1, 40});
   EXPECT_EQ(d[0].text, "EXIT");
@@ -53,7 +55,8 @@ TEST_F(DetectionsTest, Icdar) {
 TEST_F(DetectionsTest, TextIsKeptWhole) {
   EXPECT_EQ(read("0,0,1,0,1,1,0,1,Fish, chips, 12,50\n")[0].text, "Fish, chips, 12,50");
   EXPECT_EQ(read("0,0,1,0,1,1,0,1,#1 #\n")[0].text, "#1 #");
-  EXPECT_EQ(read("0,0,1,0,1,1,0,1,caf\xC3\xA9 \xE5\x87\xBA\xE5\x8F\xA3\n")[0].text, "caf\xC3\xA9 \xE5\x87\xBA\xE5\x8F\xA3");
+  EXPECT_EQ(read("0,0,1,0,1,1,0,1,caf\xC3\xA9 \xE5\x87\xBA\xE5\x8F\xA3\n")[0].text,
+            "caf\xC3\xA9 \xE5\x87\xBA\xE5\x8F\xA3");
   EXPECT_EQ(read("0,0,1,0,1,1,0,1\n")[0].text, "###");
   EXPECT_EQ(read("0,0,1,0,1,1,0,1,\n")[0].text, "###");
   EXPECT_EQ(read("0,0,1,0,1,1,0,1,caf\xE9!\n")[0].text, "caf\xEF\xBF\xBD!") << "Latin-1 is not UTF-8";
@@ -96,7 +99,8 @@ TEST_F(DetectionsTest, PublishedPairIsMappedBackThroughTheLens) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2<double> raw = d[0].quad.corner[i];
     Vector2<double> m;
-    ASSERT_EQ(sequence.camera.lens.undistort(sequence.camera.pinhole.unproject(raw).head<2>(), &m), textplane::Status::ok);
+    ASSERT_EQ(sequence.camera.lens.undistort(sequence.camera.pinhole.unproject(raw).head<2>(), &m),
+              textplane::Status::ok);
     const Vector2<double> px = sequence.camera.pinhole.pixel(m);
     EXPECT_NEAR(px[0], expected[2 * i], 1e-8);
     EXPECT_NEAR(px[1], expected[2 * i + 1], 1e-8);

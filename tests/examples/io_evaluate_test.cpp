@@ -231,7 +231,8 @@ TEST(Evaluate, AnySimilarityOfTheTruthIsPerfect) {
   }
 }
 
-// Corners of a square of side 2; the estimate lifts two opposite corners by 0.3 and lowers the others, which no similarity can undo.
+// Corners of a square of side 2; the estimate lifts two opposite corners by 0.3 and lowers the others, which no
+// similarity can undo.
 TEST(Evaluate, AbsoluteErrorByHand) {
   const std::vector<StampedPose> truth = {at(0, {-1, -1, 0}), at(1, {1, -1, 0}), at(2, {1, 1, 0}), at(3, {-1, 1, 0})};
   std::vector<StampedPose> estimate = truth;
@@ -255,10 +256,10 @@ TEST(Evaluate, AbsoluteErrorByHand) {
 }
 
 TEST(Evaluate, RelativeErrorsByHand) {
-  // Along x in steps of 0.04 m. From pose 5 on, the estimate is turned by 2 degrees about its own optical axis: positions stay,
-  // one relative rotation is off by 2 degrees, and the one translation that is seen from a turned pose keeps its length error.
+  // Along x in steps of 0.04 m. From pose 5 on, the estimate is turned by 2 degrees about the direction of travel: all
+  // motions keep their translation, and each that spans the turn has a rotation that is off by 2 degrees.
   std::vector<StampedPose> truth, estimate;
-  const Matrix3<double> turn = so3_exp<double>({2 / 57.295779513082320877, 0, 0});  // about x: the direction of travel
+  const Matrix3<double> turn = so3_exp<double>({2 / 57.295779513082320877, 0, 0});
   for (int i = 0; i < 10; ++i) {
     truth.push_back(at(0.1 * i, {0.04 * i, 0, 0}));
     estimate.push_back(at(0.1 * i, {0.04 * i, 0, 0}, i < 5 ? Matrix3<double>::Identity() : turn));

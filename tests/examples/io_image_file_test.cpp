@@ -67,8 +67,8 @@ std::string packed_png(std::vector<std::vector<unsigned char>> rows, int width, 
         static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<const char*>(data), n);
       },
       nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(rows.size()), depth, PNG_COLOR_TYPE_GRAY,
-               interlace, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(rows.size()), depth,
+               PNG_COLOR_TYPE_GRAY, interlace, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
   std::vector<png_bytep> pointers;
   for (auto& row : rows) pointers.push_back(row.data());
@@ -145,9 +145,9 @@ TEST(ImageFile, JpegIsCloseAndDeterministic) {
 TEST(ImageFile, GreyWeights) {
   EXPECT_EQ(grey_of(0, 0, 0), 0);
   EXPECT_EQ(grey_of(255, 255, 255), 255);
-  EXPECT_EQ(grey_of(255, 0, 0), 76);    // 76.245
-  EXPECT_EQ(grey_of(0, 255, 0), 150);   // 149.685
-  EXPECT_EQ(grey_of(0, 0, 255), 29);    // 29.07
+  EXPECT_EQ(grey_of(255, 0, 0), 76);     // 76.245
+  EXPECT_EQ(grey_of(0, 255, 0), 150);    // 149.685
+  EXPECT_EQ(grey_of(0, 0, 255), 29);     // 29.07
   EXPECT_EQ(grey_of(10, 200, 77), 129);  // 2.99 + 117.4 + 8.778 = 129.168
 }
 
@@ -202,7 +202,8 @@ TEST(ImageFile, ColourJpegGivesItsLuma) {
 
 TEST(ImageFile, PgmAndPpm) {
   const TemporaryFolder folder;
-  Image<std::uint8_t> image = load_grey(folder.write("a", std::string("P5\n# a comment\n2 2 # another\n255\n") + "\x01\x02\xFE\xFF"));
+  Image<std::uint8_t> image =
+      load_grey(folder.write("a", std::string("P5\n# a comment\n2 2 # another\n255\n") + "\x01\x02\xFE\xFF"));
   EXPECT_EQ(image(0, 0), 1);
   EXPECT_EQ(image(1, 0), 2);
   EXPECT_EQ(image(0, 1), 254);
@@ -314,7 +315,8 @@ TEST(ImageFile, HugeImagesAreRefusedBeforeAllocation) {
 
   // A bit a pixel: a file that is small and right, of a width beyond the bound.
   const int width = kMaxImageSide + 1;
-  const std::string png = packed_png({std::vector<unsigned char>(static_cast<std::size_t>(width / 8 + 1))}, width, 1, 0);
+  const std::string png =
+      packed_png({std::vector<unsigned char>(static_cast<std::size_t>(width / 8 + 1))}, width, 1, 0);
   expect_broken(folder, png, "too large: 16385 x 1");
 }
 

@@ -56,7 +56,8 @@ TEST(OutputFile, NoPermission) {
   if (geteuid() == 0) GTEST_SKIP() << "root writes everywhere";
   const TemporaryFolder folder;
   create_output_folder(folder.path("locked"));
-  std::filesystem::permissions(folder.path("locked"), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  std::filesystem::permissions(folder.path("locked"),
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
   const std::string file = folder.path("locked/a.txt"), inner = folder.path("locked/b");
   expect_failure([&] { write_file(file, "x"); }, file);
   expect_failure([&] { create_output_folder(inner); }, inner);

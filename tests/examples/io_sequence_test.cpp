@@ -98,8 +98,10 @@ TEST_F(SequenceTest, CameraAsOrbSlamWritesIt) {
   const std::string path = folder.write(
       "camera.yaml",
       "%YAML:1.0\n---\n# Camera\nCamera.type: \"PinHole\"\nCamera.fx: 384.25 # px\nCamera.fy: 382.5\nCamera.cx: 315.5\n"
-      "Camera.cy: 249\nCamera.k1: 0.1\nCamera.k2: 0.0\nCamera.p1: 0.0\nCamera.p2: 0.0\nCamera.k3: +0.5\nCamera.fps: 60.0\n"
-      "Camera.RGB: 0\nCamera.height: 480\nCamera.width: 640.0\nExp read path: ./dataset/\nTbc: !!opencv-matrix\n   rows: 4\n"
+      "Camera.cy: 249\nCamera.k1: 0.1\nCamera.k2: 0.0\nCamera.p1: 0.0\nCamera.p2: 0.0\nCamera.k3: +0.5\nCamera.fps: "
+      "60.0\n"
+      "Camera.RGB: 0\nCamera.height: 480\nCamera.width: 640.0\nExp read path: ./dataset/\nTbc: !!opencv-matrix\n   "
+      "rows: 4\n"
       "   data: [1.0, 0.0,\n          0.0]\nORBextractor.nFeatures: 1000\n...\n");
   const CameraModel camera = read_camera(path);
   EXPECT_EQ(camera.pinhole.fx, 384.25);
@@ -146,7 +148,10 @@ TEST_F(SequenceTest, BadCamera) {
   expect_bad_camera(kCamera + std::string("Camera.type: KannalaBrandt8\n"), 12, "should be PinHole");
   expect_bad_camera(kCamera + std::string("what is this\n"), 12, "expected 'key: value', not 'what is this'");
   expect_bad_camera("", 0, "missing");
-  expect_bad_camera(std::string("\x7F" "ELF\0\0\x01", 7), 1, "not a text file");
+  expect_bad_camera(std::string("\x7F"
+                                "ELF\0\0\x01",
+                                7),
+                    1, "not a text file");
 }
 
 TEST_F(SequenceTest, BadImageList) {

@@ -20,7 +20,8 @@ SE3d random_pose(std::mt19937& random) {
 
 TEST(Trajectory, ReadsByHand) {
   const TemporaryFolder folder;
-  const std::string path = folder.write("t.txt", "# c\r\n1.5 1 -2 3e0 0 0 0.70710678 0.70710678\r\n\r\n  2 0 0 0\t1 0 0 0\n");
+  const std::string path =
+      folder.write("t.txt", "# c\r\n1.5 1 -2 3e0 0 0 0.70710678 0.70710678\r\n\r\n  2 0 0 0\t1 0 0 0\n");
   const auto poses = read_tum(path);
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0].timestamp, 1.5);
