@@ -1,7 +1,7 @@
 #include "io/trajectory.hpp"
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "io/input_error.hpp"
@@ -14,9 +14,9 @@ namespace {
 
 void append_fixed(std::string* out, double value, int decimals) {
   if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0;  // no "-0.000"
-  char text[400];
-  const int n = std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  out->append(text, static_cast<std::size_t>(n));
+  char text[400];  // the largest double has 309 digits before the point
+  const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals);
+  out->append(text, result.ptr);
 }
 
 }  // namespace
