@@ -37,8 +37,8 @@ struct Robust {
       case RobustKind::cauchy: return d2 * std::log1p(r2 / d2);
       case RobustKind::tukey: {
         if (r2 >= d2) return d2 / 3.0;
-        const double u = 1.0 - r2 / d2;
-        return d2 / 3.0 * (1.0 - u * u * u);
+        const double u = r2 / d2;  // multiplied out: the form above cancels near zero
+        return r2 * (1.0 - u + u * u / 3.0);
       }
     }
     return r2;

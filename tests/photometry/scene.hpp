@@ -1,0 +1,110 @@
+// A textured plane patch in two views, for the photometry tests.
+#ifndef TEXTPLANE_TESTS_PHOTOMETRY_SCENE_HPP
+#define TEXTPLANE_TESTS_PHOTOMETRY_SCENE_HPP
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "textplane/core/image_view.hpp"
+#include "textplane/photometry/residual.hpp"
+
+namespace textplane_test {
+
+namespace tp = textplane;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(engine_()) / 4294967295.0; }
+  int integer(int low, int high) { return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1)); }
+  tp::Vector6<double> twist(double translation, double rotation) {
+    tp::Vector6<double> xi;
+    for (int i = 0; i < 3; ++i) xi[i] = uniform(-translation, translation);
+    for (int i = 3; i < 6; ++i) xi[i] = uniform(-rotation, rotation);
+    return xi;
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// Integers in [20, 235]: waves and noise, so that neighbouring cells differ and both pixel types hold them exactly.
+template <class T>
+tp::Image<T> texture(int width, int height, unsigned seed) {
+  Random random(seed);
+  const double a = random.uniform(0, 6), b = random.uniform(0, 6);
+  tp::Image<T> image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double wave = 128 + 50 * std::sin(0.35 * x + 0.1 * y + a) + 35 * std::cos(0.4 * y - 0.07 * x + b);
+      image(x, y) = static_cast<T>(std::floor(wave + random.uniform(-20, 20)));
+    }
+  return image;
+}
+
+/// Cameras, plane, poses and host pixels such that every warped pixel lies inside a 200 x 160 target, at least 0.02 px from
+/// the pixel lines: a small step of any parameter leaves it in its cell.
+template <class T>
+struct Scene {
+  static constexpr int kWidth = 200, kHeight = 160;
+
+  tp::Image<T> image;
+  tp::Pinhole<double> host_camera{210, 205, 98.3, 79.6}, target_camera{190, 195, 101.2, 77.4};
+  tp::Vector3<double> theta;
+  tp::SE3d T_w_h, T_w_t, T_t_h;
+  std::vector<float> x, y, intensity;
+  tp::PhotometricWorkspace workspace;
+
+  explicit Scene(unsigned seed, int pixels = 120) : image(texture<T>(kWidth, kHeight, seed)) {
+    Random random(seed * 7919 + 1);
+    const tp::Vector3<double> normal(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), -1);
+    theta = -normal.normalized() / random.uniform(1.0, 3.0);
+    T_w_h = tp::se3_exp<double>(random.twist(2.0, 1.0));
+    T_t_h = tp::se3_exp<double>(random.twist(0.15, 0.12));
+    T_w_t = T_w_h * T_t_h.inverse();
+    while (static_cast<int>(x.size()) < pixels) {
+      const double px = random.integer(50, 150), py = random.integer(50, 110);
+      const tp::Vector2<double> at = project(px, py);
+      const double dx = at[0] - std::floor(at[0]), dy = at[1] - std::floor(at[1]);
+      if (!image.view().contains(at[0], at[1]) || dx < 0.02 || dx > 0.98 || dy < 0.02 || dy > 0.98) continue;
+      x.push_back(static_cast<float>(px));
+      y.push_back(static_cast<float>(py));
+      // The other view's intensity under another exposure, with noise and some gross outliers.
+      double value = 0;
+      tp::sample_bilinear(view(), at[0], at[1], &value);
+      value = 0.8 * value + 15 + random.uniform(-6, 6) + (random.integer(0, 9) == 0 ? random.uniform(-90, 90) : 0.0);
+      intensity.push_back(static_cast<float>(value));
+    }
+    workspace.reserve(pixels);
+  }
+
+  tp::ImageView<const T> view() const { return image.view(); }
+  int n() const { return static_cast<int>(x.size()); }
+
+  tp::Vector2<double> project(double px, double py) const {
+    const tp::Vector3<double> m = host_camera.unproject({px, py});
+    return target_camera.project(T_t_h.R * m + T_t_h.t * theta.dot(m));
+  }
+
+  tp::BasicPhotometricInput<T> input() const {
+    tp::BasicPhotometricInput<T> in;
+    in.patch = {x.data(), y.data(), intensity.data(), nullptr, n()};
+    in.host_camera = host_camera;
+    in.target_camera = target_camera;
+    in.target = view();
+    return in;
+  }
+};
+
+/// Everything that must be zero in a result that may not be used.
+template <int P>
+bool all_zero(const tp::NormalEquations<P>& e) {
+  return e.H.isZero(0) && e.b.isZero(0) && e.cost == 0 && e.error == 0 && e.zncc == 0 && e.visible == 0 && e.mean == 0 &&
+         e.s == 0;
+}
+
+}  // namespace textplane_test
+
+#endif  // TEXTPLANE_TESTS_PHOTOMETRY_SCENE_HPP
