@@ -29,7 +29,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// When to stop and how to damp. Tolerances of zero are allowed and mean "never by this test".
 struct SolveOptions {
   int max_iterations = 20;           ///< Trial steps, rejected ones included.
-  double step_tolerance = 1e-8;      ///< Converged when the norm of the step (in the units of the parameters) is at most this;
+  double step_tolerance = 1e-6;      ///< Converged when the norm of the step (in the units of the parameters) is at most this;
                                      ///< that step is not taken any more.
   double cost_tolerance = 1e-6;      ///< Converged when an accepted step lowers the cost by at most this share of it.
   double stall_tolerance = 1e-3;     ///< Where no step lowers the cost: converged if the full step promised at most this share of it.

@@ -2,9 +2,11 @@
 #ifndef TEXTPLANE_SOLVER_LEVELS_HPP
 #define TEXTPLANE_SOLVER_LEVELS_HPP
 
+#include <algorithm>
 #include <array>
 
 #include "textplane/photometry/pyramid.hpp"
+#include "textplane/solver/gauss_newton.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -23,6 +25,13 @@ struct LevelRange {
 inline LevelRange level_range(int coarsest, int finest, int available) noexcept {
   if (available > kMaxPyramidLevels) available = kMaxPyramidLevels;
   return {coarsest < available ? coarsest : available - 1, finest > 0 ? finest : 0};
+}
+
+// Options of a level above the finest: its result is but the start of the next level, whose pixels say more.
+inline SolveOptions coarse_options(SolveOptions options) noexcept {
+  options.cost_tolerance = std::max(options.cost_tolerance, 1e-3);
+  options.step_tolerance = std::max(options.step_tolerance, 1e-5);
+  return options;
 }
 }  // namespace detail
 

@@ -28,7 +28,7 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
 
 struct PlaneOptions {
   PhotometricOptions photometric;
-  SolveOptions solve;      ///< Of each level.
+  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
   int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
   int finest_level = 0;
 };
@@ -206,7 +206,8 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   for (int level = range.coarsest; level >= range.finest; --level) {
     problem.set_level(level);
     system = PlaneSystem();
-    const SolveSummary summary = minimise(problem, fit.theta, options.solve, &system);
+    const SolveOptions solve = level == range.finest ? options.solve : coarse_options(options.solve);
+    const SolveSummary summary = minimise(problem, fit.theta, solve, &system);
     fit.iterations += summary.iterations;
     fit.status = summary.status;
     fit.cost = summary.final_cost;
@@ -217,8 +218,8 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   fit.targets_used = problem.targets_used();
   fit.visible_pixels = problem.visible_pixels();
   const int freedom = std::max(1, fit.visible_pixels - 2 * fit.targets_used - 3);
-  // A perfect match would claim no uncertainty at all: the floor is the rounding of 8-bit images, 1/12 of a grey level squared,
-  // on a patch of large contrast.
+  // A perfect match would claim no uncertainty at all. The floor lies below what the rounding of 8-bit images leaves (1/6 of a
+  // grey level squared for both sides) on a patch of any contrast.
   fit.residual_variance = std::max(fit.cost / freedom, 1e-6);
   const Ldlt<double, 3> factor(system.H, options.solve.rank_tolerance);
   if (!factor.ok()) return fit;

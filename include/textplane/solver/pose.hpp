@@ -80,7 +80,8 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
   for (int level = range.coarsest; level >= range.finest; --level) {
     problem.set_level(level);
     system = PoseSystem();
-    const SolveSummary summary = minimise(problem, fit.T_t_w, options.solve, &system);
+    const SolveOptions solve = level == range.finest ? options.solve : coarse_options(options.solve);
+    const SolveSummary summary = minimise(problem, fit.T_t_w, solve, &system);
     fit.iterations += summary.iterations;
     fit.status = summary.status;
     fit.cost = summary.final_cost;

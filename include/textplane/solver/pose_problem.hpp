@@ -45,7 +45,7 @@ struct PoseOptions {
   double sigma_rep = 1;
   /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
   Robust point_robust{RobustKind::huber, 2.4477};
-  SolveOptions solve;      ///< Of each level.
+  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
   int finest_level = 0;
 };
