@@ -156,9 +156,9 @@ TEST_F(WindowInput, BadElementsAreLeftOut) {
   w.frames[0].fixed = w.frames[4].fixed = true;
   perturb(w, noise, 0.01, 0.03, 0);
   w.points[4].p_w[0] = kNan;
-  w.points.push_back({tp::Vector3<double>(0, 0, 5), false, tp::Status::ok});  // 50: nobody sees it.
+  w.points.push_back({tp::Vector3<double>(0, 0, 5), false, tp::Status::ok});   // 50: nobody sees it.
   w.points.push_back({tp::Vector3<double>(0, 0, -3), false, tp::Status::ok});  // 51: behind everybody.
-  w.points.push_back({tp::Vector3<double>(0, 0, 5), false, tp::Status::ok});  // 52: seen once.
+  w.points.push_back({tp::Vector3<double>(0, 0, 5), false, tp::Status::ok});   // 52: seen once.
   tp::WindowFrame lonely;
   lonely.T_w_c = w.frames[2].T_w_c;
   w.frames.push_back(lonely);  // 5: sees nothing.
@@ -192,8 +192,9 @@ TEST_F(WindowInput, BadElementsAreLeftOut) {
     EXPECT_EQ(w.frames[f].status, tp::Status::too_few);
     EXPECT_EQ(w.frames[f].T_w_c.t, before.frames[f].T_w_c.t);
   }
-  const tp::Status expected[] = {tp::Status::behind_camera, tp::Status::behind_camera, tp::Status::too_few, tp::Status::too_few,
-                                 tp::Status::too_few,       tp::Status::non_finite,    tp::Status::invalid_argument};
+  const tp::Status expected[] = {tp::Status::behind_camera,   tp::Status::behind_camera, tp::Status::too_few,
+                                 tp::Status::too_few,         tp::Status::too_few,       tp::Status::non_finite,
+                                 tp::Status::invalid_argument};
   for (std::size_t i = 0; i < 7; ++i) {
     EXPECT_EQ(w.point_observations[first + i].status, expected[i]) << i;
     EXPECT_GT(w.point_observations[first + i].chi2, 5.99) << i;
@@ -227,7 +228,8 @@ TEST_F(WindowInput, APointWithoutParallaxIsTold) {
   EXPECT_EQ(s.undetermined, 1);
 }
 
-// Six equations from three points on a line leave the turn about that line open: reported for the frame, which the graph cannot see.
+// Six equations from three points on a line leave the turn about that line open: reported for the frame, which the
+// graph cannot see.
 TEST_F(WindowInput, AFrameThatSeesALineIsTold) {
   for (std::size_t f = 0; f < 5; ++f) w.frames[f].fixed = true;
   for (std::size_t p : {0u, 1u, 2u}) w.points[p].p_w = tp::Vector3<double>(-0.5 + 0.5 * static_cast<double>(p), 0.1, 4);
@@ -235,7 +237,9 @@ TEST_F(WindowInput, AFrameThatSeesALineIsTold) {
   f.T_w_c = scene.T_w_c[2];
   w.frames.push_back(f);
   for (auto& k : w.point_observations)
-    if (k.point < 3) k.px = w.camera.project(scene.T_w_c[static_cast<std::size_t>(k.frame)].inverse() * w.points[static_cast<std::size_t>(k.point)].p_w);
+    if (k.point < 3)
+      k.px = w.camera.project(scene.T_w_c[static_cast<std::size_t>(k.frame)].inverse() *
+                              w.points[static_cast<std::size_t>(k.point)].p_w);
   for (int p = 0; p < 3; ++p) {
     w.points[static_cast<std::size_t>(p)].fixed = true;
     tp::WindowPointObservation k;
@@ -295,7 +299,8 @@ TEST(WindowTextInput, BadTextsAreLeftOut) {
   EXPECT_EQ(w.text_observations[n - 2].status, tp::Status::degenerate);
   EXPECT_EQ(w.text_observations[n - 3].status, tp::Status::behind_camera);
   for (std::size_t k = 0; k < 12; ++k)
-    EXPECT_EQ(w.text_observations[k].status, w.text_observations[k].frame == 3 ? tp::Status::invalid_argument : tp::Status::ok);
+    EXPECT_EQ(w.text_observations[k].status,
+              w.text_observations[k].frame == 3 ? tp::Status::invalid_argument : tp::Status::ok);
   for (std::size_t t = 0; t < 3; ++t) EXPECT_EQ(w.texts[t].used_observations, 3);
 }
 
@@ -303,7 +308,8 @@ TEST(WindowTextInput, BadTextsAreLeftOut) {
 TEST(WindowTextInput, ATextWithoutParallaxIsTold) {
   Scene scene;
   scene.add_frames(1);
-  scene.T_w_c.push_back(scene.T_w_c[0] * tp::se3_exp<double>((tp::Vector6<double>() << 0, 0, 0, 0.01, 0.02, 0.03).finished()));
+  scene.T_w_c.push_back(scene.T_w_c[0] *
+                        tp::se3_exp<double>((tp::Vector6<double>() << 0, 0, 0, 0.01, 0.02, 0.03).finished()));
   scene.texts.push_back({0, {0.05, -0.03, 0.26}, 90, 60, 200, 140});
   tp::Window w = scene.finish();
   w.frames[0].fixed = w.frames[1].fixed = true;

@@ -1,4 +1,5 @@
-// The sums of the window solver against numeric differences of its cost, and its reduced system against the full dense one.
+// The sums of the window solver against numeric differences of its cost, and its reduced system against the full dense
+// one.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -11,8 +12,8 @@ namespace {
 
 using Dense = Eigen::MatrixXd;
 
-// A general state: everything perturbed, some frames, a point and a text fixed, mixed weights and sigmas, one point seen twice in
-// a frame. Parameters are ordered as free cameras (6 each), then all landmarks (3 each).
+// A general state: everything perturbed, some frames, a point and a text fixed, mixed weights and sigmas, one point
+// seen twice in a frame. Parameters are ordered as free cameras (6 each), then all landmarks (3 each).
 struct General {
   Scene scene;
   tp::Window w;
@@ -41,7 +42,8 @@ struct General {
       w.point_observations[k].px += 3 * noise.vector<2>();
       w.point_observations[k].sigma = 1 + 0.2 * static_cast<double>(k % 4);
     }
-    for (std::size_t k = 0; k < w.text_observations.size(); ++k) w.text_observations[k].weight = 0.5 + 0.1 * static_cast<double>(k);
+    for (std::size_t k = 0; k < w.text_observations.size(); ++k)
+      w.text_observations[k].weight = 0.5 + 0.1 * static_cast<double>(k);
     if (with_scale) {
       o.scale_frame_a = 1;
       o.scale_frame_b = 3;
@@ -79,8 +81,8 @@ struct General {
     return g;
   }
 
-  // J^T W J and J^T W r from the residuals themselves: point rows by numeric differences of the projection, text rows from
-  // residuals<9>() through relative_pose_jacobians().
+  // J^T W J and J^T W r from the residuals themselves: point rows by numeric differences of the projection, text rows
+  // from residuals<9>() through relative_pose_jacobians().
   void dense(Dense* H, Eigen::VectorXd* g) {
     *H = Dense::Zero(size(), size());
     *g = Eigen::VectorXd::Zero(size());
@@ -103,11 +105,12 @@ struct General {
     for (const tp::WindowTextObservation& k : w.text_observations) {
       const tp::WindowText& t = tp::detail::at(w.texts, k.text);
       const tp::SE3d T_w_h = tp::detail::at(x.T_w_c, t.host), T_w_t = tp::detail::at(x.T_w_c, k.frame);
-      const tp::PhotometricInput in = tp::photometric_input(*t.patch, 0, tp::detail::at(w.frames, k.frame).image, w.camera);
+      const tp::PhotometricInput in =
+          tp::photometric_input(*t.patch, 0, tp::detail::at(w.frames, k.frame).image, w.camera);
       tp::PhotometricWorkspace workspace(in.patch.n);
       std::vector<double> r(static_cast<std::size_t>(in.patch.n)), rows(9 * r.size());
-      const tp::ResidualSummary sum =
-          tp::reference::residuals<9>(in, t.theta, T_w_t.inverse() * T_w_h, o.photometric, workspace, r.data(), rows.data());
+      const tp::ResidualSummary sum = tp::reference::residuals<9>(in, t.theta, T_w_t.inverse() * T_w_h, o.photometric,
+                                                                  workspace, r.data(), rows.data());
       ASSERT_EQ(sum.status, tp::Status::ok);
       const auto map = tp::relative_pose_jacobians<double>(T_w_h, T_w_t, tp::PerturbationSide::right);
       Dense local = Dense::Zero(9, size());
@@ -136,7 +139,8 @@ TEST(WindowLinear, GradientIsThatOfTheTotalCost) {
   EXPECT_NEAR(p.cost_at(Eigen::VectorXd::Zero(p.size())), p.cost, 1e-9 * p.cost);
   const Eigen::VectorXd g = p.gradient();
   ASSERT_GT(g.norm(), 1);
-  // A step so small that no pixel crosses a cell of the interpolant, where the derivative jumps. Rounding then is 1e-4 of units of g.
+  // A step so small that no pixel crosses a cell of the interpolant, where the derivative jumps. Rounding then is 1e-4
+  // of units of g.
   const double h = 1e-8;
   for (int i = 0; i < p.size(); ++i) {
     Eigen::VectorXd d = Eigen::VectorXd::Zero(p.size());

@@ -1,4 +1,5 @@
-// A known scene for the window solver: cameras on an arc, points, and smooth textures on planes, rendered through their homographies.
+// A known scene for the window solver: cameras on an arc, points, and smooth textures on planes, rendered through their
+// homographies.
 #ifndef TEXTPLANE_TESTS_SOLVER_WINDOW_SCENE_HPP
 #define TEXTPLANE_TESTS_SOLVER_WINDOW_SCENE_HPP
 
@@ -41,8 +42,8 @@ struct SceneText {
 };
 
 inline double texture(double x, double y, int text) {
-  return 125 + 45 * std::sin(0.21 * x + 0.3 + text) * std::cos(0.17 * y - 0.2) + 30 * std::sin(0.09 * x + 0.23 * y + 0.7 * text) +
-         20 * std::cos(0.31 * y - 0.05 * x);
+  return 125 + 45 * std::sin(0.21 * x + 0.3 + text) * std::cos(0.17 * y - 0.2) +
+         30 * std::sin(0.09 * x + 0.23 * y + 0.7 * text) + 20 * std::cos(0.31 * y - 0.05 * x);
 }
 
 /// The truth and what is rendered from it. The Window points into it.
@@ -68,7 +69,8 @@ struct Scene {
   /// n points in the view, observed by every frame that sees them.
   void add_points(int n, Noise& noise) {
     for (int p = 0; p < n; ++p)
-      truth.points.push_back({tp::Vector3<double>(1.2 * noise(), 0.9 * noise(), 4 + 1.2 * noise()), false, tp::Status::ok});
+      truth.points.push_back(
+          {tp::Vector3<double>(1.2 * noise(), 0.9 * noise(), 4 + 1.2 * noise()), false, tp::Status::ok});
   }
 
   tp::Window& finish() {
@@ -174,7 +176,8 @@ inline Distance distance(const tp::Window& a, const tp::Window& b) {
     d.position = std::max(d.position, T.t.norm());
     d.rotation = std::max(d.rotation, tp::so3_log(T.R).norm());
   }
-  for (std::size_t i = 0; i < a.points.size(); ++i) d.point = std::max(d.point, (a.points[i].p_w - b.points[i].p_w).norm());
+  for (std::size_t i = 0; i < a.points.size(); ++i)
+    d.point = std::max(d.point, (a.points[i].p_w - b.points[i].p_w).norm());
   for (std::size_t i = 0; i < a.texts.size(); ++i)
     d.theta = std::max(d.theta, (a.texts[i].theta - b.texts[i].theta).norm() / a.texts[i].theta.norm());
   return d;

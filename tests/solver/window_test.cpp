@@ -39,8 +39,8 @@ TEST(Window, PointsReturnToTheTruthExactly) {
   EXPECT_LT(d.point, 1e-9);
 }
 
-// Images are rounded to 8 bits and read by bilinear interpolation: E of 1e-4 a patch at the truth, so poses come back to a few
-// hundredths of a px (1 px is 0.004 rad here), planes to what their own covariance says.
+// Images are rounded to 8 bits and read by bilinear interpolation: E of 1e-4 a patch at the truth, so poses come back
+// to a few hundredths of a px (1 px is 0.004 rad here), planes to what their own covariance says.
 TEST(Window, TextsAloneReturnToTheTruth) {
   Scene scene;
   Noise noise(2);
@@ -158,7 +158,8 @@ TEST(Window, HuberKeepsOutliersFromBendingTheMap) {
   for (std::size_t k = 0; k < outlier.size(); ++k) EXPECT_EQ(w.point_observations[k].chi2 > 5.99, outlier[k]) << k;
 }
 
-// One more iteration at a time: the cost after n iterations never rises with n, and every call starts where the last one ended.
+// One more iteration at a time: the cost after n iterations never rises with n, and every call starts where the last
+// one ended.
 TEST(Window, CostIsMonotone) {
   Scene scene;
   Noise noise(7);

@@ -1,6 +1,7 @@
-// BlockCholesky: a symmetric positive definite matrix of 6 x 6 blocks (one block row a camera), its Cholesky factorisation in place and
-// its solves. Written out here, not taken from Eigen, for the reasons in core/numeric.hpp; and so it allocates nothing once grown, adds in
-// one fixed order, and skips the empty blocks before the first one of each row (a sequence without loops is a band).
+// BlockCholesky: a symmetric positive definite matrix of 6 x 6 blocks (one block row a camera), its Cholesky
+// factorisation in place and its solves. Written out here, not taken from Eigen, for the reasons in core/numeric.hpp;
+// and so it allocates nothing once grown, adds in one fixed order, and skips the empty blocks before the first one of
+// each row (a sequence without loops is a band).
 #ifndef TEXTPLANE_SOLVER_BLOCK_CHOLESKY_HPP
 #define TEXTPLANE_SOLVER_BLOCK_CHOLESKY_HPP
 
@@ -50,9 +51,9 @@ class BlockCholesky {
   }
   const Block& at(int i, int j) const noexcept { return blocks_[index(i, j)]; }
 
-  /// A = L L^T in place. `scale` has 6 n entries: a pivot of at most tolerance * scale counts as zero. Its parameter is then held, as
-  /// if its diagonal entry were infinite, and its block is marked deficient(). Returns the number of such pivots; -1 where a pivot is not finite
-  /// and the factor useless.
+  /// A = L L^T in place. `scale` has 6 n entries: a pivot of at most tolerance * scale counts as zero. Its parameter is
+  /// then held, as if its diagonal entry were infinite, and its block is marked deficient(). Returns the number of such
+  /// pivots; -1 where a pivot is not finite and the factor useless.
   int factorise(const double* scale, double tolerance) noexcept {
     int zero_pivots = 0;
     for (int i = 0; i < n_; ++i) {

@@ -1,13 +1,20 @@
-// Windowed bundle adjustment: Levenberg-Marquardt over key-frame poses, points and text planes with the Schur complement.
+// Windowed bundle adjustment: Levenberg-Marquardt over key-frame poses, points and text planes with the Schur
+// complement.
 //
-// window_problem.hpp says what is minimised, what must be fixed, and what comes back. The method: every iteration linearises all
-// terms (window_terms.hpp), damps by lambda times the diagonal (Marquardt), eliminates points and planes, and solves the cameras'
-// system by a block Cholesky factorisation of our own (block_cholesky.hpp; no algorithm of Eigen's is instantiated). lambda follows the
-// gain ratio (Nielsen 1999). The gauge is the caller's: frames flagged fixed stay constant bit for bit, and the distance of two frames can
-// be held; a gauge that is missing is counted from the graph of observations and reported, never left to the damping.
+// window_problem.hpp says what is minimised, what must be fixed, and what comes back. The method: every iteration
+// linearises all terms (window_terms.hpp), damps by lambda times the diagonal (Marquardt), eliminates points and
+// planes, and solves the cameras' system by a block Cholesky factorisation of our own (block_cholesky.hpp). lambda
+// follows the gain ratio (Nielsen 1999). The gauge is the caller's: frames flagged fixed stay constant bit for bit, and
+// the distance of two frames can be held; a gauge that is missing is counted from the graph of observations and
+// reported, never left to the damping.
 //
-// A text term is judged on the visible set of its linearisation, lost pixels charged (DESIGN section 3). An observation that cannot be
-// evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted state drops out with its status.
+// No decomposition of Eigen's is instantiated, but fixed-size products (6 x 6, 6 x 3) and std::vector members are, and
+// the compiler may keep them as weak symbols outside of our ABI namespace: include this header in translation units of
+// one instruction set only.
+//
+// A text term is judged on the visible set of its linearisation, lost pixels charged (DESIGN section 3). An observation
+// that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted state drops
+// out with its status.
 #ifndef TEXTPLANE_SOLVER_WINDOW_HPP
 #define TEXTPLANE_SOLVER_WINDOW_HPP
 
@@ -21,8 +28,8 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Memory of solve_window(), to be reused from call to call: a call allocates only where its window exceeds every earlier one, and
-/// then in its set-up. Not to be shared by two threads at a time.
+/// Memory of solve_window(), to be reused from call to call: a call allocates only where its window exceeds every
+/// earlier one, and then in its set-up. Not to be shared by two threads at a time.
 struct WindowWorkspace {
   detail::WindowState current, trial;
   detail::WindowStructure structure;
@@ -35,8 +42,13 @@ namespace detail {
 class WindowSolver {
  public:
   WindowSolver(Window& window, const WindowOptions& options, WindowWorkspace& workspace)
-      : w_(window), o_(options), x_(workspace.current), y_(workspace.trial), structure_(workspace.structure),
-        terms_(workspace.terms), system_(workspace.system) {}
+      : w_(window),
+        o_(options),
+        x_(workspace.current),
+        y_(workspace.trial),
+        structure_(workspace.structure),
+        terms_(workspace.terms),
+        system_(workspace.system) {}
 
   WindowSummary run() {
     sum_.status = WindowStructure::check(w_, o_);
@@ -185,10 +197,11 @@ class WindowSolver {
 
 }  // namespace detail
 
-/// Adjusts the window in place: free poses, points and planes move, and the fields marked "out" are written. See WindowSummary for the statuses;
-/// unless is_ok(status) or diverged, poses, points and planes are as they were. Deterministic: the same window gives the same bits, whatever
-/// the workspace held before. Allocates as WindowWorkspace says (and throws std::bad_alloc like any container); never throws otherwise. One
-/// thread; calls on different windows and workspaces may run at the same time.
+/// Adjusts the window in place: free poses, points and planes move, and the fields marked "out" are written. See
+/// WindowSummary for the statuses; unless is_ok(status) or diverged, poses, points and planes are as they were.
+/// Deterministic: the same window gives the same bits, whatever the workspace held before. Allocates as WindowWorkspace
+/// says (and throws std::bad_alloc like any container); never throws otherwise. One thread; calls on different windows
+/// and workspaces may run at the same time.
 inline WindowSummary solve_window(Window& window, const WindowOptions& options, WindowWorkspace& workspace) {
   return detail::WindowSolver(window, options, workspace).run();
 }

@@ -1,5 +1,5 @@
-// The linear algebra of a window: normal equations in blocks, the Schur complement that eliminates the landmarks, back-substitution,
-// and the covariance of landmarks. Knows nothing of images or projections.
+// The linear algebra of a window: normal equations in blocks, the Schur complement that eliminates the landmarks,
+// back-substitution, and the covariance of landmarks. Knows nothing of images or projections.
 //
 //   [ H_cc  W  ] [x_c]     [g_c]
 //   [ W^T   V  ] [x_l] = - [g_l],   S = H_cc - W V^-1 W^T,   S x_c = -(g_c - W V^-1 g_l),   x_l = -V^-1 (g_l + W^T x_c)
@@ -39,7 +39,8 @@ class WindowSchur {
     scale_row_.clear();
   }
 
-  /// The equality sum of row . x = 0 on the translations of two cameras (-1: a fixed frame, no entries): the scale gauge.
+  /// The equality sum of row . x = 0 on the translations of two cameras (-1: a fixed frame, no entries): the scale
+  /// gauge.
   void set_scale_row(int camera_a, const Vector3<double>& row_a, int camera_b, const Vector3<double>& row_b) {
     scale_row_.assign(camera_gradient_.size(), 0.0);
     for (int i = 0; i < 3; ++i) {
@@ -67,8 +68,9 @@ class WindowSchur {
   }
   void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
 
-  /// Builds and factorises S of the system damped by lambda times its diagonal. False where numbers overflowed. With lambda 0 landmarks
-  /// and cameras that the system does not determine are marked (landmark_deficient(), camera_deficient()) and held in those directions.
+  /// Builds and factorises S of the system damped by lambda times its diagonal. False where numbers overflowed. With
+  /// lambda 0 landmarks and cameras that the system does not determine are marked (landmark_deficient(),
+  /// camera_deficient()) and held in those directions.
   bool reduce(double lambda) {
     const WindowStructure& s = *structure_;
     const int cameras = s.cameras(), landmarks = s.landmarks();
@@ -94,7 +96,8 @@ class WindowSchur {
         const Vector6<double> g = at(eliminated_, i) * at(landmark_gradient_, l);
         for (int k = 0; k < 6; ++k) at(camera_step_, 6 * ci + k) += g[k];
         for (int j = begin; j <= i; ++j)
-          subtract_outer<3>(at(eliminated_, i).data(), at(coupling_, j).data(), reduced_.at(ci, at(s.slot_camera, j)).data());
+          subtract_outer<3>(at(eliminated_, i).data(), at(coupling_, j).data(),
+                            reduced_.at(ci, at(s.slot_camera, j)).data());
       }
     }
     add_scale_weight();
@@ -194,7 +197,8 @@ class WindowSchur {
     return d.cwiseMax(1e-9 * d.sum());
   }
 
-  // (V + lambda D)^-1. A landmark without parallax keeps a trace of damping even where lambda is 0; one without information does not move.
+  // (V + lambda D)^-1. A landmark without parallax keeps a trace of damping even where lambda is 0; one without
+  // information does not move.
   void invert(int l) noexcept {
     Matrix3<double> v = at(landmark_, l);
     v.diagonal() += lambda_ * damping(l);
@@ -209,8 +213,8 @@ class WindowSchur {
     if (damped.ok()) at(inverse_, l) = damped.inverse();
   }
 
-  // With n the scale row, S + w n n^T has the same solutions under n.x = 0 and is regular where n carries the only missing
-  // direction.
+  // With n the scale row, S + w n n^T has the same solutions under n.x = 0 and is regular where n carries the only
+  // missing direction.
   void add_scale_weight() noexcept {
     if (scale_row_.empty()) return;
     double weight = 0;

@@ -1,5 +1,5 @@
-// What of a Window takes part in the solve: usable observations, free frames and landmarks, the gauge, and the block pattern.
-// Landmarks are the points, then the texts: both are three parameters that the Schur complement eliminates.
+// What of a Window takes part in the solve: usable observations, free frames and landmarks, the gauge, and the block
+// pattern.
 #ifndef TEXTPLANE_SOLVER_WINDOW_STRUCTURE_HPP
 #define TEXTPLANE_SOLVER_WINDOW_STRUCTURE_HPP
 
@@ -9,38 +9,10 @@
 #include <vector>
 
 #include "textplane/solver/window_problem.hpp"
+#include "textplane/solver/window_state.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
-
-template <class Vector>
-auto& at(Vector& v, int i) noexcept {
-  return v[static_cast<std::size_t>(i)];
-}
-template <class Vector>
-int count(const Vector& v) noexcept {
-  return static_cast<int>(v.size());
-}
-
-/// Poses and landmarks, apart from the Window so that trials cost nothing to take back.
-struct WindowState {
-  std::vector<SE3<double>> T_w_c;
-  std::vector<Vector3<double>> landmark;
-
-  void read(const Window& w) {
-    T_w_c.clear();
-    landmark.clear();
-    for (const WindowFrame& f : w.frames) T_w_c.push_back(f.T_w_c);
-    for (const WindowPoint& p : w.points) landmark.push_back(p.p_w);
-    for (const WindowText& t : w.texts) landmark.push_back(t.theta);
-  }
-  void write(Window& w) const {
-    for (std::size_t i = 0; i < w.frames.size(); ++i) w.frames[i].T_w_c = T_w_c[i];
-    for (std::size_t i = 0; i < w.points.size(); ++i) w.points[i].p_w = landmark[i];
-    for (std::size_t i = 0; i < w.texts.size(); ++i) w.texts[i].theta = landmark[w.points.size() + i];
-  }
-  Vector3<double> centre_offset(int a, int b) const noexcept { return at(T_w_c, b).t - at(T_w_c, a).t; }
-};
 
 class WindowStructure {
  public:
@@ -50,10 +22,11 @@ class WindowStructure {
   std::vector<std::uint8_t> landmark_free;  ///< Used and not fixed.
   std::vector<int> camera_of_frame;         ///< Index among the free cameras, or -1.
   std::vector<int> frame_of_camera;
-  std::vector<int> slot_begin;   ///< Landmark l couples to the cameras slot_camera[slot_begin[l] .. slot_begin[l + 1]), ascending.
+  std::vector<int>
+      slot_begin;  ///< Landmark l couples to the cameras slot_camera[slot_begin[l] .. slot_begin[l + 1]), ascending.
   std::vector<int> slot_camera;
-  std::vector<int> point_slot;   ///< A slot each point observation, -1 where landmark or camera is not free.
-  std::vector<int> host_slot;    ///< A slot each text observation, as above.
+  std::vector<int> point_slot;  ///< A slot each point observation, -1 where landmark or camera is not free.
+  std::vector<int> host_slot;   ///< A slot each text observation, as above.
   std::vector<int> target_slot;
   int scale_a = -1, scale_b = -1;  ///< Frames whose distance is held, or -1.
   double scale_distance = 0;
@@ -75,8 +48,8 @@ class WindowStructure {
       if (!inside(o.scale_frame_a, w.frames.size()) || !inside(o.scale_frame_b, w.frames.size()) ||
           o.scale_frame_a == o.scale_frame_b)
         return Status::invalid_argument;
-    for (double x : {o.sigma_rep, o.sigma_photo, o.initial_lambda, o.max_lambda, o.min_depth, o.cost_tolerance, o.step_tolerance,
-                     o.max_lost_fraction})
+    for (double x : {o.sigma_rep, o.sigma_photo, o.initial_lambda, o.max_lambda, o.min_depth, o.cost_tolerance,
+                     o.step_tolerance, o.max_lost_fraction})
       if (!is_finite(x)) return Status::non_finite;
     if (!o.point_robust.valid() || !(o.sigma_rep > 0) || !(o.sigma_photo > 0) || !(o.initial_lambda > 0) ||
         !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 || o.text_level < 0 ||
@@ -84,20 +57,22 @@ class WindowStructure {
       return Status::invalid_argument;
     for (const WindowFrame& f : w.frames)
       if (!all_finite(f.T_w_c)) return Status::non_finite;
-    if (!all_finite(Vector2<double>(w.camera.fx, w.camera.fy)) || !all_finite(Vector2<double>(w.camera.cx, w.camera.cy)))
+    if (!all_finite(Vector2<double>(w.camera.fx, w.camera.fy)) ||
+        !all_finite(Vector2<double>(w.camera.cx, w.camera.cy)))
       return Status::non_finite;
     return w.camera.valid() ? Status::ok : Status::invalid_argument;
   }
 
-  /// From the observations whose own status is ok: prunes what cannot be determined (writing statuses), measures the gauge and lays out
-  /// the blocks. Allocates where the window exceeds every earlier one.
+  /// From the observations whose own status is ok: prunes what cannot be determined (writing statuses), measures the
+  /// gauge and lays out the blocks. Allocates where the window exceeds every earlier one.
   Status build(Window& w, const WindowOptions& o) {
     landmark_used.assign(w.points.size() + w.texts.size(), 0);
     camera_of_frame.assign(w.frames.size(), -1);
     frame_of_camera.clear();
     point_active.assign(w.point_observations.size(), 0);
     text_active.assign(w.text_observations.size(), 0);
-    for (std::size_t k = 0; k < point_active.size(); ++k) point_active[k] = w.point_observations[k].status == Status::ok;
+    for (std::size_t k = 0; k < point_active.size(); ++k)
+      point_active[k] = w.point_observations[k].status == Status::ok;
     for (std::size_t k = 0; k < text_active.size(); ++k) text_active[k] = w.text_observations[k].status == Status::ok;
     while (prune(w)) {
     }
@@ -210,7 +185,8 @@ class WindowStructure {
     }
     for (int t = 0; t < count(w.texts); ++t)
       if (at(w.texts, t).fixed && at(landmark_used, points + t)) at(anchors_, root(at(w.texts, t).host)).scale = true;
-    // Fixed points anchor each set that sees them; three leave no freedom (unless they are collinear, which the factorisation tells).
+    // Fixed points anchor each set that sees them; three leave no freedom (unless they are collinear, which the
+    // factorisation tells).
     for (int k = 0; k < count(point_active); ++k)
       if (at(point_active, k) && at(w.points, at(w.point_observations, k).point).fixed)
         at(anchors_, root(at(w.point_observations, k).frame)).note_fixed_point(at(w.point_observations, k).point);
@@ -247,7 +223,8 @@ class WindowStructure {
     slot_camera.assign(static_cast<std::size_t>(slot_begin.back()), -1);
     slot_unique_.assign(slot_camera.size(), -1);
     cursor_.assign(slot_begin.begin(), slot_begin.end() - 1);
-    for_each_coupling(w, points, [&](int landmark, int camera, int&) { at(slot_camera, at(cursor_, landmark)++) = camera; });
+    for_each_coupling(w, points,
+                      [&](int landmark, int camera, int&) { at(slot_camera, at(cursor_, landmark)++) = camera; });
     int out = 0;
     for (std::size_t l = 0; l + 1 < slot_begin.size(); ++l) {
       const int first = slot_begin[l], last = slot_begin[l + 1];

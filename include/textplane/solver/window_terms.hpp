@@ -1,5 +1,5 @@
-// The terms of a window's cost: reprojection errors of points and photometric errors of texts, their derivatives by poses and
-// landmarks, and their values at a trial state.
+// The terms of a window's cost: reprojection errors of points and photometric errors of texts, their derivatives by
+// poses and landmarks, and their values at a trial state.
 #ifndef TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
 #define TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
 
@@ -23,8 +23,8 @@ struct WindowTrial {
 
 class WindowTerms {
  public:
-  /// Resets what the solver writes back, finds unusable elements and linearises the texts once. Allocates where the window exceeds
-  /// every earlier one.
+  /// Resets what the solver writes back, finds unusable elements and linearises the texts once. Allocates where the
+  /// window exceeds every earlier one.
   void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
     for (WindowFrame& f : w.frames) f.status = Status::ok;
     for (WindowPoint& p : w.points) p.status = all_finite(p.p_w) ? Status::ok : Status::non_finite;
@@ -46,7 +46,7 @@ class WindowTerms {
       t.information.setZero();
       t.zncc = 0;
       t.used_observations = 0;
-      t.status = !all_finite(t.theta)                                            ? Status::non_finite
+      t.status = !all_finite(t.theta)                                              ? Status::non_finite
                  : !t.patch || !is_ok(t.patch->status) || !t.patch->camera.valid() ? Status::invalid_argument
                                                                                    : Status::ok;
       if (t.status == Status::ok && o.text_level < t.patch->level_count())
@@ -59,21 +59,24 @@ class WindowTerms {
       const WindowText& t = at(w.texts, ob.text);
       ob.zncc = 0;
       ob.visible = 0;
-      ob.status = t.status != Status::ok        ? Status::too_few
-                  : ob.frame == t.host          ? Status::degenerate
-                  : !is_finite(ob.weight)       ? Status::non_finite
-                  : !(ob.weight > 0)            ? Status::invalid_argument
-                                                : Status::ok;
+      ob.status = t.status != Status::ok  ? Status::too_few
+                  : ob.frame == t.host    ? Status::degenerate
+                  : !is_finite(ob.weight) ? Status::non_finite
+                  : !(ob.weight > 0)      ? Status::invalid_argument
+                                          : Status::ok;
       const bool pixels = ob.status == Status::ok && o.text_level < t.patch->level_count();
-      mask_begin_[k + 1] = mask_begin_[k] + (pixels ? static_cast<std::size_t>(at(t.patch->levels, o.text_level).view().n) : 0);
+      mask_begin_[k + 1] =
+          mask_begin_[k] + (pixels ? static_cast<std::size_t>(at(t.patch->levels, o.text_level).view().n) : 0);
     }
     mask_.resize(mask_begin_.back());
     text_.resize(w.text_observations.size());
     for (int k = 0; k < count(w.text_observations); ++k)
-      if (at(w.text_observations, k).status == Status::ok) at(w.text_observations, k).status = linearise_text(w, o, x, k);
+      if (at(w.text_observations, k).status == Status::ok)
+        at(w.text_observations, k).status = linearise_text(w, o, x, k);
   }
 
-  /// Text normal equations at x, for the active observations; those that fail are taken out for good, with their status.
+  /// Text normal equations at x, for the active observations; those that fail are taken out for good, with their
+  /// status.
   void linearise_texts(Window& w, const WindowOptions& o, const WindowState& x, WindowStructure& s) {
     for (int k = 0; k < count(s.text_active); ++k) {
       if (!at(s.text_active, k)) continue;
@@ -100,9 +103,10 @@ class WindowTerms {
     return cost;
   }
 
-  /// Cost of the trial y. A point that would go behind one of its cameras takes back its position in x: one such point must not spoil
-  /// the step of all others.
-  WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s, WindowState& y) {
+  /// Cost of the trial y. A point that would go behind one of its cameras takes back its position in x: one such point
+  /// must not spoil the step of all others.
+  WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
+                       WindowState& y) {
     WindowTrial trial;
     bool taken_back = true;
     for (int pass = 0; taken_back; ++pass) {
@@ -127,9 +131,9 @@ class WindowTerms {
       const WindowTextObservation& ob = at(w.text_observations, k);
       const WindowText& t = at(w.texts, ob.text);
       const int visible = at(text_, k).visible;
-      const PhotometricCost c =
-          reference::evaluate(photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera),
-                              at(y.landmark, count(w.points) + ob.text), relative_pose(t, ob, y), o.photometric, photometric_, mask(k));
+      const PhotometricCost c = reference::evaluate(
+          photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera),
+          at(y.landmark, count(w.points) + ob.text), relative_pose(t, ob, y), o.photometric, photometric_, mask(k));
       pixels += visible;
       lost += is_ok(c.status) ? c.lost : visible;
       trial.cost += weight(o, ob, visible) * (is_ok(c.status) ? c.cost : o.photometric.robust.rho(2.0));
@@ -183,7 +187,8 @@ class WindowTerms {
   using Matrix6 = WindowSchur::Matrix6;
   using Matrix63 = WindowSchur::Matrix63;
 
-  static bool in_front(const WindowPointObservation& k, const WindowState& x, const WindowOptions& o, Vector3<double>* p_c) noexcept {
+  static bool in_front(const WindowPointObservation& k, const WindowState& x, const WindowOptions& o,
+                       Vector3<double>* p_c) noexcept {
     const SE3<double>& T = at(x.T_w_c, k.frame);
     *p_c = T.R.transpose() * (at(x.landmark, k.point) - T.t);
     return (*p_c)[2] > o.min_depth && all_finite(*p_c);
@@ -203,17 +208,18 @@ class WindowTerms {
     const WindowTextObservation& ob = at(w.text_observations, k);
     const WindowText& t = at(w.texts, ob.text);
     NormalEquations<9>& out = at(text_, k);
-    out = reference::linearise_pose_plane(photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera),
-                                          at(x.landmark, count(w.points) + ob.text), relative_pose(t, ob, x), o.photometric,
-                                          photometric_);
+    out = reference::linearise_pose_plane(
+        photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera),
+        at(x.landmark, count(w.points) + ob.text), relative_pose(t, ob, x), o.photometric, photometric_);
     if (is_ok(out.status))
-      std::copy_n(photometric_.visible(), at(mask_begin_, k + 1) - at(mask_begin_, k), mask_.begin() + static_cast<std::ptrdiff_t>(at(mask_begin_, k)));
+      std::copy_n(photometric_.visible(), at(mask_begin_, k + 1) - at(mask_begin_, k),
+                  mask_.begin() + static_cast<std::ptrdiff_t>(at(mask_begin_, k)));
     return out.status;
   }
 
   // p_c = T_w_c^-1 p_w: d p_c = -v + [p_c]x omega for T_w_c <- T_w_c Exp(v, omega), and R_w_c^T d p_w.
-  static double add_point(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s, int k,
-                          WindowSchur& out) noexcept {
+  static double add_point(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
+                          int k, WindowSchur& out) noexcept {
     const WindowPointObservation& ob = at(w.point_observations, k);
     Vector3<double> p_c;
     in_front(ob, x, o, &p_c);
@@ -255,7 +261,8 @@ class WindowTerms {
     if (host >= 0) out.add_camera(host, A.transpose() * pose * A, A.transpose() * g);
     if (target >= 0) out.add_camera(target, pose, -g);
     if (host >= 0 && target >= 0) out.add_cameras(host, target, -(A.transpose() * pose));
-    if (at(s.landmark_free, landmark)) out.add_landmark(landmark, scale * ne.H.bottomRightCorner<3, 3>(), scale * ne.b.tail<3>());
+    if (at(s.landmark_free, landmark))
+      out.add_landmark(landmark, scale * ne.H.bottomRightCorner<3, 3>(), scale * ne.b.tail<3>());
     if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), A.transpose() * cross);
     if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), -cross);
     return scale * ne.cost;
