@@ -1,0 +1,210 @@
+#include "textslam/adjustment.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "textslam/point_mapper.hpp"
+
+namespace textslam {
+namespace {
+
+// What of the map takes part, and as what.
+struct Selection {
+  std::vector<int> free_frames, fixed_frames;
+  std::vector<int> points;
+};
+
+class Adjustment {
+ public:
+  Adjustment(Map& map, const Parameters& parameters, const Selection& selection) : map_(map), parameters_(parameters) {
+    slot_of_.assign(map.keyframes.size(), -1);
+    window_.camera = map.camera;
+    for (const int id : selection.free_frames) add_frame(id, false);
+    for (const int id : selection.fixed_frames) add_frame(id, true);
+    for (const int id : selection.points) add_point(id);
+    if (parameters.mode != Mode::points)
+      for (TextObject& text : map.texts) add_text(text);
+  }
+
+  void solve(int iterations, int scale_a, int scale_b) {
+    textplane::WindowOptions options;
+    options.sigma_photo = parameters_.photometric_sigma;
+    options.max_iterations = iterations;
+    options.scale_frame_a = scale_a < 0 ? -1 : slot_of_[static_cast<std::size_t>(scale_a)];
+    options.scale_frame_b = scale_b < 0 ? -1 : slot_of_[static_cast<std::size_t>(scale_b)];
+    textplane::WindowWorkspace workspace;
+    textplane::solve_window(window_, options, workspace);
+  }
+
+  void write_back() {
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+      map_.keyframe(frames_[i]).T_w_c = textplane::renormalised(window_.frames[i].T_w_c);
+    for (std::size_t i = 0; i < points_.size(); ++i) map_.point(points_[i]).p_w = window_.points[i].p_w;
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+      TextObject& text = map_.texts[static_cast<std::size_t>(texts_[i])];
+      if (!textplane::is_ok(window_.texts[i].status)) continue;
+      text.theta = window_.texts[i].theta;
+      text.covariance = window_.texts[i].covariance;
+      text.zncc = window_.texts[i].zncc;
+    }
+  }
+
+  int remove_outliers() {
+    int removed = 0;
+    for (const textplane::WindowPointObservation& o : window_.point_observations) {
+      const int point = points_[static_cast<std::size_t>(o.point)];
+      if (o.chi2 <= 1.5 * parameters_.outlier_chi2 || map_.point(point).bad) continue;
+      remove_observation(map_, point, frames_[static_cast<std::size_t>(o.frame)]);
+      ++removed;
+    }
+    return removed;
+  }
+
+ private:
+  void add_frame(int id, bool fixed) {
+    slot_of_[static_cast<std::size_t>(id)] = static_cast<int>(frames_.size());
+    frames_.push_back(id);
+    textplane::WindowFrame frame;
+    frame.T_w_c = map_.keyframe(id).T_w_c;
+    frame.fixed = fixed;
+    frame.image = map_.keyframe(id).frame.image->view();
+    window_.frames.push_back(frame);
+  }
+
+  void add_point(int id) {
+    const MapPoint& point = map_.point(id);
+    int usable = 0;
+    for (const PointObservation& o : point.observations) usable += slot_of_[static_cast<std::size_t>(o.keyframe)] >= 0;
+    if (usable < 2) return;
+    for (const PointObservation& o : point.observations) {
+      const int slot = slot_of_[static_cast<std::size_t>(o.keyframe)];
+      if (slot < 0) continue;
+      textplane::WindowPointObservation observation;
+      observation.frame = slot;
+      observation.point = static_cast<int>(points_.size());
+      observation.px = o.px;
+      observation.sigma = parameters_.point_sigma;
+      window_.point_observations.push_back(observation);
+    }
+    textplane::WindowPoint window_point;
+    window_point.p_w = point.p_w;
+    window_.points.push_back(window_point);
+    points_.push_back(id);
+  }
+
+  void add_text(TextObject& text) {
+    if (text.state != TextState::mapped || slot_of_[static_cast<std::size_t>(text.host)] < 0) return;
+    std::vector<int> usable;
+    for (const int id : text.targets)
+      if (slot_of_[static_cast<std::size_t>(id)] >= 0) usable.push_back(id);
+    if (usable.empty()) return;
+    for (const int id : spread(usable, static_cast<std::size_t>(parameters_.text_targets))) {
+      textplane::WindowTextObservation observation;
+      observation.text = static_cast<int>(texts_.size());
+      observation.frame = slot_of_[static_cast<std::size_t>(id)];
+      window_.text_observations.push_back(observation);
+    }
+    textplane::WindowText window_text;
+    window_text.host = slot_of_[static_cast<std::size_t>(text.host)];
+    window_text.theta = text.theta;
+    window_text.patch = &text.patch;
+    window_.texts.push_back(window_text);
+    texts_.push_back(text.id);
+  }
+
+  Map& map_;
+  const Parameters& parameters_;
+  textplane::Window window_;
+  std::vector<int> slot_of_;                  // key frame id -> frame of the window, -1: not in it
+  std::vector<int> frames_, points_, texts_;  // index in the window -> id
+};
+
+// Number of points that each key frame shares with the given points.
+std::vector<int> shared_points(const Map& map, const std::vector<int>& points) {
+  std::vector<int> shared(map.keyframes.size(), 0);
+  for (const int id : points)
+    for (const PointObservation& o : map.point(id).observations) ++shared[static_cast<std::size_t>(o.keyframe)];
+  return shared;
+}
+
+// Ids of key frames with the largest counts, at least `least` each; ties to the newer.
+std::vector<int> strongest(const std::vector<int>& shared, int least, std::size_t count) {
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < shared.size(); ++i)
+    if (shared[i] >= least) ids.push_back(static_cast<int>(i));
+  std::sort(ids.begin(), ids.end(), [&](int a, int b) {
+    const int sa = shared[static_cast<std::size_t>(a)], sb = shared[static_cast<std::size_t>(b)];
+    return sa != sb ? sa > sb : a > b;
+  });
+  if (ids.size() > count) ids.resize(count);
+  return ids;
+}
+
+std::vector<int> points_of(const Map& map, const std::vector<int>& keyframes) {
+  std::vector<int> points;
+  for (const int id : keyframes)
+    points.insert(points.end(), map.keyframe(id).points.begin(), map.keyframe(id).points.end());
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+}  // namespace
+
+void adjust_local(Map& map, const Parameters& parameters) {
+  const int newest = static_cast<int>(map.keyframes.size()) - 1;
+  if (newest < 2) return adjust_all(map, parameters, parameters.window_iterations);
+  std::vector<int> shared = shared_points(map, map.keyframe(newest).points);
+  shared[static_cast<std::size_t>(newest)] = static_cast<int>(map.points.size()) + 1;
+  Selection selection;
+  selection.free_frames = strongest(shared, 15, static_cast<std::size_t>(parameters.window_frames));
+  selection.free_frames.erase(std::remove(selection.free_frames.begin(), selection.free_frames.end(), 0),
+                              selection.free_frames.end());
+  selection.points = points_of(map, selection.free_frames);
+
+  shared = shared_points(map, selection.points);
+  for (const int id : selection.free_frames) shared[static_cast<std::size_t>(id)] = 0;
+  selection.fixed_frames = strongest(shared, 1, static_cast<std::size_t>(parameters.window_fixed));
+  if (selection.fixed_frames.size() < 2) {
+    // A young map: its oldest free key frame besides the first holds the scale.
+    const auto oldest = std::min_element(selection.free_frames.begin(), selection.free_frames.end());
+    if (selection.free_frames.size() < 2) return;
+    selection.fixed_frames.push_back(*oldest);
+    selection.free_frames.erase(oldest);
+  }
+
+  Adjustment adjustment(map, parameters, selection);
+  adjustment.solve(parameters.window_iterations, -1, -1);
+  adjustment.write_back();
+  adjustment.remove_outliers();
+}
+
+void adjust_all(Map& map, const Parameters& parameters, int iterations) {
+  if (map.keyframes.size() < 2) return;
+  Selection selection;
+  selection.fixed_frames.push_back(0);
+  for (std::size_t i = 1; i < map.keyframes.size(); ++i) selection.free_frames.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    if (!map.points[i].bad) selection.points.push_back(static_cast<int>(i));
+  const std::vector<int> shared = shared_points(map, map.keyframe(0).points);
+  int far = 1;
+  double distance = 0;
+  for (std::size_t i = 1; i < map.keyframes.size(); ++i) {
+    const double d = (map.keyframes[i].T_w_c.t - map.keyframes[0].T_w_c.t).norm();
+    if (shared[i] >= 15 && d > distance) {
+      far = static_cast<int>(i);
+      distance = d;
+    }
+  }
+  for (int round = 0; round < 2; ++round) {
+    Adjustment adjustment(map, parameters, selection);
+    adjustment.solve(iterations, 0, far);
+    adjustment.write_back();
+    if (adjustment.remove_outliers() == 0) break;
+    selection.points.erase(std::remove_if(selection.points.begin(), selection.points.end(),
+                                          [&](int id) { return map.point(id).bad; }),
+                           selection.points.end());
+  }
+}
+
+}  // namespace textslam

@@ -1,0 +1,73 @@
+// textslam: SLAM with planar text on a sequence of images, or on one that it renders itself.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "io/input_error.hpp"
+#include "renderer/render_sequence.hpp"
+#include "textslam/progress.hpp"
+#include "textslam/run.hpp"
+
+namespace {
+
+constexpr int kInputError = 2;
+
+int execute(int argc, char** argv) {
+  textslam::RunOptions options;
+  textslam::RenderOptions render;
+  std::string mode = "text";
+  bool only_render = false;
+
+  CLI::App app{"SLAM with points and planar text: a sequence of images becomes a trajectory and a 3D text map."};
+  app.add_option("SEQUENCE", options.sequence, "Folder with images.txt (or rgb.txt), camera.yaml, optionally detections/ and groundtruth.txt");
+  app.add_option("--render", render.kind, "Render a sequence of this kind into OUTPUT/sequence and run on it")
+      ->check(CLI::IsMember(textslam::render_kinds()));
+  app.add_option("--output", options.output, "Folder for the results")->required();
+  app.add_option("--mode", mode, "text: points and text; points: points alone")->check(CLI::IsMember({"text", "points"}))->capture_default_str();
+  app.add_option("--detector", options.detector, "files: the sequence's detections; classical: built in")
+      ->check(CLI::IsMember({"files", "classical"}))->capture_default_str();
+  app.add_option("--first", options.first, "Index of the first frame")->check(CLI::NonNegativeNumber)->capture_default_str();
+  app.add_option("--last", options.last, "Index of the last frame")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", options.parameters.seed, "Of the rendered sequence and of every random draw")->capture_default_str();
+  app.add_option("--frames", render.frames, "Number of rendered frames")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_flag("--render-only", only_render, "Render without running on it");
+  try {
+    app.parse(argc, argv);
+    if (options.sequence.empty() == render.kind.empty()) throw CLI::ValidationError("give either SEQUENCE or --render KIND");
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "textslam: %s (see textslam --help)\n", error.what());
+    return kInputError;
+  }
+
+  options.parameters.mode = mode == "points" ? textslam::Mode::points : textslam::Mode::text;
+  if (!render.kind.empty()) {
+    options.sequence = render.output = options.output + "/sequence";
+    render.seed = options.parameters.seed;
+    textslam::Progress progress("rendering");
+    textslam::render_sequence(render, [&](int done, int total) {
+      progress.show(static_cast<std::size_t>(done), static_cast<std::size_t>(total), render.kind);
+    });
+    if (only_render) return 0;
+  }
+  const textslam::RunResult result = textslam::run(options);
+  std::printf("%s  %-22s %s\n", textslam::format_summary(result.summary).c_str(), "output", options.output.c_str());
+  if (result.error.empty()) return 0;
+  std::fprintf(stderr, "textslam: %s\n", result.error.c_str());
+  return kInputError;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return execute(argc, argv);
+  } catch (const textslam::InputError& error) {
+    std::fprintf(stderr, "textslam: %s\n", error.what());
+    return kInputError;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "textslam: %s\n", error.what());
+    return 1;
+  }
+}

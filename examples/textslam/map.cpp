@@ -1,0 +1,30 @@
+#include "textslam/map.hpp"
+
+namespace textslam {
+
+std::vector<int> spread(const std::vector<int>& ids, std::size_t count) {
+  if (ids.size() <= count || count < 2) return ids;
+  std::vector<int> picked;
+  for (std::size_t i = 0; i < count; ++i) picked.push_back(ids[i * (ids.size() - 1) / (count - 1)]);
+  return picked;
+}
+
+bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Quad<double>* quad) {
+  const Eigen::Matrix3d H = textplane::plane_homography(text.theta, map.T_c_h(T_c_w, text.host));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 q = H * map.camera.unproject(text.patch.quad.corner[i]);
+    if (!(q.z() > 1e-6)) return false;
+    quad->corner[i] = map.camera.pixel(Vec2(q.x() / q.z(), q.y() / q.z()));
+  }
+  return true;
+}
+
+double facing(const Map& map, const TextObject& text, const SE3d& T_c_w) {
+  const SE3d T_c_h = map.T_c_h(T_c_w, text.host);
+  const Vec3 centre_px = map.camera.unproject(textplane::centroid(text.patch.quad));
+  const Vec3 centre = T_c_h * textplane::plane_point(text.theta, centre_px);
+  const Vec3 normal = T_c_h.R * textplane::plane_normal(text.theta);
+  return -normal.dot(centre.normalized());
+}
+
+}  // namespace textslam

@@ -1,0 +1,119 @@
+// Map: what the system knows of the world. Plain data; the steps of the system read and change it.
+//
+// Frames: T_w_c maps camera to world. World units are arbitrary (monocular). Ids are indices and never change; what is
+// dropped is flagged, not erased.
+#ifndef TEXTSLAM_MAP_HPP
+#define TEXTSLAM_MAP_HPP
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/detections.hpp"
+#include "textplane/textplane.hpp"
+
+namespace textslam {
+
+using textplane::Pyramid;
+using Vec2 = Eigen::Vector2d;
+using Vec2f = Eigen::Vector2f;
+using Vec3 = Eigen::Vector3d;
+
+/// One image on its way through the system: undistorted, as a pyramid, with what the detector found (undistorted px).
+struct Frame {
+  int index = -1;
+  double timestamp = 0;
+  std::shared_ptr<const Pyramid> image;
+  std::vector<Detection> detections;
+};
+
+struct PointObservation {
+  int keyframe;
+  Vec2 px;
+};
+
+struct MapPoint {
+  Vec3 p_w;
+  std::vector<PointObservation> observations;  ///< The first is the host.
+  int visible = 0;                             ///< Frames that should have seen it.
+  int found = 0;                               ///< Frames that did.
+  bool bad = false;
+};
+
+struct KeyFrame {
+  Frame frame;
+  SE3d T_w_c;
+  std::vector<int> points;  ///< Ids of the map points observed here.
+};
+
+enum class TextState {
+  candidate,  ///< Detected; its plane is not known yet.
+  tentative,  ///< Has a plane, waits for n_min observations.
+  mapped,     ///< Takes part in tracking and adjustment.
+  dropped,
+};
+
+/// A planar text object: a quad in its host key frame and the plane theta = -n/d in the host's frame.
+struct TextObject {
+  int id = -1;
+  TextState state = TextState::candidate;
+  int host = -1;  ///< Key frame.
+  textplane::TextPatch patch;
+  Vec3 theta = Vec3::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::vector<int> targets;          ///< Key frames (without the host) that observe it well.
+  std::map<std::string, int> votes;  ///< Words read, without those unread.
+  int detections = 0;                ///< Frames in which the detector saw it.
+  int failures = 0;                  ///< Key frames in a row that should have seen it and did not.
+  double zncc = 0;                   ///< Mean over its last refinement.
+
+  bool has_plane() const { return state == TextState::tentative || state == TextState::mapped; }
+  /// The word read most often (the first in order among equals), "###" where none was.
+  std::string word() const {
+    std::string best = "###";
+    int most = 0;
+    for (const auto& [text, count] : votes)
+      if (count > most) {
+        best = text;
+        most = count;
+      }
+    return best;
+  }
+};
+
+struct Map {
+  Pinhole<double> camera;
+  int width = 0, height = 0;
+  std::vector<KeyFrame> keyframes;
+  std::vector<MapPoint> points;
+  std::vector<TextObject> texts;
+
+  /// Motion of host-frame points of key frame `host` to a camera with world-to-camera pose T_c_w.
+  SE3d T_c_h(const SE3d& T_c_w, int host) const { return T_c_w * keyframes[static_cast<std::size_t>(host)].T_w_c; }
+  KeyFrame& keyframe(int id) { return keyframes[static_cast<std::size_t>(id)]; }
+  const KeyFrame& keyframe(int id) const { return keyframes[static_cast<std::size_t>(id)]; }
+  MapPoint& point(int id) { return points[static_cast<std::size_t>(id)]; }
+  const MapPoint& point(int id) const { return points[static_cast<std::size_t>(id)]; }
+};
+
+/// A corner followed from frame to frame.
+struct Track {
+  Vec2f px;
+  int point = -1;                              ///< Id of its map point, -1 while it has none.
+  std::vector<PointObservation> observations;  ///< In key frames, while it has no point.
+  bool inlier = true;                          ///< Of the last pose.
+};
+
+/// At most `count` of the ids, evenly spread, the first and the last among them.
+std::vector<int> spread(const std::vector<int>& ids, std::size_t count);
+
+/// The text object's quad as seen by a camera with world-to-camera pose T_c_w; false where a corner is behind the camera.
+bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Quad<double>* quad);
+
+/// Cosine of the angle between a text's normal and the ray to its centre, seen from T_c_w; positive towards the camera.
+double facing(const Map& map, const TextObject& text, const SE3d& T_c_w);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_MAP_HPP

@@ -1,0 +1,48 @@
+// The output folder: trajectories, text map, timings and metrics, each file whole or absent.
+//
+//   trajectory.txt       TUM, camera to world, final poses
+//   trajectory_live.txt  each pose as known when its frame was processed
+//   keyframes.txt        TUM, final poses of the key frames
+//   text_map.json        {"texts":[{"id","text","corners","normal","theta","host","observations","zncc"}]}, world frame
+//   text_map.ply         text quads as faces, points, colours
+//   timing.json          milliseconds by stage; the only file that differs between two runs
+//   metrics.json         counts; errors where ground truth exists
+#ifndef TEXTSLAM_OUTPUTS_HPP
+#define TEXTSLAM_OUTPUTS_HPP
+
+#include <string>
+
+#include "io/evaluate.hpp"
+#include "io/sequence.hpp"
+#include "textslam/evaluate_text.hpp"
+#include "textslam/system.hpp"
+
+namespace textslam {
+
+/// The numbers of the closing table.
+struct RunSummary {
+  std::size_t frames = 0, tracked = 0, tracked_live = 0;
+  int first_tracked_live = -1;  ///< Index of the frame at which the map began.
+  std::size_t keyframes = 0, points = 0, texts = 0;
+  bool has_truth = false;
+  TrajectoryEvaluation trajectory, live;
+  TextEvaluation text;
+  double median_ms = 0;  ///< A frame, detection aside.
+};
+
+/// Final poses, and poses as known live, of the tracked frames.
+std::vector<StampedPose> final_trajectory(const System& system);
+std::vector<StampedPose> live_trajectory(const System& system);
+
+/// Compares with ground truth where the sequence has it. `frames`: how many the run was to process.
+RunSummary summarise(const System& system, const Sequence& sequence, std::size_t frames);
+
+/// Writes every file into `folder`, which exists. Throws std::runtime_error where one cannot be written.
+void write_outputs(const std::string& folder, const System& system, const RunSummary& summary);
+
+/// The table for the terminal.
+std::string format_summary(const RunSummary& summary);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_OUTPUTS_HPP

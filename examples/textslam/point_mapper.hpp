@@ -1,0 +1,33 @@
+// Points of the map: observations of a new key frame, triangulation of tracks with enough parallax, and culling.
+#ifndef TEXTSLAM_POINT_MAPPER_HPP
+#define TEXTSLAM_POINT_MAPPER_HPP
+
+#include <vector>
+
+#include "textslam/map.hpp"
+#include "textslam/parameters.hpp"
+
+namespace textslam {
+
+/// Adds a key frame at T_w_c; every inlier track with a point becomes an observation of it, every other track keeps one.
+/// Returns its id.
+int insert_keyframe(Map& map, const Frame& frame, const SE3d& T_w_c, std::vector<Track>& tracks);
+
+/// Makes points of tracks whose rays have opened by min_parallax and agree within max_reprojection. Returns how many.
+int triangulate_tracks(Map& map, const Parameters& parameters, std::vector<Track>& tracks);
+
+/// Adds the observation of `point` in `keyframe` to both.
+void add_observation(Map& map, int point, int keyframe, const Vec2& px);
+
+/// Removes the observation of `point` in `keyframe` from both; a point left with fewer than two is flagged bad.
+void remove_observation(Map& map, int point, int keyframe);
+
+/// Flags points that are found too rarely, and frees the tracks of bad points.
+void cull_points(Map& map, const Parameters& parameters, std::vector<Track>& tracks);
+
+/// Median depth of the points observed by key frame `id`, 0 where it has none.
+double median_depth(const Map& map, int id);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_POINT_MAPPER_HPP

@@ -1,0 +1,30 @@
+// A run: a sequence through detector and system into an output folder.
+#ifndef TEXTSLAM_RUN_HPP
+#define TEXTSLAM_RUN_HPP
+
+#include <string>
+
+#include "textslam/outputs.hpp"
+#include "textslam/parameters.hpp"
+
+namespace textslam {
+
+struct RunOptions {
+  std::string sequence, output;
+  std::string detector = "files";
+  int first = 0;   ///< Index of the first frame.
+  int last = -1;   ///< Index of the last frame; -1: the sequence's last.
+  Parameters parameters;
+};
+
+struct RunResult {
+  RunSummary summary;
+  std::string error;  ///< Empty, or the one line about the input that ended the run early; what came before is written.
+};
+
+/// Throws InputError where nothing could be computed at all, std::runtime_error where the output cannot be written.
+RunResult run(const RunOptions& options);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RUN_HPP

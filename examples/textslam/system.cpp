@@ -1,0 +1,184 @@
+#include "textslam/system.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "textslam/adjustment.hpp"
+#include "textslam/feature_tracks.hpp"
+#include "textslam/point_mapper.hpp"
+#include "textslam/recovery.hpp"
+
+namespace textslam {
+
+System::System(const Pinhole<double>& camera, int width, int height, const Parameters& parameters)
+    : parameters_(parameters), initialiser_(parameters_), text_mapper_(map_, parameters_) {
+  map_.camera = camera;
+  map_.width = width;
+  map_.height = height;
+}
+
+const FrameRecord& System::process(const Frame& frame, double detect_ms) {
+  records_.emplace_back();
+  FrameRecord& record = records_.back();
+  record.timestamp = frame.timestamp;
+  record.detect_ms = detect_ms;
+  if (tracker_) {
+    follow(frame, record);
+    return record;
+  }
+  std::vector<Track> tracks;
+  const double start = now_ms();
+  const bool begun = initialiser_.add(frame, map_, &tracks);
+  record.track_ms = now_ms() - start;
+  if (begun) begin_map(frame, std::move(tracks), record);
+  return record;
+}
+
+void System::set_pose(FrameRecord& record, const SE3d& T_c_w) {
+  record.state = FrameState::tracked;
+  record.live = true;
+  record.keyframe = last_keyframe_;
+  record.T_w_c_live = T_c_w.inverse();
+  record.T_k_c = map_.keyframe(last_keyframe_).T_w_c.inverse() * record.T_w_c_live;
+}
+
+void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecord& record) {
+  const double start = now_ms();
+  const KeyFrame& first = map_.keyframe(0);
+  FrameRecord& first_record = records_[static_cast<std::size_t>(first.frame.index)];
+  first_record.state = FrameState::tracked;
+  first_record.keyframe = 0;
+  last_keyframe_ = 1;
+  const SE3d T_c_w = map_.keyframe(1).T_w_c.inverse();
+  set_pose(record, T_c_w);
+  record.points = static_cast<int>(map_.points.size());
+
+  std::vector<Quad<double>> quads;
+  if (parameters_.mode != Mode::points) {
+    text_mapper_.add_candidates(0, text_mapper_.new_detections(first.frame, first.T_w_c.inverse(), {}));
+    text_mapper_.update(1, tracks);
+    const std::vector<Detection> fresh = text_mapper_.new_detections(frame, T_c_w, tracks);
+    text_mapper_.add_candidates(1, fresh);
+    for (const Detection& detection : fresh) quads.push_back(detection.quad);
+  }
+  last_keyframe_points_ = static_cast<int>(tracks.size());
+  add_corners(frame, 1, quads, parameters_, tracks);
+  tracker_ = std::make_unique<Tracker>(map_, parameters_);
+  tracker_->start(frame, T_c_w, std::move(tracks));
+  record.map_ms = now_ms() - start;
+}
+
+void System::follow(const Frame& frame, FrameRecord& record) {
+  const double start = now_ms();
+  if (lost_ ? !recover(frame, record) : false) {
+    record.state = FrameState::lost;
+    record.track_ms = now_ms() - start;
+    return;
+  }
+  if (!lost_) {
+    const TrackReport report = tracker_->track(frame);
+    record.klt_ms = report.klt_ms;
+    record.pose_ms = report.pose_ms;
+    record.reobserve_ms = report.reobserve_ms;
+    record.points = report.inliers;
+    record.texts = report.texts;
+    if (!report.ok) {
+      lost_ = true;
+      if (!recover(frame, record)) {
+        record.state = FrameState::lost;
+        record.track_ms = now_ms() - start;
+        return;
+      }
+    } else {
+      for (const int id : report.visible) ++map_.point(id).visible;
+      for (const int id : report.found) ++map_.point(id).found;
+    }
+  }
+  lost_ = false;
+  set_pose(record, tracker_->pose());
+  record.track_ms = now_ms() - start;
+
+  const double map_start = now_ms();
+  if (parameters_.mode != Mode::points) text_mapper_.associate(frame, tracker_->pose(), tracker_->tracks());
+  if (keyframe_needed(frame)) add_keyframe(frame, record);
+  record.map_ms = now_ms() - map_start;
+}
+
+bool System::recover(const Frame& frame, FrameRecord& record) {
+  Recovery found = relocalise(map_, parameters_, frame);
+  if (found.tracker) {
+    tracker_ = std::move(found.tracker);
+    lost_ = false;
+    record.points = found.report.inliers;
+    record.texts = found.report.texts;
+    return true;
+  }
+  return false;
+}
+
+bool System::keyframe_needed(const Frame& frame) const {
+  const KeyFrame& last = map_.keyframe(last_keyframe_);
+  if (frame.index - last.frame.index < parameters_.keyframe_min_gap) return false;
+  std::vector<double> flow;
+  int points = 0;
+  for (const Track& track : tracker_->tracks()) {
+    points += track.point >= 0 && track.inlier ? 1 : 0;
+    const auto& observations = track.point >= 0 ? map_.point(track.point).observations : track.observations;
+    if (!observations.empty() && observations.back().keyframe == last_keyframe_)
+      flow.push_back((observations.back().px - track.px.cast<double>()).norm());
+  }
+  if (flow.size() < 20 || points < parameters_.keyframe_min_share * last_keyframe_points_) return true;
+  const auto middle = flow.begin() + static_cast<std::ptrdiff_t>(flow.size() / 2);
+  std::nth_element(flow.begin(), middle, flow.end());
+  return *middle > parameters_.keyframe_flow;
+}
+
+void System::add_keyframe(const Frame& frame, FrameRecord& record) {
+  std::vector<Track>& tracks = tracker_->tracks();
+  const SE3d T_w_c = tracker_->pose().inverse();
+  last_keyframe_ = insert_keyframe(map_, frame, T_w_c, tracks);
+  triangulate_tracks(map_, parameters_, tracks);
+
+  const double start = now_ms();
+  adjust_local(map_, parameters_);
+  record.adjust_ms = now_ms() - start;
+  cull_points(map_, parameters_, tracks);
+  const SE3d T_c_w = map_.keyframe(last_keyframe_).T_w_c.inverse();
+
+  std::vector<Quad<double>> quads;
+  if (parameters_.mode != Mode::points) {
+    text_mapper_.update(last_keyframe_, tracks);
+    const std::vector<Detection> fresh = text_mapper_.new_detections(frame, T_c_w, tracks);
+    text_mapper_.add_candidates(last_keyframe_, fresh);
+    for (const Detection& detection : fresh) quads.push_back(detection.quad);
+  }
+  last_keyframe_points_ = 0;
+  for (const Track& track : tracks) last_keyframe_points_ += track.point >= 0 ? 1 : 0;
+  add_corners(frame, last_keyframe_, quads, parameters_, tracks);
+  tracker_->correct(T_c_w);
+  set_pose(record, T_c_w);
+}
+
+void System::fill_in(const std::function<Frame(int)>& load) {
+  if (map_.keyframes.size() < 2) return;
+  Tracker backwards(map_, parameters_);
+  const KeyFrame& second = map_.keyframe(1);
+  backwards.start(second.frame, second.T_w_c.inverse(), tracks_of_keyframe(map_, 1));
+  for (int index = second.frame.index - 1; index >= 0; --index) {
+    const TrackReport report = backwards.track(load(index));
+    if (!report.ok) return;
+    FrameRecord& record = records_[static_cast<std::size_t>(index)];
+    if (record.state == FrameState::tracked) continue;
+    record.state = FrameState::tracked;
+    record.keyframe = index > map_.keyframe(0).frame.index ? 1 : 0;
+    record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * report.T_c_w.inverse();
+    record.points = report.inliers;
+    record.texts = report.texts;
+  }
+}
+
+void System::finish() {
+  if (tracker_) adjust_all(map_, parameters_, parameters_.final_iterations);
+}
+
+}  // namespace textslam

@@ -1,0 +1,223 @@
+#include "textslam/text_mapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "textslam/point_mapper.hpp"
+
+namespace textslam {
+namespace {
+
+const Vec2* observed_in(const std::vector<PointObservation>& observations, int keyframe) {
+  for (const PointObservation& o : observations)
+    if (o.keyframe == keyframe) return &o.px;
+  return nullptr;
+}
+
+const std::vector<PointObservation>& observations_of(const Map& map, const Track& track) {
+  return track.point >= 0 ? map.point(track.point).observations : track.observations;
+}
+
+double overlap(const Quad<double>& a, const Quad<double>& b) {
+  const double inter = std::abs(textplane::area(textplane::intersection(a, b)));
+  const double smaller = std::min(std::abs(textplane::area(a)), std::abs(textplane::area(b)));
+  return smaller > 0 ? inter / smaller : 0;
+}
+
+template <class V>
+double median(V values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+// A text with a plane is where the plane says; a candidate is carried along by the median motion of its corners.
+bool TextMapper::locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks,
+                        Quad<double>* quad) const {
+  if (text.has_plane()) {
+    return facing(map_, text, T_c_w) > 0 && project_text(map_, text, T_c_w, quad);
+  }
+  std::vector<double> dx, dy;
+  for (const Track& track : tracks) {
+    const Vec2* host_px = observed_in(observations_of(map_, track), text.host);
+    if (!host_px || !textplane::contains(text.patch.quad, *host_px)) continue;
+    dx.push_back(track.px.x() - host_px->x());
+    dy.push_back(track.px.y() - host_px->y());
+  }
+  if (dx.size() < 4) return false;
+  const Vec2 shift(median(dx), median(dy));
+  for (std::size_t i = 0; i < 4; ++i) quad->corner[i] = text.patch.quad.corner[i] + shift;
+  return true;
+}
+
+void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vector<Track>& tracks) {
+  if (frame.detections.empty()) return;
+  for (TextObject& text : map_.texts) {
+    Quad<double> quad;
+    if (text.state == TextState::dropped || !locate(text, T_c_w, tracks, &quad)) continue;
+    for (const Detection& detection : frame.detections) {
+      if (textplane::iou(quad, detection.quad) < 0.4) continue;
+      ++text.detections;
+      if (!detection.text.empty() && detection.text != "###") ++text.votes[detection.text];
+      break;
+    }
+  }
+}
+
+std::vector<Detection> TextMapper::new_detections(const Frame& frame, const SE3d& T_c_w,
+                                                  const std::vector<Track>& tracks) const {
+  std::vector<Quad<double>> known;
+  for (const TextObject& text : map_.texts) {
+    Quad<double> quad;
+    if (text.state != TextState::dropped && locate(text, T_c_w, tracks, &quad)) known.push_back(quad);
+  }
+  std::vector<Detection> accepted;
+  for (const Detection& detection : frame.detections) {
+    const Quad<double>& quad = detection.quad;
+    if (!textplane::is_convex(quad) || std::abs(textplane::area(quad)) < parameters_.text_min_area) continue;
+    if (!textplane::inside_image(quad, map_.width, map_.height, parameters_.text_border)) continue;
+    const bool taken = std::any_of(known.begin(), known.end(), [&](const Quad<double>& other) {
+      return overlap(quad, other) > parameters_.text_overlap;
+    });
+    if (taken) continue;
+    accepted.push_back(detection);
+    known.push_back(quad);
+  }
+  return accepted;
+}
+
+void TextMapper::add_candidates(int id, const std::vector<Detection>& detections) {
+  for (const Detection& detection : detections) {
+    TextObject text;
+    text.id = static_cast<int>(map_.texts.size());
+    text.host = id;
+    textplane::SelectOptions options;
+    options.min_pixels = parameters_.text_min_pixels;
+    options.max_pixels = parameters_.text_max_pixels;
+    options.levels = parameters_.text_levels;
+    text.patch = textplane::make_patch(map_.keyframe(id).frame.image->view(), map_.camera, detection.quad, options);
+    if (!textplane::is_ok(text.patch.status)) continue;
+    text.detections = 1;
+    if (!detection.text.empty() && detection.text != "###") ++text.votes[detection.text];
+    map_.texts.push_back(std::move(text));
+  }
+}
+
+// The linear system of section IV-B over the corners tracked from the host to `keyframe`, with outliers removed by their
+// transfer error. False while there are too few corners or too little parallax.
+bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks,
+                               Vec3* theta) const {
+  const SE3d T_t_h = map_.keyframe(keyframe).T_w_c.inverse() * map_.keyframe(text.host).T_w_c;
+  std::vector<Vec3> host, target;
+  std::vector<double> parallax;
+  for (const Track& track : tracks) {
+    const auto& observations = observations_of(map_, track);
+    const Vec2 *host_px = observed_in(observations, text.host), *px = observed_in(observations, keyframe);
+    if (!host_px || !px || !textplane::contains(text.patch.quad, *host_px)) continue;
+    host.push_back(map_.camera.unproject(*host_px));
+    target.push_back(map_.camera.unproject(*px));
+    const Vec3 turned = T_t_h.R * host.back();
+    parallax.push_back(std::atan2(turned.cross(target.back()).norm(), turned.dot(target.back())) * 180 / M_PI);
+  }
+  if (host.size() < 6 || median(parallax) < parameters_.text_min_parallax) return false;
+  for (int round = 0; round < 4; ++round) {
+    const auto fit = textplane::plane_from_matches(host.data(), target.data(), static_cast<int>(host.size()), T_t_h);
+    if (!textplane::is_ok(fit.status)) return false;
+    *theta = fit.value;
+    const Eigen::Matrix3d H = textplane::plane_homography(*theta, T_t_h);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < host.size(); ++i) {
+      const Vec3 q = H * host[i];
+      const bool ahead = q.z() > 1e-6;
+      errors.push_back(ahead ? map_.camera.fx * (q.hnormalized() - target[i].hnormalized()).norm() : 1e9);
+    }
+    const double limit = std::max(1.5, 2.5 * median(errors));
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < host.size(); ++i) {
+      if (errors[i] > limit) continue;
+      host[kept] = host[i];
+      target[kept++] = target[i];
+    }
+    if (kept == host.size()) break;
+    host.resize(kept);
+    target.resize(kept);
+    if (kept < 6) return false;
+  }
+  return theta->allFinite() && textplane::inverse_depth(*theta, map_.camera.unproject(textplane::centroid(text.patch.quad))) > 0;
+}
+
+bool TextMapper::refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc) {
+  std::vector<textplane::PlaneTarget> targets;
+  const SE3d& T_w_h = map_.keyframe(text.host).T_w_c;
+  for (const int id : keyframes)
+    targets.push_back({map_.keyframe(id).frame.image->view(), map_.keyframe(id).T_w_c.inverse() * T_w_h});
+  plane_workspace_.reserve(text.patch, static_cast<int>(targets.size()));
+  textplane::PlaneOptions options;
+  const auto fit = textplane::refine_plane(text.patch, theta, targets.data(), static_cast<int>(targets.size()),
+                                           map_.camera, options, plane_workspace_);
+  if (!textplane::is_ok(fit.status) || fit.zncc < min_zncc) return false;
+  const Vec3 ray = map_.camera.unproject(textplane::centroid(text.patch.quad)).normalized();
+  if (-textplane::plane_normal(fit.theta).dot(ray) < std::cos(parameters_.text_max_slant * M_PI / 180)) return false;
+  for (const Vec2& corner : text.patch.quad.corner)
+    if (!(textplane::inverse_depth(fit.theta, map_.camera.unproject(corner)) > 0)) return false;
+  text.theta = fit.theta;
+  text.covariance = fit.covariance;
+  text.zncc = fit.zncc;
+  return true;
+}
+
+// Does key frame `keyframe` show the text where its plane says?
+void TextMapper::observe(TextObject& text, int keyframe) {
+  const SE3d T_c_w = map_.keyframe(keyframe).T_w_c.inverse();
+  Quad<double> quad;
+  if (facing(map_, text, T_c_w) < std::cos(parameters_.text_max_slant * M_PI / 180)) return;
+  if (!project_text(map_, text, T_c_w, &quad) || !textplane::inside_image(quad, map_.width, map_.height, 1.0)) return;
+  if (std::abs(textplane::area(quad)) < parameters_.text_min_area / 2) return;
+  const int level = text.patch.level_count() > 1 ? 1 : 0;
+  const auto input =
+      textplane::photometric_input(text.patch, level, map_.keyframe(keyframe).frame.image->view(), map_.camera);
+  workspace_.reserve(input.patch.n);
+  const auto cost = textplane::reference::evaluate(input, text.theta, map_.T_c_h(T_c_w, text.host),
+                                                   textplane::PhotometricOptions{}, workspace_);
+  if (!textplane::is_ok(cost.status)) return;
+  if (cost.zncc >= parameters_.text_min_zncc) {
+    text.targets.push_back(keyframe);
+    text.failures = 0;
+  } else if (cost.zncc < parameters_.text_cull_zncc) {
+    ++text.failures;
+  }
+}
+
+void TextMapper::update(int id, const std::vector<Track>& tracks) {
+  for (TextObject& text : map_.texts) {
+    if (text.host == id || text.state == TextState::dropped) continue;
+    if (text.state == TextState::candidate) {
+      Vec3 theta;
+      if (initial_plane(text, id, tracks, &theta) && refine(text, {id}, theta, parameters_.text_min_zncc)) {
+        text.state = TextState::tentative;
+        for (int other = text.host + 1; other < id; ++other) observe(text, other);
+      } else if (id - text.host > parameters_.text_patience) {
+        text.state = TextState::dropped;
+        continue;
+      }
+    }
+    if (!text.has_plane()) continue;
+    const std::size_t before = text.targets.size();
+    observe(text, id);
+    if (text.targets.size() > before && text.state == TextState::tentative) {
+      refine(text, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)), text.theta,
+             parameters_.text_cull_zncc);
+    }
+    const int observations = static_cast<int>(text.targets.size()) + 1;
+    if (text.state == TextState::tentative && observations >= parameters_.text_min_observations &&
+        text.detections >= parameters_.text_min_detections)
+      text.state = TextState::mapped;
+    if (text.failures >= 5 && text.failures > static_cast<int>(text.targets.size())) text.state = TextState::dropped;
+    if (text.state == TextState::tentative && id - text.host > 2 * parameters_.text_patience)
+      text.state = TextState::dropped;
+  }
+}
+
+}  // namespace textslam

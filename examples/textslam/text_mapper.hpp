@@ -1,0 +1,44 @@
+// TextMapper: the life of a text object (sections IV-B and V of the paper).
+//
+// Detection in a key frame -> candidate (refused where it meets a known text or the image border) -> its corners are tracked;
+// once they have parallax, theta by the linear system [m']x t m^T theta = -[m']x R m -> photometric refinement against the
+// key frames that see it -> tentative -> after n_min observations mapped: it takes part in tracking and adjustment ->
+// dropped when the images stop agreeing with it.
+#ifndef TEXTSLAM_TEXT_MAPPER_HPP
+#define TEXTSLAM_TEXT_MAPPER_HPP
+
+#include <vector>
+
+#include "textslam/map.hpp"
+#include "textslam/parameters.hpp"
+
+namespace textslam {
+
+class TextMapper {
+ public:
+  TextMapper(Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
+
+  /// Counts the detections of a tracked frame for the objects they fall on, and votes for their words.
+  void associate(const Frame& frame, const SE3d& T_c_w, const std::vector<Track>& tracks);
+  /// Quads of a frame's detections that would become new objects: not on a known text, not leaving the image.
+  std::vector<Detection> new_detections(const Frame& frame, const SE3d& T_c_w, const std::vector<Track>& tracks) const;
+  /// New candidates hosted by key frame `id`.
+  void add_candidates(int id, const std::vector<Detection>& detections);
+  /// After key frame `id` was added: planes for candidates, observations, refinement, promotion, culling.
+  void update(int id, const std::vector<Track>& tracks);
+
+ private:
+  bool locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks, Quad<double>* quad) const;
+  bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
+  bool refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc);
+  void observe(TextObject& text, int keyframe);
+
+  Map& map_;
+  const Parameters& parameters_;
+  textplane::PhotometricWorkspace workspace_;
+  textplane::PlaneWorkspace plane_workspace_;
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_TEXT_MAPPER_HPP
