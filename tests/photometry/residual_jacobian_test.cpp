@@ -98,7 +98,7 @@ void expect_columns_near(const A& actual, const B& expected, double tolerance, c
 template <class T>
 class ResidualJacobian : public testing::Test {};
 using PixelTypes = testing::Types<std::uint8_t, float>;
-TYPED_TEST_SUITE(ResidualJacobian, PixelTypes);
+TYPED_TEST_SUITE(ResidualJacobian, PixelTypes, );
 
 template <int P, class T>
 void check_rows(Scene<T>& scene, Normalisation normalisation) {

@@ -18,7 +18,7 @@ namespace {
 template <class T>
 class Sample : public testing::Test {};
 using PixelTypes = testing::Types<std::uint8_t, float>;
-TYPED_TEST_SUITE(Sample, PixelTypes);
+TYPED_TEST_SUITE(Sample, PixelTypes, );
 
 TYPED_TEST(Sample, IsTheBilinearInterpolant) {
   const auto image = textplane_test::texture<TypeParam>(23, 17, 3);
