@@ -1,0 +1,65 @@
+#include "renderer/exposure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace textslam {
+
+namespace {
+
+constexpr double kFootprint = 0.5;  // px: the distance of the grid's samples
+constexpr int kMostInstants = 32;
+
+}  // namespace
+
+std::vector<Vector2<double>> pixel_grid() { return {{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25}, {0.25, 0.25}}; }
+
+std::vector<double> exposure_times(double middle, double exposure, int n) {
+  std::vector<double> times;
+  for (int i = 0; i < n; ++i) times.push_back(middle + exposure * (2 * i + 1 - n) / (2.0 * n));
+  return times;
+}
+
+Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion, double middle, double exposure) {
+  const SE3d T_w_c = motion(middle);
+  const SE3d opened = motion(middle - 0.5 * exposure).inverse(), closed = motion(middle + 0.5 * exposure).inverse();
+  std::vector<double> lengths;
+  constexpr int kColumns = 8, kRows = 6;
+  for (int j = 0; j < kRows; ++j) {
+    for (int i = 0; i < kColumns; ++i) {
+      const Vector2<double> px((i + 0.5) / kColumns * camera.width - 0.5, (j + 0.5) / kRows * camera.height - 0.5);
+      Vector2<double> m;
+      if (!textplane::is_ok(camera.lens.undistort(camera.pinhole.unproject(px).head<2>(), &m))) continue;
+      const Vector3<double> direction = T_w_c.R * Vector3<double>(m[0], m[1], 1.0);
+      const Hit hit = scene.first_hit(T_w_c.t, direction);
+      if (hit.surface < 0) continue;
+      const Vector3<double> p = T_w_c.t + hit.distance * direction;
+      Vector2<double> a, b;
+      if (project(camera, opened, p, &a) && project(camera, closed, p, &b)) lengths.push_back((b - a).norm());
+    }
+  }
+  if (lengths.empty()) return {};
+  std::sort(lengths.begin(), lengths.end());
+  return {lengths[lengths.size() / 2], lengths.back()};
+}
+
+int instants_for(double blur) {
+  const int wanted = static_cast<int>(std::ceil(1.2 * blur / 4.0)) * 4;
+  return blur < 3.5 ? 4 : std::clamp(wanted, 8, kMostInstants);
+}
+
+Image<double> expose(const Scene& scene, const RayCaster& caster, const Motion& motion, double middle, double exposure,
+                     int instants) {
+  if (caster.offsets() != 4 || instants < 4 || instants % 4 != 0) {
+    throw std::invalid_argument("an exposure takes a multiple of four instants and the four samples of pixel_grid()");
+  }
+  Image<double> sum(caster.camera().width, caster.camera().height);
+  const std::vector<double> times = exposure_times(middle, exposure, instants);
+  for (int i = 0; i < instants; ++i) {
+    caster.add(scene, motion(times[static_cast<std::size_t>(i)]), i % 4, kFootprint, 1.0 / instants, sum);
+  }
+  return sum;
+}
+
+}  // namespace textslam

@@ -1,0 +1,34 @@
+// Exposure: the shutter as a mean over instants that lie symmetrically about the frame's time, whose pose is the truth.
+#ifndef TEXTSLAM_RENDERER_EXPOSURE_HPP
+#define TEXTSLAM_RENDERER_EXPOSURE_HPP
+
+#include <vector>
+
+#include "renderer/motion.hpp"
+#include "renderer/ray_caster.hpp"
+
+namespace textslam {
+
+/// The samples of a pixel: a 2 x 2 grid. Sample i and sample 3 - i lie opposite, so that the mean of a mirrored list of
+/// instants has its centre in the pixel's centre at the middle of the exposure.
+std::vector<Vector2<double>> pixel_grid();
+
+/// `n` instants, evenly spread over [middle - exposure/2, middle + exposure/2] and symmetric about `middle`.
+std::vector<double> exposure_times(double middle, double exposure, int n);
+
+/// How far the images of scene points move while the shutter is open (px): the lengths at points spread over the image.
+struct Blur {
+  double median = 0.0, max = 0.0;
+};
+Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion, double middle, double exposure);
+
+/// Number of instants for a blur of that many pixels: four when slow, then more than one a pixel; a multiple of four.
+int instants_for(double blur);
+
+/// Light (0 to 255) that the shutter collects: one sample of the grid at each instant, averaged. `caster` holds pixel_grid().
+Image<double> expose(const Scene& scene, const RayCaster& caster, const Motion& motion, double middle, double exposure,
+                     int instants);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RENDERER_EXPOSURE_HPP

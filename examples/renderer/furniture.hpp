@@ -1,0 +1,55 @@
+// Furniture: what scenes are assembled from: rooms of six rectangles, boxes, pictures and sign boards.
+#ifndef TEXTSLAM_RENDERER_FURNITURE_HPP
+#define TEXTSLAM_RENDERER_FURNITURE_HPP
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "renderer/materials.hpp"
+#include "renderer/sign_plate.hpp"
+
+namespace textslam {
+
+/// The inside of a box with its floor at z = 0.
+struct Walls {
+  Rectangle front, left, right, back, floor, ceiling;  ///< front is at the largest y
+};
+Walls walls_of(double x0, double x1, double y0, double y1, double height);
+
+/// What a side of the given width and height (m) looks like.
+using Painter = std::function<Canvas(double, double)>;
+
+/// A box that stands with its foot's centre at `foot`: front and back `size` x wide, sides `size` y deep, turned by `yaw`
+/// (radians, counter-clockwise from above; at 0 the front faces -y). No bottom. Returns its front.
+Rectangle add_box(Scene& scene, const Vector3<double>& foot, const Vector3<double>& size, double yaw,
+                  const Painter& front, const Painter& sides);
+
+/// Hands out words, fonts and plates, and puts signs into a scene.
+class SignPainter {
+ public:
+  SignPainter(int words, std::uint64_t seed);
+
+  /// On a wall or a box, centred at (s, t) metres from its top left; `width` of the plate in metres.
+  void on_wall(Scene& scene, const Rectangle& wall, double s, double t, double width);
+  /// A board of its own in the room, text on the side that faces `towards`, blank behind.
+  void board(Scene& scene, const Vector3<double>& centre, const Vector3<double>& towards, double width,
+             double roll = 0.0);
+
+ private:
+  struct Made {
+    std::string word;
+    SignPlate plate;
+  };
+  Made next(double width);
+  static void add_text(Scene& scene, const Rectangle& plate_at, const Made& made);
+
+  Random random_;
+  std::vector<Font> fonts_;
+  std::vector<std::string> words_;
+  std::size_t used_ = 0;
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RENDERER_FURNITURE_HPP

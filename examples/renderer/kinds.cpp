@@ -1,0 +1,66 @@
+#include "renderer/kinds.hpp"
+
+#include "io/input_error.hpp"
+#include "renderer/render_sequence.hpp"
+
+namespace textslam {
+
+namespace {
+
+struct Context {
+  std::uint64_t seed;
+  int width, height;
+};
+
+struct Kind {
+  const char* name;
+  Shot (*make)(const Context&);
+};
+
+const Kind kKinds[] = {
+    {"room",
+     [](const Context& c) { return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor()}; }},
+    {"room-still",
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}), still_then_room_motion(c.seed, 40.0 / 30.0), 0.008, steady_sensor()};
+     }},
+    {"corridor",
+     [](const Context& c) { return Shot{make_corridor(c.seed), corridor_motion(c.seed), 0.006, steady_sensor()}; }},
+    {"rapid",
+     [](const Context& c) { return Shot{make_room(c.seed, {}), rapid_motion(c.seed), 1.0 / 60.0, steady_sensor()}; }},
+    {"lights",
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, changing_lights(c.seed, c.width, c.height)};
+     }},
+    {"sparse",
+     [](const Context& c) {
+       RoomStyle style;
+       style.bare = true;
+       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+     }},
+    {"notext",
+     [](const Context& c) {
+       RoomStyle style;
+       style.signs = false;
+       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+     }},
+};
+
+}  // namespace
+
+std::vector<std::string> render_kinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
+  return names;
+}
+
+Shot make_shot(const std::string& name, std::uint64_t seed, int width, int height) {
+  for (const Kind& kind : kKinds) {
+    if (name == kind.name) return kind.make({seed, width, height});
+  }
+  std::string known;
+  for (const Kind& kind : kKinds) known += std::string(known.empty() ? "" : ", ") + kind.name;
+  throw InputError("--render " + name, 0, "no such kind; known are " + known);
+}
+
+}  // namespace textslam

@@ -1,0 +1,35 @@
+// Kinds: what can be rendered by name. Each kind is a scene, a motion, a shutter and a sensor.
+#ifndef TEXTSLAM_RENDERER_KINDS_HPP
+#define TEXTSLAM_RENDERER_KINDS_HPP
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "renderer/motion.hpp"
+#include "renderer/scene.hpp"
+#include "renderer/sensor.hpp"
+
+namespace textslam {
+
+struct Shot {
+  Scene scene;
+  Motion motion;
+  double exposure = 0.008;  ///< s
+  SensorProgram sensor;
+};
+
+/// Throws InputError that lists the kinds when there is none of that name, std::runtime_error where no font is found.
+Shot make_shot(const std::string& kind, std::uint64_t seed, int width, int height);
+
+/// How a room is furnished.
+struct RoomStyle {
+  bool signs = true;
+  bool bare = false;  ///< clean walls and no furniture: little but the signs
+};
+Scene make_room(std::uint64_t seed, const RoomStyle& style);
+Scene make_corridor(std::uint64_t seed);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RENDERER_KINDS_HPP

@@ -1,0 +1,167 @@
+#include "renderer/ray_caster.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace textslam {
+
+namespace {
+
+constexpr int kTile = 16;         // px
+constexpr double kNear = 0.02;    // m, for the bounds of a rectangle that reaches behind the camera
+constexpr double kDepthFloor = 1e-9;
+
+/// A rectangle in one camera. On the ray m~ = (m, 1): inverse depth rho = inverse . m~, and metres from the rectangle's
+/// corner s = (across . m~) / rho, t = (along . m~) / rho. All three are linear, which makes the front-most hit the
+/// largest rho.
+struct Facet {
+  Vector3<double> inverse, across, along;
+  double width, height;
+  double texels_x, texels_y;  // per metre
+  const Texture* texture;
+  double min_x, max_x, min_y, max_y;  // bounds in normalised coordinates
+};
+
+/// Bounds of the projection: corners in front, and where sides cross the near plane.
+void bound(const std::array<Vector3<double>, 4>& corner, Facet& facet) {
+  facet.min_x = facet.min_y = std::numeric_limits<double>::infinity();
+  facet.max_x = facet.max_y = -facet.min_x;
+  const auto include = [&facet](const Vector3<double>& p) {
+    facet.min_x = std::min(facet.min_x, p[0] / p[2]);
+    facet.max_x = std::max(facet.max_x, p[0] / p[2]);
+    facet.min_y = std::min(facet.min_y, p[1] / p[2]);
+    facet.max_y = std::max(facet.max_y, p[1] / p[2]);
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3<double>&a = corner[i], &b = corner[(i + 1) % 4];
+    if (a[2] >= kNear) include(a);
+    if ((a[2] < kNear) != (b[2] < kNear)) {
+      Vector3<double> p = a + (kNear - a[2]) / (b[2] - a[2]) * (b - a);
+      p[2] = kNear;
+      include(p);
+    }
+  }
+}
+
+std::vector<Facet> facets_in_view(const Scene& scene, const SE3d& T_w_c) {
+  std::vector<Facet> facets;
+  const Matrix3<double> R_c_w = T_w_c.R.transpose();
+  for (const Surface& surface : scene.surfaces()) {
+    const Rectangle& r = surface.rectangle;
+    const Vector3<double> to_eye = T_w_c.t - r.corner;
+    const double height = r.normal().dot(to_eye);
+    if (height < kDepthFloor) continue;  // seen from behind or edge on
+    Facet f;
+    f.inverse = -(R_c_w * r.normal()) / height;
+    f.across = R_c_w * r.right + r.right.dot(to_eye) * f.inverse;
+    f.along = R_c_w * r.down + r.down.dot(to_eye) * f.inverse;
+    f.width = r.width;
+    f.height = r.height;
+    f.texels_x = surface.texture->width() / r.width;
+    f.texels_y = surface.texture->height() / r.height;
+    f.texture = surface.texture;
+    const auto in_camera = [&](double s, double t) { return Vector3<double>(R_c_w * (r.at(s, t) - T_w_c.t)); };
+    bound({in_camera(0.0, 0.0), in_camera(r.width, 0.0), in_camera(r.width, r.height), in_camera(0.0, r.height)}, f);
+    if (f.min_x <= f.max_x) facets.push_back(f);
+  }
+  return facets;
+}
+
+double shade(const Facet& f, const Vector3<double>& m, double rho, double step_x, double step_y) noexcept {
+  const double depth = 1.0 / rho;
+  const double s = f.across.dot(m) * depth, t = f.along.dot(m) * depth;
+  const Vector2<double> side_x((f.across[0] - s * f.inverse[0]) * depth * step_x * f.texels_x,
+                               (f.along[0] - t * f.inverse[0]) * depth * step_x * f.texels_y);
+  const Vector2<double> side_y((f.across[1] - s * f.inverse[1]) * depth * step_y * f.texels_x,
+                               (f.along[1] - t * f.inverse[1]) * depth * step_y * f.texels_y);
+  return f.texture->lookup({s * f.texels_x - 0.5, t * f.texels_y - 0.5}, side_x, side_y);
+}
+
+}  // namespace
+
+RayCaster::RayCaster(const CameraModel& camera, std::vector<Vector2<double>> offsets)
+    : camera_(camera), offsets_(std::move(offsets)) {
+  if (camera_.lens.is_zero()) return;
+  for (const Vector2<double>& offset : offsets_) {
+    std::vector<Vector2<double>> rays;
+    rays.reserve(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height));
+    for (int y = 0; y < camera_.height; ++y) {
+      for (int x = 0; x < camera_.width; ++x) {
+        const Vector2<double> distorted =
+            camera_.pinhole.unproject(Vector2<double>(x + offset[0], y + offset[1])).head<2>();
+        Vector2<double> m;
+        if (!textplane::is_ok(camera_.lens.undistort(distorted, &m))) {
+          throw std::invalid_argument("the lens cannot be inverted at pixel " + std::to_string(x) + "," + std::to_string(y));
+        }
+        rays.push_back(m);
+      }
+    }
+    rays_.push_back(std::move(rays));
+  }
+}
+
+Vector2<double> RayCaster::ray(int offset, int x, int y) const noexcept {
+  const std::size_t o = static_cast<std::size_t>(offset);
+  if (!rays_.empty()) {
+    return rays_[o][static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x)];
+  }
+  return camera_.pinhole.unproject(Vector2<double>(x + offsets_[o][0], y + offsets_[o][1])).head<2>();
+}
+
+void RayCaster::add(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight,
+                    Image<double>& sum) const {
+  const std::vector<Facet> facets = facets_in_view(scene, T_w_c);
+  const double step_x = footprint / camera_.pinhole.fx, step_y = footprint / camera_.pinhole.fy;
+  std::array<Vector2<double>, kTile * kTile> rays;
+  std::vector<const Facet*> candidates;
+  for (int y0 = 0; y0 < camera_.height; y0 += kTile) {
+    for (int x0 = 0; x0 < camera_.width; x0 += kTile) {
+      const int x1 = std::min(x0 + kTile, camera_.width), y1 = std::min(y0 + kTile, camera_.height);
+      Vector2<double> low = ray(offset, x0, y0), high = low;
+      std::size_t n = 0;
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+          rays[n] = ray(offset, x, y);
+          low = low.cwiseMin(rays[n]);
+          high = high.cwiseMax(rays[n]);
+          ++n;
+        }
+      }
+      candidates.clear();
+      for (const Facet& f : facets) {
+        if (f.min_x <= high[0] && f.max_x >= low[0] && f.min_y <= high[1] && f.max_y >= low[1]) candidates.push_back(&f);
+      }
+      n = 0;
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x, ++n) {
+          const Vector3<double> m(rays[n][0], rays[n][1], 1.0);
+          const Facet* nearest = nullptr;
+          double best = 0.0;
+          for (const Facet* f : candidates) {
+            const double rho = f->inverse.dot(m);
+            if (rho <= best) continue;
+            const double s = f->across.dot(m), t = f->along.dot(m);
+            if (s < 0.0 || t < 0.0 || s > f->width * rho || t > f->height * rho) continue;
+            best = rho;
+            nearest = f;
+          }
+          if (nearest) sum(x, y) += weight * shade(*nearest, m, best, step_x, step_y);
+        }
+      }
+    }
+  }
+}
+
+bool project(const CameraModel& camera, const SE3d& T_c_w, const Vector3<double>& p_w, Vector2<double>* px) noexcept {
+  const Vector3<double> p = T_c_w * p_w;
+  if (!(p[2] > 1e-6)) return false;
+  *px = camera.pinhole.pixel(camera.lens.distort(Vector2<double>(p[0] / p[2], p[1] / p[2])));
+  return true;
+}
+
+}  // namespace textslam

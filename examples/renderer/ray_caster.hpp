@@ -1,0 +1,41 @@
+// Ray casting: one ray a sample into the rectangles of a scene, the nearest hit shaded by a filtered texture lookup.
+#ifndef TEXTSLAM_RENDERER_RAY_CASTER_HPP
+#define TEXTSLAM_RENDERER_RAY_CASTER_HPP
+
+#include <vector>
+
+#include "io/sequence.hpp"
+#include "renderer/scene.hpp"
+
+namespace textslam {
+
+/// Casts the rays of one camera. Holds the ray of every pixel for each of a few sub-pixel offsets, so that a lens costs
+/// nothing per frame. const functions may run on several threads at once.
+class RayCaster {
+ public:
+  /// `offsets`: where in the pixel the samples lie (px from its centre). Throws std::invalid_argument where the lens
+  /// cannot be inverted for a pixel.
+  RayCaster(const CameraModel& camera, std::vector<Vector2<double>> offsets);
+
+  int offsets() const noexcept { return static_cast<int>(offsets_.size()); }
+  const CameraModel& camera() const noexcept { return camera_; }
+  /// Normalised point that the sample sees: lens.distort() of it is the sample's pixel.
+  Vector2<double> ray(int offset, int x, int y) const noexcept;
+
+  /// Adds weight * intensity to every pixel of `sum` (of the camera's size), seen from T_w_c at the sample `offset`.
+  /// Textures are averaged over `footprint` pixels. A ray that leaves the scene adds nothing.
+  void add(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight,
+           Image<double>& sum) const;
+
+ private:
+  CameraModel camera_;
+  std::vector<Vector2<double>> offsets_;
+  std::vector<std::vector<Vector2<double>>> rays_;  // by offset, row by row; empty without a lens
+};
+
+/// Pixel of the world point, or false where it is not in front of the camera.
+bool project(const CameraModel& camera, const SE3d& T_c_w, const Vector3<double>& p_w, Vector2<double>* px) noexcept;
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RENDERER_RAY_CASTER_HPP

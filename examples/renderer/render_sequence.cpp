@@ -1,0 +1,151 @@
+#include "renderer/render_sequence.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "io/image_file.hpp"
+#include "io/input_error.hpp"
+#include "io/output_file.hpp"
+#include "io/text_file.hpp"
+#include "io/trajectory.hpp"
+#include "renderer/exposure.hpp"
+#include "renderer/kinds.hpp"
+#include "renderer/truth.hpp"
+
+namespace textslam {
+
+namespace {
+
+constexpr double kFramesPerSecond = 30.0;
+constexpr double kFocal = 525.0 / 640.0;  // of the width
+constexpr std::uint64_t kNoiseStream = 7, kDetectorStream = 8;
+
+std::string stem_of(int frame) {
+  char name[16];
+  std::snprintf(name, sizeof name, "%06d", frame);
+  return name;
+}
+
+std::string decimals(double value, int n) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", n, value);
+  return text;
+}
+
+CameraModel camera_of(const RenderOptions& options) {
+  CameraModel camera;
+  const double f = kFocal * options.width;
+  camera.pinhole = {f, f, 0.5 * (options.width - 1), 0.5 * (options.height - 1)};
+  camera.lens = options.lens;
+  camera.width = options.width;
+  camera.height = options.height;
+  camera.fps = kFramesPerSecond;
+  return camera;
+}
+
+void check(const RenderOptions& options) {
+  const auto refuse = [](const std::string& what) { throw InputError("render options", 0, what); };
+  if (options.output.empty()) refuse("no output folder given");
+  if (options.frames < 1 || options.frames > 100000) refuse("the number of frames must be 1 to 100000");
+  if (options.width < 64 || options.height < 48 || options.width > 4096 || options.height > 4096) {
+    refuse("the image size must be 64x48 to 4096x4096");
+  }
+}
+
+/// Renders and writes single frames; const, so that several threads may share it.
+class FrameWriter {
+ public:
+  FrameWriter(const RenderOptions& options, const CameraModel& camera, const Shot& shot)
+      : options_(options), camera_(camera), shot_(shot), caster_(camera, pixel_grid()) {}
+
+  /// Writes image, detections and quads; returns the frame's line of truth/frames.txt.
+  std::string write(int frame) const {
+    const double time = frame / kFramesPerSecond;
+    const std::uint64_t number = static_cast<std::uint64_t>(frame);
+    const Blur blur = blur_of(shot_.scene, camera_, shot_.motion, time, shot_.exposure);
+    const Image<double> light =
+        expose(shot_.scene, caster_, shot_.motion, time, shot_.exposure, instants_for(blur.max));
+    const SensorState state = shot_.sensor(time);
+    const Image<std::uint8_t> picture = develop(light, state, hash(options_.seed, kNoiseStream, number));
+    const std::string name = stem_of(frame);
+    save_png(options_.output + "/images/" + name + ".png", picture.view());
+
+    const std::vector<Sign>& signs = shot_.scene.signs();
+    const std::vector<SignView> views = views_of_signs(shot_.scene, camera_, shot_.motion(time));
+    write_file(options_.output + "/truth/quads/" + name + ".txt", format_truth_quads(views, signs));
+    const Random random(hash(options_.seed, kDetectorStream, number));
+    write_detections(options_.output + "/detections/" + name + ".txt",
+                     detect(views, signs, camera_, options_.detector, random));
+    return decimals(time, 9) + ' ' + decimals(shot_.exposure, 6) + ' ' + decimals(blur.median, 3) + ' ' +
+           decimals(blur.max, 3) + ' ' + decimals(state.gain, 4) + ' ' + decimals(state.bias, 2) + '\n';
+  }
+
+ private:
+  const RenderOptions& options_;
+  const CameraModel& camera_;
+  const Shot& shot_;
+  RayCaster caster_;
+};
+
+/// All frames on the threads asked for; the first exception of any of them ends all and is thrown here.
+std::vector<std::string> write_frames(const FrameWriter& writer, const RenderOptions& options,
+                                      const std::function<void(int, int)>& progress) {
+  std::vector<std::string> lines(static_cast<std::size_t>(options.frames));
+  std::atomic<int> next{0};
+  std::mutex mutex;
+  int done = 0;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (int frame = next++; frame < options.frames; frame = next++) {
+      try {
+        lines[static_cast<std::size_t>(frame)] = writer.write(frame);
+        const std::lock_guard<std::mutex> lock(mutex);
+        ++done;
+        if (progress) progress(done, options.frames);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = options.frames;
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < std::clamp(options.threads, 1, 64); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+  return lines;
+}
+
+}  // namespace
+
+void render_sequence(const RenderOptions& options, const std::function<void(int done, int total)>& progress) {
+  check(options);
+  const Shot shot = make_shot(options.kind, options.seed, options.width, options.height);
+  const CameraModel camera = camera_of(options);
+  for (const char* folder : {"/images", "/detections", "/truth/quads"}) create_output_folder(options.output + folder);
+
+  std::vector<StampedPose> poses;
+  std::string list = "# timestamp path\n";
+  for (int frame = 0; frame < options.frames; ++frame) {
+    const double time = frame / kFramesPerSecond;
+    poses.push_back({time, shot.motion(time)});
+    list += decimals(time, 9) + " images/" + stem_of(frame) + ".png\n";
+  }
+  write_file(options.output + "/camera.yaml", format_camera(camera));
+  write_tum(options.output + "/groundtruth.txt", poses);
+  write_file(options.output + "/truth/signs.json", format_signs(shot.scene.signs()));
+
+  const FrameWriter writer(options, camera, shot);
+  std::string frames = "# timestamp exposure blur_median blur_max gain bias\n";
+  for (const std::string& line : write_frames(writer, options, progress)) frames += line;
+  write_file(options.output + "/truth/frames.txt", frames);
+  // Last, because a folder without it is no sequence: a render that was broken off is not taken for one.
+  write_file(options.output + "/images.txt", list);
+}
+
+}  // namespace textslam

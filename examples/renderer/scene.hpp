@@ -1,0 +1,86 @@
+// Scene: one-sided textured rectangles in the world (metres, z up), and the signs among them.
+#ifndef TEXTSLAM_RENDERER_SCENE_HPP
+#define TEXTSLAM_RENDERER_SCENE_HPP
+
+#include <array>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "renderer/canvas.hpp"
+#include "renderer/texture.hpp"
+#include "io/names.hpp"
+
+namespace textslam {
+
+/// A rectangle as its viewer sees it: `right` and `down` are orthogonal unit vectors along its sides, right x down
+/// points away from the viewer. From behind it is invisible.
+struct Rectangle {
+  Vector3<double> corner = Vector3<double>::Zero();  ///< top left, m
+  Vector3<double> right = Vector3<double>::UnitX();
+  Vector3<double> down = -Vector3<double>::UnitZ();
+  double width = 1.0, height = 1.0;  ///< m
+
+  Vector3<double> at(double s, double t) const { return corner + s * right + t * down; }
+  /// Unit normal, towards the viewer.
+  Vector3<double> normal() const { return down.cross(right); }
+};
+
+/// The rectangle around `centre` that a viewer in direction `towards` sees upright; `roll` turns it clockwise (radians).
+Rectangle facing(const Vector3<double>& centre, const Vector3<double>& towards, double width, double height,
+                 double roll = 0.0);
+/// A rectangle on `wall`, centred at (s, t) metres from the wall's top left, lifted off it by `lift` metres.
+Rectangle on(const Rectangle& wall, double s, double t, double width, double height, double lift);
+
+struct Surface {
+  Rectangle rectangle;
+  const Texture* texture;
+};
+
+/// A word in the world. The corners are those of the text, not of the plate that carries it: clockwise from the text's
+/// top left as a reader sees it.
+struct Sign {
+  int id;
+  std::string word;
+  std::array<Vector3<double>, 4> corner;
+  Vector3<double> normal;  ///< unit, towards the reader
+};
+
+struct Hit {
+  int surface = -1;       ///< -1: nothing
+  double distance = 0.0;  ///< in units of the ray's direction
+};
+
+class Scene {
+ public:
+  Scene() = default;
+  Scene(const Scene&) = delete;  // surfaces point to the textures
+  Scene& operator=(const Scene&) = delete;
+  Scene(Scene&&) = default;
+  Scene& operator=(Scene&&) = default;
+
+  /// Ceiling lamps, to be set before anything that they shall shine on is added.
+  std::vector<Vector3<double>> lamps;
+
+  /// A surface with the painted texture, which takes the light of the lamps. `corners_darken`: light also fades towards
+  /// the rectangle's edges, as it does where walls meet.
+  void add(const Rectangle& rectangle, Canvas paint, bool corners_darken = false);
+  /// A surface with the texture as it is.
+  void add_unlit(const Rectangle& rectangle, Image<std::uint8_t> texture);
+  void add_sign(std::string word, const Rectangle& text);
+
+  const std::vector<Surface>& surfaces() const noexcept { return surfaces_; }
+  const std::vector<Sign>& signs() const noexcept { return signs_; }
+
+  /// The nearest surface that the ray meets beyond the distance 1e-9.
+  Hit first_hit(const Vector3<double>& origin, const Vector3<double>& direction) const noexcept;
+
+ private:
+  std::deque<Texture> textures_;
+  std::vector<Surface> surfaces_;
+  std::vector<Sign> signs_;
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RENDERER_SCENE_HPP

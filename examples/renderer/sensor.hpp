@@ -1,0 +1,44 @@
+// Sensor: what happens to light between the scene and the 8-bit pixel: gain, bias, vignette, glare, noise.
+#ifndef TEXTSLAM_RENDERER_SENSOR_HPP
+#define TEXTSLAM_RENDERER_SENSOR_HPP
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "io/names.hpp"
+
+namespace textslam {
+
+/// A soft bright spot in the image.
+struct Glare {
+  Vector2<double> centre;  ///< px
+  double radius;           ///< px, one standard deviation
+  double strength;         ///< grey levels at its centre
+};
+
+/// The sensor at one instant: pixel = gain * falloff * light + bias + glare + noise, where falloff = 1 - vignette * r^2 and
+/// r is 1 in the corners; the noise has the variance noise^2 + shot * value.
+struct SensorState {
+  double gain = 1.0, bias = 0.0;
+  double vignette = 0.0;
+  double noise = 1.0;  ///< grey levels
+  double shot = 0.01;
+  std::vector<Glare> glare;
+};
+
+/// The sensor as a function of time in seconds.
+using SensorProgram = std::function<SensorState(double)>;
+
+/// A camera in steady light.
+SensorProgram steady_sensor();
+/// Light that swings, is dimmed and comes back within a tenth of a second, flickers as lamps on 50 Hz mains do, with a
+/// strong vignette and glare that wanders over a picture of the given size.
+SensorProgram changing_lights(std::uint64_t seed, int width, int height);
+
+/// The 8-bit picture. The noise of a pixel depends on the seed and its place alone.
+Image<std::uint8_t> develop(const Image<double>& light, const SensorState& state, std::uint64_t noise_seed);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RENDERER_SENSOR_HPP

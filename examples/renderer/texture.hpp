@@ -1,0 +1,36 @@
+// Texture: an 8-bit image with its mip levels, and the filtered lookup under a footprint that may be long and thin.
+#ifndef TEXTSLAM_RENDERER_TEXTURE_HPP
+#define TEXTSLAM_RENDERER_TEXTURE_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "textplane/core/image_view.hpp"
+#include "textplane/core/numeric.hpp"
+
+namespace textslam {
+
+class Texture {
+ public:
+  explicit Texture(textplane::Image<std::uint8_t> base);
+
+  int width() const noexcept { return levels_.front().width(); }
+  int height() const noexcept { return levels_.front().height(); }
+
+  /// Intensity at the texel position `p` (centre of the first texel at (0, 0), clamped at the edges), averaged over the
+  /// parallelogram of the two footprint sides (texels): trilinear probes along the longer side, each as wide as the
+  /// shorter. Where the footprint is no larger than a texel this is plain bilinear interpolation, in double, so that a
+  /// linear ramp comes back exactly.
+  double lookup(const textplane::Vector2<double>& p, const textplane::Vector2<double>& side_x,
+                const textplane::Vector2<double>& side_y) const noexcept;
+
+ private:
+  double bilinear(int level, double x, double y) const noexcept;
+  double trilinear(double level, double x, double y) const noexcept;
+
+  std::vector<textplane::Image<std::uint8_t>> levels_;
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RENDERER_TEXTURE_HPP

@@ -1,0 +1,32 @@
+// Truth: where the signs' texts stand in the world and in each frame. Written beside the sequence for those who measure.
+#ifndef TEXTSLAM_RENDERER_TRUTH_HPP
+#define TEXTSLAM_RENDERER_TRUTH_HPP
+
+#include <string>
+#include <vector>
+
+#include "io/sequence.hpp"
+#include "renderer/scene.hpp"
+
+namespace textslam {
+
+/// A sign in one frame.
+struct SignView {
+  int sign = -1;         ///< its id
+  Quad<double> quad;     ///< raw px, also where it leaves the image; clockwise from the text's top left
+  double visible = 0.0;  ///< share of the text's area that lies in the image and that nothing hides
+  double cosine = 0.0;   ///< of the angle between the normal and the view to the centre
+};
+
+/// The signs that face the camera at T_w_c, stand in front of it with all corners, and of which something is visible.
+std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c);
+
+/// truth/quads/<stem>.txt: `x1,y1,x2,y2,x3,y3,x4,y4,text,sign,visible` a line; the numbers survive the round trip exactly.
+std::string format_truth_quads(const std::vector<SignView>& views, const std::vector<Sign>& signs);
+
+/// truth/signs.json: {"signs":[{"id":0,"text":"EXIT","corners":[[x,y,z],... 4],"normal":[x,y,z]},...]}, world frame, metres.
+std::string format_signs(const std::vector<Sign>& signs);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RENDERER_TRUTH_HPP
