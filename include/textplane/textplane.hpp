@@ -42,6 +42,7 @@
 #include "textplane/solver/window.hpp"
 #include "textplane/solver/window_problem.hpp"
 #include "textplane/solver/window_schur.hpp"
+#include "textplane/solver/window_state.hpp"
 #include "textplane/solver/window_structure.hpp"
 #include "textplane/solver/window_terms.hpp"
 

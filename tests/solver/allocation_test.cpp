@@ -28,7 +28,7 @@ void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
 
 namespace {
-using namespace textplane_test;
+using namespace textplane_test::planar;
 
 TEST(Allocation, IsCounted) {
   const long before = allocations;
@@ -60,8 +60,10 @@ TEST(Allocation, RefinePoseAndRefinePlaneMakeNone) {
   const textplane::PlaneTargetF target{image.view(), truth};
 
   const long before = allocations;
-  const auto pose = refine_pose(texts.data(), 3, points.data(), 50, image.view(), scene.camera, start, {}, pose_workspace, zncc.data(), chi2.data());
-  const auto plane = refine_plane(patches[0], scene.signs[0].theta * 1.02, &target, 1, scene.camera, {}, plane_workspace);
+  const auto pose = refine_pose(texts.data(), 3, points.data(), 50, image.view(), scene.camera, start, {},
+                                pose_workspace, zncc.data(), chi2.data());
+  const auto plane =
+      refine_plane(patches[0], scene.signs[0].theta * 1.02, &target, 1, scene.camera, {}, plane_workspace);
   const long after = allocations;
   EXPECT_EQ(after, before);
   EXPECT_TRUE(is_ok(pose.status));

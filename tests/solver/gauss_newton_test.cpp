@@ -237,8 +237,8 @@ TEST(GaussNewton, StallEndsSoonAndSaysSo) {
   EXPECT_EQ(x, Eigen::Vector3d(0, 0, 0));
 }
 
-// A cost with a floor that no parameter reaches: at its minimum, rounding or the kinks of an interpolant may leave a step that
-// promises next to nothing and gains nothing. That is convergence, not failure.
+// A cost with a floor that no parameter reaches: at its minimum, rounding or the kinks of an interpolant may leave a
+// step that promises next to nothing and gains nothing. That is convergence, not failure.
 struct KinkedFloor : Faulty {
   System<3> linearise(const State& x) noexcept {
     System<3> s = Faulty::linearise(x);
@@ -320,8 +320,8 @@ TEST(GaussNewton, RejectsImpossibleOptions) {
   EXPECT_EQ(status([](SolveOptions& o) { o.max_lambda = 0; }), Status::invalid_argument);
 }
 
-// A set that shrinks with the state: residual i is seen while x[0] < i. Losing is charged, and the accepted trials are lower
-// on the set of their linearisation although the costs of different sets are not comparable.
+// A set that shrinks with the state: residual i is seen while x[0] < i. Losing is charged, and the accepted trials are
+// lower on the set of their linearisation although the costs of different sets are not comparable.
 struct Shrinking {
   using State = Eigen::Matrix<double, 1, 1>;
   static constexpr int kParameters = 1;
@@ -365,7 +365,8 @@ TEST(GaussNewton, JudgesStepsOnTheSetOfTheirLinearisation) {
   options.max_iterations = 200;
   options.step_tolerance = 1e-10;
   const SolveSummary s = minimise(problem, x, options);
-  // The full step to 30 would lose 30 of 100 and is refused; shorter steps that lose a few at a time are allowed only while they pay.
+  // The full step to 30 would lose 30 of 100 and is refused; shorter steps that lose a few at a time are allowed only
+  // while they pay.
   EXPECT_GT(s.accepted, 0);
   EXPECT_GT(s.iterations, s.accepted);
   EXPECT_GT(s.reduction, 0);
@@ -373,5 +374,6 @@ TEST(GaussNewton, JudgesStepsOnTheSetOfTheirLinearisation) {
   EXPECT_LT(x[0], 30.5);
 }
 
-static_assert(noexcept(minimise(std::declval<Rosenbrock&>(), std::declval<Eigen::Vector2d&>())), "minimise is noexcept");
+static_assert(noexcept(minimise(std::declval<Rosenbrock&>(), std::declval<Eigen::Vector2d&>())),
+              "minimise is noexcept");
 }  // namespace

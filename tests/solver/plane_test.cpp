@@ -1,4 +1,5 @@
-// refine_plane() and align_plane(): recovery of theta, its covariance, and what they say about targets that show no parallax.
+// refine_plane() and align_plane(): recovery of theta, its covariance, and what they say about targets that show no
+// parallax.
 #include "textplane/solver/plane.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 #include "solver/synthetic.hpp"
 
 namespace {
-using namespace textplane_test;
+using namespace textplane_test::planar;
 using textplane::PlaneOptions;
 using textplane::PlaneRefinement;
 using textplane::PlaneTargetF;
@@ -19,8 +20,8 @@ using textplane::Status;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// The first sign from several poses. With `exact` the host values are those of the first target's interpolant, so that the cost with this
-// target alone is zero at the truth.
+// The first sign from several poses. With `exact` the host values are those of the first target's interpolant, so that
+// the cost with this target alone is zero at the truth.
 struct Input {
   Scene scene = three_signs();
   Sign sign;
@@ -33,8 +34,10 @@ struct Input {
   explicit Input(bool exact, int count = 1) {
     scene.signs.resize(1);
     sign = scene.signs[0];
-    const double motion[4][6] = {{0.12, -0.06, 0.09, -0.03, 0.05, 0.02}, {-0.1, 0.12, -0.05, 0.06, 0.03, -0.02},
-                                 {0.05, 0.15, 0.1, 0.05, -0.01, 0.03}, {0.2, 0.02, -0.1, 0, 0.1, 0}};
+    const double motion[4][6] = {{0.12, -0.06, 0.09, -0.03, 0.05, 0.02},
+                                 {-0.1, 0.12, -0.05, 0.06, 0.03, -0.02},
+                                 {0.05, 0.15, 0.1, 0.05, -0.01, 0.03},
+                                 {0.2, 0.02, -0.1, 0, 0.1, 0}};
     for (int i = 0; i < count; ++i) poses.push_back(textplane::se3_exp<double>(Vec6(motion[i])));
     for (const SE3d& T : poses) images.push_back(scene.render(T));
     bind();
@@ -100,7 +103,8 @@ TEST(RefinePlane, AlignPlaneOnAnEightBitImage) {
   Input input(false, 1);
   Image<std::uint8_t> image(Scene::kWidth, Scene::kHeight);
   for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) image(x, y) = static_cast<std::uint8_t>(std::lround(input.images[0].levels[0](x, y)));
+    for (int x = 0; x < image.width(); ++x)
+      image(x, y) = static_cast<std::uint8_t>(std::lround(input.images[0].levels[0](x, y)));
   const textplane::Pyramid target(image.view(), 3);
   Random random(3);
   const PlaneRefinement fit =
@@ -202,10 +206,13 @@ TEST(RefinePlane, InputThatNoPlaneComesFromGetsAStatus) {
   EXPECT_EQ(run(theta), Status::no_contrast);
   input.targets.clear();
   EXPECT_EQ(run(theta), Status::invalid_argument);
-  EXPECT_EQ(refine_plane(input.patch, theta, static_cast<const PlaneTargetF*>(nullptr), 1, input.scene.camera, {}, input.workspace).status,
+  EXPECT_EQ(refine_plane(input.patch, theta, static_cast<const PlaneTargetF*>(nullptr), 1, input.scene.camera, {},
+                         input.workspace)
+                .status,
             Status::invalid_argument);
   const TextPatch empty;
   Input other(false, 1);
-  EXPECT_FALSE(is_ok(refine_plane(empty, theta, other.targets.data(), 1, other.scene.camera, {}, other.workspace).status));
+  EXPECT_FALSE(
+      is_ok(refine_plane(empty, theta, other.targets.data(), 1, other.scene.camera, {}, other.workspace).status));
 }
 }  // namespace

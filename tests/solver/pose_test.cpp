@@ -1,4 +1,5 @@
-// refine_pose() and align_pose(): recovery, invariance, weights, and what they say about input that no pose can come from.
+// refine_pose() and align_pose(): recovery, invariance, weights, and what they say about input that no pose can come
+// from.
 #include "textplane/solver/pose.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 #include "solver/synthetic.hpp"
 
 namespace {
-using namespace textplane_test;
+using namespace textplane_test::planar;
 using textplane::Evaluation;
 using textplane::PoseFit;
 using textplane::PoseOptions;
@@ -36,7 +37,8 @@ struct Input {
   explicit Input(bool exact = true, int point_count = 60, double noise_px = 0, unsigned seed = 5) {
     static const FloatPyramid rendered = scene.render(truth);
     target = rendered;
-    for (const Sign& sign : scene.signs) patches.push_back(exact ? scene.exact_patch(sign, target, truth) : scene.patch(sign));
+    for (const Sign& sign : scene.signs)
+      patches.push_back(exact ? scene.exact_patch(sign, target, truth) : scene.patch(sign));
     for (std::size_t i = 0; i < patches.size(); ++i)
       texts.push_back({&patches[i], scene.signs[i].theta, scene.signs[i].T_w_h, 1});
     Random random(seed);
@@ -52,9 +54,11 @@ struct Input {
 
   PoseFit solve(const SE3d& start, const PoseOptions& options = {}, bool with_texts = true, bool with_points = true,
                 float* zncc = nullptr, float* chi2 = nullptr) {
-    const int n = with_texts ? static_cast<int>(texts.size()) : 0, m = with_points ? static_cast<int>(points.size()) : 0;
+    const int n = with_texts ? static_cast<int>(texts.size()) : 0,
+              m = with_points ? static_cast<int>(points.size()) : 0;
     workspace.reserve(texts.data(), n, m);
-    return refine_pose(texts.data(), n, points.data(), m, target.view(), scene.camera, start, options, workspace, zncc, chi2);
+    return refine_pose(texts.data(), n, points.data(), m, target.view(), scene.camera, start, options, workspace, zncc,
+                       chi2);
   }
 };
 
@@ -115,7 +119,8 @@ TEST(RefinePose, OnePatchWithTheReadmeSurface) {
   const Sign& sign = input.scene.signs[0];
   Image<std::uint8_t> image(Scene::kWidth, Scene::kHeight);
   for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) image(x, y) = static_cast<std::uint8_t>(std::lround(input.target.levels[0](x, y)));
+    for (int x = 0; x < image.width(); ++x)
+      image(x, y) = static_cast<std::uint8_t>(std::lround(input.target.levels[0](x, y)));
   const textplane::Pyramid target(image.view(), 3);
   Random random(4);
   const SE3d start = textplane::se3_exp<double>(random.twist(0.005, 0.004)) * input.truth;
@@ -162,8 +167,8 @@ TEST(RefinePose, OutliersAmongPointsAreWithstood) {
     // Tukey forgets what is far away, so it starts near.
     options.point_robust = kind == RobustKind::huber ? Robust{kind, 1.0} : Robust{kind, 8.0};
     std::vector<float> chi2(100);
-    const PoseFit fit = input.solve(textplane::se3_exp<double>(random.twist(0.004, 0.003)) * input.truth, options, false, true, nullptr,
-                                    chi2.data());
+    const PoseFit fit = input.solve(textplane::se3_exp<double>(random.twist(0.004, 0.003)) * input.truth, options,
+                                    false, true, nullptr, chi2.data());
     EXPECT_TRUE(is_ok(fit.status));
     EXPECT_LT(pose_distance(fit.T_t_w, input.truth), kind == RobustKind::huber ? 0.01 : 0.002);
     EXPECT_EQ(fit.inlier_points, 80);
@@ -171,7 +176,8 @@ TEST(RefinePose, OutliersAmongPointsAreWithstood) {
   }
 }
 
-// Points with sigma 1 px and pixels with the noise that sigma_photo says: 6 = E[e^T information e] for each source and for both.
+// Points with sigma 1 px and pixels with the noise that sigma_photo says: 6 = E[e^T information e] for each source and
+// for both.
 TEST(RefinePose, InformationIsThatOfTheNoise) {
   for (const int mode : {0, 1, 2}) {
     double sum = 0;
@@ -184,8 +190,8 @@ TEST(RefinePose, InformationIsThatOfTheNoise) {
       options.photometric.robust.kind = RobustKind::l2;
       options.point_robust.kind = RobustKind::l2;
       options.sigma_rep = 0.7;
-      // White noise on the host values: r sqrt(N) then has its deviation over the contrast of the sign. sigma_photo is for a contrast
-      // of 28, the weights say what that of each sign is.
+      // White noise on the host values: r sqrt(N) then has its deviation over the contrast of the sign. sigma_photo is
+      // for a contrast of 28, the weights say what that of each sign is.
       const double noise = 4, contrast = 28;
       options.sigma_photo = noise / contrast;
       for (std::size_t i = 0; i < input.patches.size(); ++i) {
@@ -221,7 +227,8 @@ TEST(RefinePose, BothSourcesTogetherBeatEach) {
       const auto error = [&](const PoseFit& fit) {
         double sum = 0;
         for (const PosePointTerm& p : input.points)
-          sum += (input.scene.camera.project(fit.T_t_w * p.p_w) - input.scene.camera.project(input.truth * p.p_w)).squaredNorm();
+          sum += (input.scene.camera.project(fit.T_t_w * p.p_w) - input.scene.camera.project(input.truth * p.p_w))
+                     .squaredNorm();
         return sum;
       };
       text += error(input.solve(input.truth, options, true, false));
@@ -274,7 +281,8 @@ TEST(RefinePose, CostNeverRises) {
     // Up to gross errors: signs leave the image, and steps overshoot.
     const double size = 0.01 * (1 + trial);
     SE3d T = textplane::se3_exp<double>(random.twist(size, 0.5 * size)) * input.truth;
-    Watched::Inner inner(input.texts.data(), 3, input.points.data(), 20, view, input.scene.camera, options, input.workspace);
+    Watched::Inner inner(input.texts.data(), 3, input.points.data(), 20, view, input.scene.camera, options,
+                         input.workspace);
     inner.set_level(trial % 3);
     Watched problem{inner, -1, -1, 0, SE3d(), 0};
     const auto summary = minimise(problem, T, options.solve);
@@ -301,17 +309,17 @@ TEST(RefinePose, GradientIsThatOfTheCost) {
       PoseOptions options;
       options.weighting = weighting;
       const textplane::PyramidViewF view = input.target.view();
-      Watched::Inner problem(input.texts.data(), text ? 3 : 0, input.points.data(), text ? 0 : 30, view, input.scene.camera, options,
-                             input.workspace);
+      Watched::Inner problem(input.texts.data(), text ? 3 : 0, input.points.data(), text ? 0 : 30, view,
+                             input.scene.camera, options, input.workspace);
       const SE3d T = textplane::se3_exp<double>(random.twist(0.004, 0.003)) * input.truth;
       const auto system = problem.linearise(T);
       EXPECT_NEAR(problem.evaluate(T).cost, system.cost, 1e-12 * system.cost);
       // A step so small that hardly a sample changes its pixel cell.
       const double h = text ? 1e-7 : 1e-6;
       for (int i = 0; i < 6; ++i) {
-        const double numeric =
-            (problem.evaluate(problem.retract(T, h * Vec6::Unit(i))).cost - problem.evaluate(problem.retract(T, -h * Vec6::Unit(i))).cost) /
-            (2 * h);
+        const double numeric = (problem.evaluate(problem.retract(T, h * Vec6::Unit(i))).cost -
+                                problem.evaluate(problem.retract(T, -h * Vec6::Unit(i))).cost) /
+                               (2 * h);
         EXPECT_NEAR(numeric, 2 * system.b[i], (text ? 1e-5 : 1e-7) * 2 * system.b.norm()) << i << text;
       }
     }
@@ -346,7 +354,8 @@ TEST(RefinePose, UnusableTermsAreSkipped) {
   for (auto& level : few.levels) level.x.resize(9), level.y.resize(9), level.intensity.resize(9);
   const TextPatch empty;
   PoseTextTerm bad = input.texts[0];
-  for (const TextPatch* patch : {static_cast<const TextPatch*>(&flat), static_cast<const TextPatch*>(&few), &empty, static_cast<const TextPatch*>(nullptr)}) {
+  for (const TextPatch* patch : {static_cast<const TextPatch*>(&flat), static_cast<const TextPatch*>(&few), &empty,
+                                 static_cast<const TextPatch*>(nullptr)}) {
     bad.patch = patch;
     input.texts.insert(input.texts.begin() + 1, bad);
   }
@@ -378,7 +387,8 @@ TEST(RefinePose, UnusableTermsAreSkipped) {
   input.points.push_back(point);
 
   std::vector<float> zncc(input.texts.size()), chi2(input.points.size());
-  const PoseFit fit = input.solve(textplane::se3_exp<double>(Vec6::Constant(0.003)) * input.truth, tight(), true, true, zncc.data(), chi2.data());
+  const PoseFit fit = input.solve(textplane::se3_exp<double>(Vec6::Constant(0.003)) * input.truth, tight(), true, true,
+                                  zncc.data(), chi2.data());
   EXPECT_EQ(fit.status, Status::converged);
   EXPECT_LT(pose_distance(fit.T_t_w, expected.T_t_w), 1e-9);
   EXPECT_EQ(fit.texts, 3);
@@ -391,8 +401,8 @@ TEST(RefinePose, InputThatNoPoseComesFromGetsAStatus) {
   Input input;
   const PoseOptions options;
   const auto run = [&](const PoseOptions& o, const SE3d& T, const Pinhole<double>& camera, int texts, int points) {
-    const PoseFit fit =
-        refine_pose(input.texts.data(), texts, input.points.data(), points, input.target.view(), camera, T, o, input.workspace);
+    const PoseFit fit = refine_pose(input.texts.data(), texts, input.points.data(), points, input.target.view(), camera,
+                                    T, o, input.workspace);
     EXPECT_FALSE(is_ok(fit.status));
     EXPECT_TRUE(fit.information.isZero());
     if (all_finite(T)) {
@@ -435,10 +445,14 @@ TEST(RefinePose, InputThatNoPoseComesFromGetsAStatus) {
   EXPECT_EQ(run(options, behind, camera, 3, 0), Status::behind_camera);
   input.target = input.target.map([](double) { return 50.0; });
   EXPECT_EQ(run(options, T, camera, 3, 0), Status::no_contrast);
-  EXPECT_EQ(refine_pose(nullptr, 1, nullptr, 0, input.target.view(), camera, T, options, input.workspace).status, Status::invalid_argument);
-  EXPECT_EQ(refine_pose(nullptr, 0, nullptr, 1, input.target.view(), camera, T, options, input.workspace).status, Status::invalid_argument);
+  EXPECT_EQ(refine_pose(nullptr, 1, nullptr, 0, input.target.view(), camera, T, options, input.workspace).status,
+            Status::invalid_argument);
+  EXPECT_EQ(refine_pose(nullptr, 0, nullptr, 1, input.target.view(), camera, T, options, input.workspace).status,
+            Status::invalid_argument);
   // Points need no image.
-  EXPECT_TRUE(is_ok(refine_pose(nullptr, 0, input.points.data(), 60, textplane::PyramidView(), camera, T, options, input.workspace).status));
+  EXPECT_TRUE(is_ok(
+      refine_pose(nullptr, 0, input.points.data(), 60, textplane::PyramidView(), camera, T, options, input.workspace)
+          .status));
 }
 
 TEST(RefinePose, GarbageNeverGivesANonFinitePose) {
@@ -455,7 +469,8 @@ TEST(RefinePose, GarbageNeverGivesANonFinitePose) {
       point.p_w = random.normal3(std::pow(10, random.uniform(-100, 100)));
       point.sigma = std::pow(10, random.uniform(-100, 100));
     }
-    const PoseFit fit = garbage.solve(textplane::se3_exp<double>(random.twist(1, 1)) * input.truth, {}, trial % 3 != 0, trial % 3 != 1);
+    const PoseFit fit =
+        garbage.solve(textplane::se3_exp<double>(random.twist(1, 1)) * input.truth, {}, trial % 3 != 0, trial % 3 != 1);
     EXPECT_TRUE(all_finite(fit.T_t_w));
     if (is_ok(fit.status)) {
       EXPECT_TRUE(textplane::all_finite(fit.information));

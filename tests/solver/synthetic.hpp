@@ -1,4 +1,5 @@
-// Textured planes with an analytic smooth texture, seen by pinhole cameras: input for the solver tests, not the examples' renderer.
+// Textured planes with an analytic smooth texture, seen by pinhole cameras: input for the solver tests, not the
+// examples' renderer.
 #ifndef TEXTPLANE_TESTS_SOLVER_SYNTHETIC_HPP
 #define TEXTPLANE_TESTS_SOLVER_SYNTHETIC_HPP
 
@@ -13,7 +14,9 @@
 #include "textplane/photometry/sample.hpp"
 #include "textplane/solver/levels.hpp"
 
+// A namespace of its own: the window tests of the same executable have another Scene.
 namespace textplane_test {
+namespace planar {
 using textplane::Image;
 using textplane::Pinhole;
 using textplane::SE3d;
@@ -26,7 +29,9 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double lo, double hi) { return lo + (hi - lo) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0; }
+  double uniform(double lo, double hi) {
+    return lo + (hi - lo) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
+  }
   double normal() {
     const double radius = std::sqrt(-2 * std::log(uniform(0, 1))), angle = uniform(0, 6.283185307179586);
     return radius * std::cos(angle);
@@ -64,8 +69,8 @@ struct FloatPyramid {
   }
 };
 
-// A rectangle of host pixels [x0, x1] x [y0, y1] on the plane theta of a host camera. Its texture is a function of the host's
-// normalised coordinates.
+// A rectangle of host pixels [x0, x1] x [y0, y1] on the plane theta of a host camera. Its texture is a function of the
+// host's normalised coordinates.
 struct Sign {
   SE3d T_w_h;
   Vec3 theta;
@@ -79,8 +84,10 @@ class Texture {
   explicit Texture(int seed) {
     Random random(static_cast<unsigned>(seed) * 7919U + 11U);
     for (auto& w : waves_) {
-      const double wavelength = random.uniform(17, 60) / 260, angle = random.uniform(0, 3.1416), phase = random.uniform(0, 6.2832);
-      w = Vec3(6.283185307179586 / wavelength * std::cos(angle), 6.283185307179586 / wavelength * std::sin(angle), phase);
+      const double wavelength = random.uniform(17, 60) / 260, angle = random.uniform(0, 3.1416),
+                   phase = random.uniform(0, 6.2832);
+      w = Vec3(6.283185307179586 / wavelength * std::cos(angle), 6.283185307179586 / wavelength * std::sin(angle),
+               phase);
     }
   }
   double operator()(double u, double v) const {
@@ -98,7 +105,8 @@ struct Scene {
   Pinhole<double> camera{260, 255, 160.3, 118.9};
   std::vector<Sign> signs;
 
-  // What the camera at T_t_w sees on one level; multiples of 2^-10, so that gains and biases can be applied without rounding.
+  // What the camera at T_t_w sees on one level; multiples of 2^-10, so that gains and biases can be applied without
+  // rounding.
   FloatPyramid render(const SE3d& T_t_w) const {
     FloatPyramid out;
     for (int l = 0; l < kLevels; ++l) {
@@ -117,7 +125,9 @@ struct Scene {
             if (!(p[2] > 0)) continue;
             const Vec2 px = camera.project(p);
             const double margin = 14;
-            if (px[0] < sign.x0 - margin || px[0] > sign.x1 + margin || px[1] < sign.y0 - margin || px[1] > sign.y1 + margin) continue;
+            if (px[0] < sign.x0 - margin || px[0] > sign.x1 + margin || px[1] < sign.y0 - margin ||
+                px[1] > sign.y1 + margin)
+              continue;
             const double value = texture(p[0] / p[2], p[1] / p[2]);
             image(x, y) = static_cast<float>(std::round(value * 1024) / 1024);
           }
@@ -152,8 +162,8 @@ struct Scene {
     return out;
   }
 
-  // The same pixels with the values that a target's bilinear interpolant has at the true pose: the cost there is exactly zero, so
-  // that recovery is limited by rounding alone. Pixels that the target does not see keep their values.
+  // The same pixels with the values that a target's bilinear interpolant has at the true pose: the cost there is
+  // exactly zero, so that recovery is limited by rounding alone. Pixels that the target does not see keep their values.
   TextPatch exact_patch(const Sign& sign, const FloatPyramid& target, const SE3d& T_t_w, int per_level = 250) const {
     TextPatch out = patch(sign, per_level);
     const SE3d T_t_h = T_t_w * sign.T_w_h;
@@ -174,7 +184,8 @@ struct Scene {
   // Mean distance in px between where two poses put the corners of a sign.
   double corner_error(const Sign& sign, const SE3d& a_t_w, const SE3d& b_t_w) const {
     double sum = 0;
-    for (const Vec2& corner : {Vec2(sign.x0, sign.y0), Vec2(sign.x1, sign.y0), Vec2(sign.x1, sign.y1), Vec2(sign.x0, sign.y1)}) {
+    for (const Vec2& corner :
+         {Vec2(sign.x0, sign.y0), Vec2(sign.x1, sign.y0), Vec2(sign.x1, sign.y1), Vec2(sign.x0, sign.y1)}) {
       const Vec3 m = camera.unproject(corner), p = sign.T_w_h * Vec3(m / sign.theta.dot(m));
       sum += (camera.project(a_t_w * p) - camera.project(b_t_w * p)).norm() / 4;
     }
@@ -185,7 +196,9 @@ struct Scene {
 // Three signs about 2 m away, slanted differently, one of them from a host of its own.
 inline Scene three_signs() {
   Scene scene;
-  const auto theta = [](double nx, double ny, double nz, double d) { return Vec3(-Vec3(nx, ny, nz).normalized() / -d); };
+  const auto theta = [](double nx, double ny, double nz, double d) {
+    return Vec3(-Vec3(nx, ny, nz).normalized() / -d);
+  };
   SE3d second;
   second.t = Vec3(0.3, -0.05, 0.1);
   second.R = textplane::so3_exp<double>(Vec3(0.02, -0.08, 0.03));
@@ -205,6 +218,7 @@ inline SE3d target_pose() {
 // |log(a b^-1)|.
 inline double pose_distance(const SE3d& a, const SE3d& b) { return textplane::se3_log<double>(a * b.inverse()).norm(); }
 
+}  // namespace planar
 }  // namespace textplane_test
 
 #endif  // TEXTPLANE_TESTS_SOLVER_SYNTHETIC_HPP

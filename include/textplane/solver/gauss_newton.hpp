@@ -1,4 +1,5 @@
-// minimise(): Gauss-Newton with Levenberg damping for small problems whose number of parameters is known at compile time.
+// minimise(): Gauss-Newton with Levenberg damping for small problems whose number of parameters is known at compile
+// time.
 //
 // The cost is C(x) = sum_i rho(r_i^2) (no factor 1/2), rho'(0) = 1. A Problem says how to linearise and how to move:
 //
@@ -11,13 +12,13 @@
 //     State retract(const State& x, const Eigen::Matrix<double, P, 1>& step) const;
 //   };
 //
-// all of them noexcept. A residual may come and go with the state (a pixel that leaves the image). So a step is judged on the
-// set of residuals of its linearisation: evaluate() charges the problem's own price for what the trial loses and reports the
-// share, and a trial that loses more than `max_lost_fraction` is rejected. "The cost never rises" means: every accepted
-// trial costs less than the state it came from, both counted on that set.
+// all of them noexcept. A residual may come and go with the state (a pixel that leaves the image). So a step is judged
+// on the set of residuals of its linearisation: evaluate() charges the problem's own price for what the trial loses and
+// reports the share, and a trial that loses more than `max_lost_fraction` is rejected. "The cost never rises" means:
+// every accepted trial costs less than the state it came from, both counted on that set.
 //
-// The method: step = -(H + lambda D)^-1 b with D = max(diag H, floor), lambda ruled by the gain ratio of actual to predicted
-// decrease (Nielsen 1999). No allocation, no exception; the size of the stack frame is a few P x P matrices.
+// The method: step = -(H + lambda D)^-1 b with D = max(diag H, floor), lambda ruled by the gain ratio of actual to
+// predicted decrease (Nielsen 1999). No allocation, no exception; the size of the stack frame is a few P x P matrices.
 #ifndef TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
 #define TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
 
@@ -28,43 +29,48 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// When to stop and how to damp. Tolerances of zero are allowed and mean "never by this test".
 struct SolveOptions {
-  int max_iterations = 20;           ///< Trial steps, rejected ones included.
-  double step_tolerance = 1e-6;      ///< Converged when the norm of the step (in the units of the parameters) is at most this;
-                                     ///< that step is not taken any more.
-  double cost_tolerance = 1e-6;      ///< Converged when an accepted step lowers the cost by at most this share of it.
-  double stall_tolerance = 1e-3;     ///< Where no step lowers the cost: converged if the full step promised at most this share of it.
-  double initial_lambda = 1e-4;      ///< First damping, a multiple of the diagonal of H.
-  double min_lambda = 1e-12;         ///< Damping never falls below.
-  double max_lambda = 1e8;           ///< Damping above this counts as a stall.
-  double diagonal_floor = 1e-15;     ///< Entries of D are at least this share of the largest one.
-  double rank_tolerance = 1e-13;     ///< H is singular where a Cholesky pivot is at most this share of its diagonal entry.
-  double max_lost_fraction = 0.1;    ///< A trial that loses a larger share of the residuals is rejected.
+  int max_iterations = 20;         ///< Trial steps, rejected ones included.
+  double step_tolerance = 1e-6;    ///< Converged when the norm of the step (in the units of the parameters) is at
+                                   ///< most this; that step is not taken any more.
+  double cost_tolerance = 1e-6;    ///< Converged when an accepted step lowers the cost by at most this share of it.
+  double stall_tolerance = 1e-3;   ///< Where no step lowers the cost: converged if the full step promised at most
+                                   ///< this share of it.
+  double initial_lambda = 1e-4;    ///< First damping, a multiple of the diagonal of H.
+  double min_lambda = 1e-12;       ///< Damping never falls below.
+  double max_lambda = 1e8;         ///< Damping above this counts as a stall.
+  double diagonal_floor = 1e-15;   ///< Entries of D are at least this share of the largest one.
+  double rank_tolerance = 1e-13;   ///< H is singular where a Cholesky pivot is at most this share of its diagonal
+                                   ///< entry.
+  double max_lost_fraction = 0.1;  ///< A trial that loses a larger share of the residuals is rejected.
 };
 
 /// Cost of a trial state on the residuals of the last linearisation.
 struct Evaluation {
   double cost = 0;
-  double lost_fraction = 0;     ///< In [0, 1].
-  Status status = Status::ok;   ///< Anything but an ok status rejects the trial.
+  double lost_fraction = 0;    ///< In [0, 1].
+  Status status = Status::ok;  ///< Anything but an ok status rejects the trial.
 };
 
 /// What a solve did.
 ///
 /// status: converged; iteration_limit; diverged (no step lowered the cost although the full step promised more than
-/// `stall_tolerance`); rank_deficient (H of the initial state is singular); non_finite (NaN or infinity in H, b or the cost
-/// of the initial state); invalid_argument (options); or the status of the failed first linearisation.
+/// `stall_tolerance`); rank_deficient (H of the initial state is singular); non_finite (NaN or infinity in H, b or the
+/// cost of the initial state); invalid_argument (options); or the status of the failed first linearisation.
 struct SolveSummary {
   Status status = Status::invalid_argument;
   double initial_cost = 0;  ///< At the initial state, on its own residuals.
-  double final_cost = 0;    ///< At the returned state, on its own residuals: comparable with initial_cost if the set did not change.
-  double reduction = 0;     ///< Sum of the decreases of the accepted steps, each on the set of its linearisation; never negative.
+  double final_cost = 0;    ///< At the returned state, on its own residuals: comparable with initial_cost if the set
+                            ///< did not change.
+  double reduction = 0;     ///< Sum of the decreases of the accepted steps, each on the set of its linearisation; never
+                            ///< negative.
   int iterations = 0;       ///< Trials made.
   int accepted = 0;         ///< Trials accepted.
   double last_step = 0;     ///< Norm of the last step computed.
 };
 
 namespace detail {
-// A rejection multiplies the damping by this, the next in a row by twice as much, and so on: four reach a gradient step.
+// A rejection multiplies the damping by this, the next in a row by twice as much, and so on: four reach a gradient
+// step.
 constexpr double kFirstGrowth = 8.0;
 
 inline bool valid(const SolveOptions& o) noexcept {
@@ -73,8 +79,8 @@ inline bool valid(const SolveOptions& o) noexcept {
          o.diagonal_floor >= 0 && o.rank_tolerance >= 0 && o.max_lost_fraction >= 0;
 }
 
-// Status of a linearisation: its own, or non_finite or rank_deficient as found here. The pivot test of Ldlt does not depend
-// on the units of the parameters.
+// Status of a linearisation: its own, or non_finite or rank_deficient as found here. The pivot test of Ldlt does not
+// depend on the units of the parameters.
 template <int P, class Linearised>
 Status check(const Linearised& system, double rank_tolerance) noexcept {
   if (!is_ok(system.status)) return system.status;
@@ -85,10 +91,10 @@ Status check(const Linearised& system, double rank_tolerance) noexcept {
 
 /// Minimise `problem` from `state`, in place.
 ///
-/// `state` is always the best one seen: unchanged on failure at the start, otherwise the last accepted trial. A trial that
-/// lowers the cost but cannot be linearised (too few residuals left, singular, non-finite) is rejected too. Hence, unless the
-/// first linearisation fails, the last linearise() was made at the returned state (its visible sets are those of the result)
-/// and `*system`, if given, receives it: H is the information matrix of the result.
+/// `state` is always the best one seen: unchanged on failure at the start, otherwise the last accepted trial. A trial
+/// that lowers the cost but cannot be linearised (too few residuals left, singular, non-finite) is rejected too. Hence,
+/// unless the first linearisation fails, the last linearise() was made at the returned state (its visible sets are
+/// those of the result) and `*system`, if given, receives it: H is the information matrix of the result.
 template <class Problem>
 SolveSummary minimise(Problem& problem, typename Problem::State& state, const SolveOptions& options = {},
                       decltype(problem.linearise(state))* system = nullptr) noexcept {
@@ -142,14 +148,16 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
       if (first && summary.last_step <= options.step_tolerance) return finish(Status::converged);
     }
     if (lambda > options.max_lambda || (usable && summary.last_step <= options.step_tolerance))
-      return finish(promise >= 0.0 && promise <= options.stall_tolerance * current.cost ? Status::converged : Status::diverged);
+      return finish(promise >= 0.0 && promise <= options.stall_tolerance * current.cost ? Status::converged
+                                                                                        : Status::diverged);
 
     ++summary.iterations;
     bool accepted = false;
     if (usable) {
       const typename Problem::State trial = problem.retract(state, step);
       const Evaluation e = problem.evaluate(trial);
-      if (is_ok(e.status) && is_finite(e.cost) && e.cost < current.cost && e.lost_fraction <= options.max_lost_fraction) {
+      if (is_ok(e.status) && is_finite(e.cost) && e.cost < current.cost &&
+          e.lost_fraction <= options.max_lost_fraction) {
         const auto next = problem.linearise(trial);
         if (is_ok(detail::check<P>(next, options.rank_tolerance))) {
           accepted = true;

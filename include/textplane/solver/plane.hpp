@@ -1,7 +1,9 @@
-// Plane parameters theta of a text object from one or many target images with known poses: refine_plane() and align_plane().
+// Plane parameters theta of a text object from one or many target images with known poses: refine_plane() and
+// align_plane().
 //
-// Minimises the paper's text object refinement, C(theta) = sum_targets N c with c the robust photometric cost (residual.hpp) and N
-// its visible pixels: the cost of a pixel is then of unit scale on a patch of unit variance. Coarse to fine over pyramid levels.
+// Minimises the paper's text object refinement, C(theta) = sum_targets N c with c the robust photometric cost
+// (residual.hpp) and N its visible pixels: the cost of a pixel is then of unit scale on a patch of unit variance.
+// Coarse to fine over pyramid levels.
 #ifndef TEXTPLANE_SOLVER_PLANE_HPP
 #define TEXTPLANE_SOLVER_PLANE_HPP
 
@@ -28,7 +30,8 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
 
 struct PlaneOptions {
   PhotometricOptions photometric;
-  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
+                           ///< the latest.
   int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
   int finest_level = 0;
 };
@@ -38,22 +41,24 @@ class PlaneWorkspace;
 
 /// Result of refine_plane(); the numbers are those of the finest level and of the returned theta.
 ///
-/// status: converged or iteration_limit; diverged where no step lowered the cost; rank_deficient where the targets do not determine
-/// theta (no parallax: covariance stays zero); where no target could be used, the status of the first that failed (too_few,
-/// out_of_view, behind_camera, no_contrast, ...); non_finite for a NaN theta or camera; invalid_argument for no targets, null pointers, bad
-/// options, a camera that is not valid() or a workspace without room. Poses that are not finite make their target unusable.
+/// status: converged or iteration_limit; diverged where no step lowered the cost; rank_deficient where the targets do
+/// not determine theta (no parallax: covariance stays zero); where no target could be used, the status of the first
+/// that failed (too_few, out_of_view, behind_camera, no_contrast, ...); non_finite for a NaN theta or camera;
+/// invalid_argument for no targets, null pointers, bad options, a camera that is not valid() or a workspace without
+/// room. Poses that are not finite make their target unusable.
 struct PlaneRefinement {
   Vector3<double> theta = Vector3<double>::Zero();  ///< The best seen; the initial one if nothing could be improved.
-  /// residual_variance times the inverse of sum N J^T W J. It knows the noise of the targets, not what all of them share: the
-  /// noise of the host pixels and errors of the poses.
+  /// residual_variance times the inverse of sum N J^T W J. It knows the noise of the targets, not what all of them
+  /// share: the noise of the host pixels and errors of the poses.
   Matrix3<double> covariance = Matrix3<double>::Zero();
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
-  double residual_variance = 0;  ///< Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and norm costing two.
+  double residual_variance = 0;  ///< Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and
+                                 ///< norm costing two.
   double cost = 0;
-  double zncc = 0;           ///< Mean over the targets used.
+  double zncc = 0;  ///< Mean over the targets used.
   int targets_used = 0;
-  int visible_pixels = 0;    ///< Over the targets used.
-  int iterations = 0;        ///< Trials over all levels.
+  int visible_pixels = 0;  ///< Over the targets used.
+  int iterations = 0;      ///< Trials over all levels.
   Status status = Status::invalid_argument;
 };
 
@@ -84,7 +89,8 @@ class PlaneWorkspace {
   bool fits(const TextPatch& patch, int targets) const noexcept {
     const int n = pixel_count(patch);
     const auto count = static_cast<std::size_t>(targets);
-    return n <= photometric_.capacity() && count <= counts_.size() && count * static_cast<std::size_t>(n) <= visible_.size();
+    return n <= photometric_.capacity() && count <= counts_.size() &&
+           count * static_cast<std::size_t>(n) <= visible_.size();
   }
 
  private:
@@ -161,7 +167,9 @@ class PlaneProblem {
     return e;
   }
 
-  Vector3<double> retract(const Vector3<double>& theta, const Vector3<double>& step) const noexcept { return theta + step; }
+  Vector3<double> retract(const Vector3<double>& theta, const Vector3<double>& step) const noexcept {
+    return theta + step;
+  }
 
   /// Of the last linearisation.
   int visible_pixels() const noexcept { return visible_; }
@@ -186,12 +194,14 @@ class PlaneProblem {
 };
 
 template <class View>
-PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const BasicPlaneTarget<View>* targets, int count,
-                             const Pinhole<double>& camera, const PlaneOptions& options, PlaneWorkspace& workspace) noexcept {
+PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta,
+                             const BasicPlaneTarget<View>* targets, int count, const Pinhole<double>& camera,
+                             const PlaneOptions& options, PlaneWorkspace& workspace) noexcept {
   PlaneRefinement fit;
   fit.theta = theta;
   if (count < 1 || !targets || !options.photometric.valid() || !valid(options.solve)) return fit;
-  if (options.finest_level < 0 || options.coarsest_level < options.finest_level || !workspace.fits(patch, count)) return fit;
+  if (options.finest_level < 0 || options.coarsest_level < options.finest_level || !workspace.fits(patch, count))
+    return fit;
   fit.status = check_camera(camera);
   if (is_ok(fit.status) && !all_finite(theta)) fit.status = Status::non_finite;
   if (!is_ok(fit.status)) return fit;
@@ -218,8 +228,8 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   fit.targets_used = problem.targets_used();
   fit.visible_pixels = problem.visible_pixels();
   const int freedom = std::max(1, fit.visible_pixels - 2 * fit.targets_used - 3);
-  // A perfect match would claim no uncertainty at all. The floor lies below what the rounding of 8-bit images leaves (1/6 of a
-  // grey level squared for both sides) on a patch of any contrast.
+  // A perfect match would claim no uncertainty at all. The floor lies below what the rounding of 8-bit images leaves
+  // (1/6 of a grey level squared for both sides) on a patch of any contrast.
   fit.residual_variance = std::max(fit.cost / freedom, 1e-6);
   const Ldlt<double, 3> factor(system.H, options.solve.rank_tolerance);
   if (!factor.ok()) return fit;
@@ -233,27 +243,29 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 }
 }  // namespace detail
 
-/// Refine theta (plane in the host frame) of a text object against `count` target images with known poses, coarse to fine.
+/// Refine theta (plane in the host frame) of a text object against `count` target images with known poses, coarse to
+/// fine.
 ///
-/// `camera`: of the targets, level 0; the host's is in the patch. Targets that do not see enough of the patch are skipped, decided
-/// anew at every linearisation. No allocation: `workspace` must have been reserved for this patch and count. Thread-safe for
-/// distinct workspaces.
-inline PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets, int count,
-                                    const Pinhole<double>& camera, const PlaneOptions& options,
+/// `camera`: of the targets, level 0; the host's is in the patch. Targets that do not see enough of the patch are
+/// skipped, decided anew at every linearisation. No allocation: `workspace` must have been reserved for this patch and
+/// count. Thread-safe for distinct workspaces.
+inline PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets,
+                                    int count, const Pinhole<double>& camera, const PlaneOptions& options,
                                     PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
 
 /// The same on float images.
-inline PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTargetF* targets, int count,
-                                    const Pinhole<double>& camera, const PlaneOptions& options,
+inline PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTargetF* targets,
+                                    int count, const Pinhole<double>& camera, const PlaneOptions& options,
                                     PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
 
 /// refine_plane() with one target and a workspace of its own (allocates).
-inline PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
-                                   const Pinhole<double>& camera, const PlaneOptions& options = {}) {
+inline PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
+                                   const PyramidView& target, const Pinhole<double>& camera,
+                                   const PlaneOptions& options = {}) {
   const PlaneTarget one{target, T_t_h};
   PlaneWorkspace workspace;
   workspace.reserve(patch, 1);

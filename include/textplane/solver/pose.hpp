@@ -1,7 +1,7 @@
 // Camera pose from text objects and points: refine_pose() for a tracker's frame, align_pose() for one object.
 //
-// The cost is in pose_problem.hpp, the iteration in gauss_newton.hpp, run once a pyramid level from coarse to fine (points
-// count on every level, in px of level 0). Points alone and text alone both work.
+// The cost is in pose_problem.hpp, the iteration in gauss_newton.hpp, run once a pyramid level from coarse to fine
+// (points count on every level, in px of level 0). Points alone and text alone both work.
 #ifndef TEXTPLANE_SOLVER_POSE_HPP
 #define TEXTPLANE_SOLVER_POSE_HPP
 
@@ -11,13 +11,16 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// What a pose solve found out besides the pose; all of it of the finest level and of the returned pose.
 ///
-/// status: converged or iteration_limit; diverged where no step lowered the cost on the finest level; rank_deficient where the terms do not
-/// determine the pose (one or two points); where no term could be used: too_few, or the status of the first text that failed
-/// (out_of_view, behind_camera, no_contrast, invalid_argument, non_finite); non_finite for a NaN pose or camera; invalid_argument for
-/// null pointers, bad options, a camera that is not valid() or a workspace without room.
+/// status: converged or iteration_limit; diverged where no step lowered the cost on the finest level; rank_deficient
+/// where the terms do not determine the pose (one or two points); where no term could be used: too_few, or the status
+/// of the first text that failed (out_of_view, behind_camera, no_contrast, invalid_argument, non_finite); non_finite
+/// for a NaN pose or camera; invalid_argument for null pointers, bad options, a camera that is not valid() or a
+/// workspace without room.
 struct PoseResult {
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  ///< Of xi = (v, omega), left: H / sigma_rep^2.
-                                                                                  ///< Its inverse is the covariance under Weighting::variance.
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  ///< Of xi = (v, omega), left: H /
+                                                                                  ///< sigma_rep^2. Its inverse is the
+                                                                                  ///< covariance under
+                                                                                  ///< Weighting::variance.
   double cost = 0;
   double zncc = 0;         ///< Mean over the texts that took part.
   int texts = 0;           ///< Texts that took part.
@@ -27,7 +30,8 @@ struct PoseResult {
   Status status = Status::invalid_argument;
 };
 
-/// Result of refine_pose(). T_t_w is the best pose seen, the initial one if nothing could be improved; finite whenever the initial one is.
+/// Result of refine_pose(). T_t_w is the best pose seen, the initial one if nothing could be improved; finite whenever
+/// the initial one is.
 struct PoseFit : PoseResult {
   SE3d T_t_w;
 };
@@ -47,23 +51,26 @@ inline bool valid(const PoseOptions& o) noexcept {
 }
 
 inline Status check_camera(const Pinhole<double>& camera) noexcept {
-  if (!is_finite(camera.fx) || !is_finite(camera.fy) || !is_finite(camera.cx) || !is_finite(camera.cy)) return Status::non_finite;
+  if (!is_finite(camera.fx) || !is_finite(camera.fy) || !is_finite(camera.cx) || !is_finite(camera.cy))
+    return Status::non_finite;
   return camera.valid() ? Status::ok : Status::invalid_argument;
 }
 
 // Levels to walk: those of the target that some text has too. Without any, one pass for the points on the finest level.
-inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int target_levels, const PoseOptions& options) noexcept {
+inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int target_levels,
+                              const PoseOptions& options) noexcept {
   int patch_levels = 0;
   for (int i = 0; i < text_count; ++i)
     if (texts[i].patch) patch_levels = std::max(patch_levels, texts[i].patch->level_count());
-  const LevelRange range = level_range(options.coarsest_level, options.finest_level, std::min(patch_levels, target_levels));
+  const LevelRange range =
+      level_range(options.coarsest_level, options.finest_level, std::min(patch_levels, target_levels));
   return range.coarsest >= range.finest ? range : LevelRange{options.finest_level, options.finest_level};
 }
 
 template <class View>
-PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count, const View& target,
-                    const Pinhole<double>& camera, const SE3d& T_t_w, const PoseOptions& options, PoseWorkspace& workspace,
-                    float* text_zncc, float* point_chi2) noexcept {
+PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
+                    const View& target, const Pinhole<double>& camera, const SE3d& T_t_w, const PoseOptions& options,
+                    PoseWorkspace& workspace, float* text_zncc, float* point_chi2) noexcept {
   PoseFit fit;
   fit.T_t_w = T_t_w;
   if (text_count < 0 || point_count < 0 || (text_count > 0 && !texts) || (point_count > 0 && !points)) return fit;
@@ -117,7 +124,8 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
   const PoseTextTerm term{&patch, theta, SE3d(), 1};
   PoseWorkspace workspace;
   workspace.reserve(&term, 1, 0);
-  const PoseFit fit = refine_pose<View>(&term, 1, nullptr, 0, target, camera, T_t_h, options, workspace, nullptr, nullptr);
+  const PoseFit fit =
+      refine_pose<View>(&term, 1, nullptr, 0, target, camera, T_t_h, options, workspace, nullptr, nullptr);
   PoseAlignment out;
   static_cast<PoseResult&>(out) = fit;
   out.T_t_h = fit.T_t_w;
@@ -127,17 +135,18 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
 
 /// Refine the pose T_t_w (world to target) of one image from text objects and points, coarse to fine.
 ///
-/// `texts`, `points`: may be null where their count is 0. `target`: pyramid of the undistorted image; levels may be 0 where there are no
-/// texts. `camera`: of the target, level 0. A text that is out of view, behind a camera, without contrast, on a missing level or not
-/// finite, and a point that is behind the camera or not finite, is skipped, not fatal; which ones is decided anew at every
-/// linearisation. `text_zncc` (text_count values) and `point_chi2` (point_count values, |e|^2 / (sigma sigma_rep)^2), if given, receive the
-/// final values, -1 where the term was skipped. No allocation: `workspace` must have been reserved for these terms.
-/// Thread-safe for distinct workspaces.
+/// `texts`, `points`: may be null where their count is 0. `target`: pyramid of the undistorted image; levels may be 0
+/// where there are no texts. `camera`: of the target, level 0. A text that is out of view, behind a camera, without
+/// contrast, on a missing level or not finite, and a point that is behind the camera or not finite, is skipped, not
+/// fatal; which ones is decided anew at every linearisation. `text_zncc` (text_count values) and `point_chi2`
+/// (point_count values, |e|^2 / (sigma sigma_rep)^2), if given, receive the final values, -1 where the term was
+/// skipped. No allocation: `workspace` must have been reserved for these terms. Thread-safe for distinct workspaces.
 inline PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-                           const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w, const PoseOptions& options,
-                           PoseWorkspace& workspace, float* text_zncc = nullptr, float* point_chi2 = nullptr) noexcept {
-  return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace, text_zncc,
-                             point_chi2);
+                           const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
+                           const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
+                           float* point_chi2 = nullptr) noexcept {
+  return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace,
+                             text_zncc, point_chi2);
 }
 
 /// The same on float images.
@@ -145,20 +154,22 @@ inline PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const Pose
                            const PyramidViewF& target, const Pinhole<double>& camera, const SE3d& T_t_w,
                            const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
                            float* point_chi2 = nullptr) noexcept {
-  return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace, text_zncc,
-                             point_chi2);
+  return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace,
+                             text_zncc, point_chi2);
 }
 
-/// Pose T_t_h (host to target) of one text object with the plane `theta` (host frame), from the guess T_t_h. As refine_pose() with this
-/// object alone; allocates its own workspace.
-inline PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
-                                const Pinhole<double>& camera, const PoseOptions& options = {}) {
+/// Pose T_t_h (host to target) of one text object with the plane `theta` (host frame), from the guess T_t_h. As
+/// refine_pose() with this object alone; allocates its own workspace.
+inline PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
+                                const PyramidView& target, const Pinhole<double>& camera,
+                                const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
 /// The same on a float image.
-inline PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidViewF& target,
-                                const Pinhole<double>& camera, const PoseOptions& options = {}) {
+inline PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
+                                const PyramidViewF& target, const Pinhole<double>& camera,
+                                const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 

@@ -1,10 +1,11 @@
-// The joint cost of one camera pose over text objects and points, as a problem for minimise(); its terms, options and memory.
+// The joint cost of one camera pose over text objects and points, as a problem for minimise(); its terms, options and
+// memory.
 //
 //   C(T_t_w) = sum_points rho(|e|^2 / sigma^2) + sum_texts lambda_w c,    e = reprojection error in px
 //
-// with c the robust photometric cost of a text object (residual.hpp) and lambda_w as in weighting.hpp: the paper's equation
-// E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega), which is also the left
-// perturbation of every T_t_h = T_t_w T_w_h.
+// with c the robust photometric cost of a text object (residual.hpp) and lambda_w as in weighting.hpp: the paper's
+// equation E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega),
+// which is also the left perturbation of every T_t_h = T_t_w T_w_h.
 #ifndef TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 #define TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 
@@ -38,14 +39,16 @@ struct PosePointTerm {
 /// Settings of refine_pose() and align_pose().
 struct PoseOptions {
   PhotometricOptions photometric;
-  /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's residual in units of
-  /// 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the paper's E_text.
+  /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's
+  /// residual in units of 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the
+  /// paper's E_text.
   Weighting weighting = Weighting::variance;
   double sigma_photo = 0.3;
   double sigma_rep = 1;
   /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
   Robust point_robust{RobustKind::huber, 2.4477};
-  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
+                           ///< the latest.
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
   int finest_level = 0;
 };
@@ -84,7 +87,8 @@ class PoseWorkspace {
     }
     photometric_.reserve(largest);
     if (visible_.size() < pixels) visible_.resize(pixels);
-    if (text_count > 0 && texts_.size() < static_cast<std::size_t>(text_count)) texts_.resize(static_cast<std::size_t>(text_count));
+    if (text_count > 0 && texts_.size() < static_cast<std::size_t>(text_count))
+      texts_.resize(static_cast<std::size_t>(text_count));
     if (point_count > 0 && points_.size() < static_cast<std::size_t>(point_count))
       points_.resize(static_cast<std::size_t>(point_count));
   }
@@ -134,8 +138,8 @@ auto level_input(const TextPatch& patch, int level, const View& target, const Pi
   return in;
 }
 
-/// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than 89.9 degrees
-/// off the optical axis).
+/// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than
+/// 89.9 degrees off the optical axis).
 inline bool reproject(const PosePointTerm& term, const SE3d& T_t_w, const Pinhole<double>& camera, Vector3<double>* p,
                       Vector2<double>* e) noexcept {
   *p = T_t_w * term.p_w;
@@ -151,10 +155,17 @@ class PoseProblem {
   using State = SE3d;
   static constexpr int kParameters = 6;
 
-  PoseProblem(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count, const View& target,
-              const Pinhole<double>& camera, const PoseOptions& options, PoseWorkspace& workspace) noexcept
-      : texts_(texts), points_(points), text_count_(text_count), point_count_(point_count), target_(target), camera_(camera),
-        options_(options), memory_(workspace) {}
+  PoseProblem(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
+              const View& target, const Pinhole<double>& camera, const PoseOptions& options,
+              PoseWorkspace& workspace) noexcept
+      : texts_(texts),
+        points_(points),
+        text_count_(text_count),
+        point_count_(point_count),
+        target_(target),
+        camera_(camera),
+        options_(options),
+        memory_(workspace) {}
 
   void set_level(int level) noexcept { level_ = level; }
 
@@ -207,7 +218,8 @@ class PoseProblem {
       if (reproject(points_[i], T_t_w, camera_, &p, &r)) {
         e.cost += options_.point_robust.rho(r.squaredNorm() / (points_[i].sigma * points_[i].sigma));
       } else {
-        // Behind the camera: as wrong as a point can be that projects into an image about as wide as the focal length is long.
+        // Behind the camera: as wrong as a point can be that projects into an image about as wide as the focal length
+        // is long.
         e.cost += options_.point_robust.rho(camera_.fx * camera_.fx / (points_[i].sigma * points_[i].sigma));
         ++lost_points;
       }
@@ -236,8 +248,7 @@ class PoseProblem {
     if (!is_ok(n.status)) return n.status;
     state.visible = n.visible;
     state.zncc = n.zncc;
-    state.weight =
-        term.weight * text_weight(options_.weighting, options_.sigma_rep, options_.sigma_photo, n.visible);
+    state.weight = term.weight * text_weight(options_.weighting, options_.sigma_rep, options_.sigma_photo, n.visible);
     std::copy_n(memory_.photometric_.visible(), input.patch.n, memory_.visible_.data() + state.offset);
     for (int i = 0; i < 6; ++i) {
       system.b[i] += state.weight * n.b[i];
