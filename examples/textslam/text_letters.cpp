@@ -185,11 +185,15 @@ void trace_outline(const Piece& piece, std::vector<Point>& outline) {
     outline.push_back(p);
   };
   outline.clear();
-  for (int i = 0; i < piece.count; ++i)
+  for (int i = 0; i < piece.count; ++i) {
+    if (i + 1 < piece.count && piece[i + 1].y == piece[i].y) continue;
     for (const double half : {-0.5, 0.5}) extend(0, {piece[i].x1 + 0.5, piece[i].y + half});
+  }
   const std::size_t base = outline.size();
-  for (int i = piece.count - 1; i >= 0; --i)
+  for (int i = piece.count - 1; i >= 0; --i) {
+    if (i > 0 && piece[i - 1].y == piece[i].y) continue;
     for (const double half : {0.5, -0.5}) extend(base, {piece[i].x0 - 0.5, piece[i].y + half});
+  }
 }
 
 }  // namespace
