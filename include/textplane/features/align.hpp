@@ -1,7 +1,7 @@
 // Aligning a normalised template to an image by translation: inverse compositional, invariant to gain and bias.
 //
-// Baker and Matthews, "Lucas-Kanade 20 years on", IJCV 2004, on zero-mean unit-norm intensities (patch_template.hpp): the
-// Hessian and the Jacobian belong to the template, an iteration costs one pass over the target's samples.
+// Baker and Matthews, "Lucas-Kanade 20 years on", IJCV 2004, on zero-mean unit-norm intensities (patch_template.hpp):
+// the Hessian and the Jacobian belong to the template, an iteration costs one pass over the target's samples.
 #ifndef TEXTPLANE_FEATURES_ALIGN_HPP
 #define TEXTPLANE_FEATURES_ALIGN_HPP
 
@@ -19,8 +19,8 @@ struct KltOptions {
   int max_iterations = 20;    ///< On every level.
   float epsilon = 0.01F;      ///< px: a step shorter than this ends a level.
   float min_contrast = 1.5F;  ///< Intensity: smallest standard deviation of a patch, in template and target.
-  float min_eigenvalue = 0.003F;  ///< 1/px^2: smallest eigenvalue of J~^T J~ (a straight edge has 0).
-  float min_zncc = 0.7F;          ///< Smallest correlation of a successful track.
+  float min_eigenvalue = 0.003F;      ///< 1/px^2: smallest eigenvalue of J~^T J~ (a straight edge has 0).
+  float min_zncc = 0.8F;              ///< Smallest correlation of a successful track.
   float max_forward_backward = 1.0F;  ///< px of level 0; 0 or less: no backward pass. track_klt() only.
 };
 
@@ -36,13 +36,14 @@ namespace detail {
 
 // Sums over the target's samples v, taken relative to an offset near their mean so that floats keep their digits.
 struct AlignSums {
-  float v = 0, vv = 0;  // sum v, sum v^2
-  float tv = 0;         // sum T~ v
+  float v = 0, vv = 0;   // sum v, sum v^2
+  float tv = 0;          // sum T~ v
   float xv = 0, yv = 0;  // sum J~ v
 };
 
 template <int Lanes>
-AlignSums align_sums(const PatchTemplate& t, const ImageView8& image, const SampleWindow& window, float offset) noexcept {
+AlignSums align_sums(const PatchTemplate& t, const ImageView8& image, const SampleWindow& window,
+                     float offset) noexcept {
   float c_v[Lanes] = {}, c_vv[Lanes] = {}, c_tv[Lanes] = {}, c_xv[Lanes] = {}, c_yv[Lanes] = {};
   float upper[Lanes], lower[Lanes];
   std::uint8_t padded[Lanes + 1] = {};
@@ -159,10 +160,10 @@ inline bool valid_options(const KltOptions& options) noexcept {
 }  // namespace detail
 
 /// Refines the position of template `t` in `target` from `start` (px of that image), a translation of 2 parameters that
-/// minimises || T~ - I~ ||^2 over zero-mean unit-norm patches.
-/// On Status::converged or iteration_limit px is the estimate and zncc its correlation. Otherwise: out_of_view (px = start),
-/// no_contrast and rank_deficient (too little texture, px = start), diverged (zncc < min_zncc; px and zncc as found),
-/// non_finite (px = 0), invalid_argument, or the status of a failed template. No allocation; any number of threads.
+/// minimises || T~ - I~ ||^2 over zero-mean unit-norm patches. On Status::converged or iteration_limit px is the
+/// estimate and zncc its correlation. Otherwise: out_of_view (px = start), no_contrast and rank_deficient (too little
+/// texture, px = start), diverged (zncc < min_zncc; px and zncc as found), non_finite (px = 0), invalid_argument, or
+/// the status of a failed template. No allocation; any number of threads.
 inline KltResult align_template(const PatchTemplate& t, const ImageView8& target, const Vector2<float>& start,
                                 const KltOptions& options = {}) noexcept {
   KltResult result;

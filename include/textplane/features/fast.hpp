@@ -1,8 +1,8 @@
 // FAST-9/16 corners, the definition and order of OpenCV's TYPE_9_16: same positions, same responses, same order.
 //
-// A pixel p is a corner where at least 9 consecutive pixels of the circle of 16 around it (radius 3) are all brighter than
-// I(p) + threshold or all darker than I(p) - threshold. Rosten and Drummond, "Machine learning for high-speed corner
-// detection", ECCV 2006. The score is the largest threshold at which p is still a corner.
+// A pixel p is a corner where at least 9 consecutive pixels of the circle of 16 around it (radius 3) are all brighter
+// than I(p) + threshold or all darker than I(p) - threshold. Rosten and Drummond, "Machine learning for high-speed
+// corner detection", ECCV 2006. The score is the largest threshold at which p is still a corner.
 #ifndef TEXTPLANE_FEATURES_FAST_HPP
 #define TEXTPLANE_FEATURES_FAST_HPP
 
@@ -16,8 +16,8 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A corner at pixel (x, y) of the image it was found in. `score` is an integer in [threshold, 254]; 0 where the detector
-/// was asked not to suppress (as in OpenCV, which does not compute it then; see fast_score()).
+/// A corner at pixel (x, y) of the image it was found in. `score` is an integer in [threshold, 254]; 0 where the
+/// detector was asked not to suppress (as in OpenCV, which does not compute it then; see fast_score()).
 struct Corner {
   float x = 0, y = 0;
   float score = 0;
@@ -136,8 +136,8 @@ void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8
 
 }  // namespace detail
 
-/// FAST score of pixel (x, y), at least 3 px from every border: the largest threshold at which it is a corner, -1 where it
-/// is none at any. No allocation.
+/// FAST score of pixel (x, y), at least 3 px from every border: the largest threshold at which it is a corner, -1 where
+/// it is none at any. No allocation.
 inline int fast_score(const ImageView8& image, int x, int y) noexcept {
   if (!image.valid() || x < 3 || y < 3 || x >= image.width() - 3 || y >= image.height() - 3) return -1;
   return detail::fast_score(image.row(y) + x, detail::FastCircle(image.stride()));
@@ -146,16 +146,16 @@ inline int fast_score(const ImageView8& image, int x, int y) noexcept {
 /// Bytes of scratch that detect_fast() on caller buffers needs for an image of this width.
 constexpr std::size_t fast_scratch_size(int width) noexcept { return 3 * static_cast<std::size_t>(width); }
 
-/// FAST-9/16 corners of `image` in raster order, on the caller's memory.
-/// `threshold`: intensity, clamped to [0, 255]. `suppress`: keep a corner only where its score exceeds those of its eight
-/// neighbours. Corners lie at least 3 px from every border.
-/// `scratch`: fast_scratch_size(width) bytes, may be null without `suppress`. Writes at most `capacity` corners to `out`;
-/// `*found` is the number there are, which may be larger. Status::invalid_argument (and *found = 0) for a broken view or a
-/// missing buffer. No allocation; any number of threads.
+/// FAST-9/16 corners of `image` in raster order, on the caller's memory. `threshold`: intensity, clamped to [0, 255].
+/// `suppress`: keep a corner only where its score exceeds those of its eight neighbours. Corners lie at least 3 px from
+/// every border. `scratch`: fast_scratch_size(width) bytes, may be null without `suppress`. Writes at most `capacity`
+/// corners to `out`; `*found` is the number there are, which may be larger. Status::invalid_argument (and *found = 0)
+/// for a broken view or a missing buffer. No allocation; any number of threads.
 inline Status detect_fast(const ImageView8& image, int threshold, bool suppress, std::uint8_t* scratch, Corner* out,
                           int capacity, int* found) noexcept {
   *found = 0;
-  if (!image.valid() || capacity < 0 || (capacity > 0 && !out) || (suppress && !scratch)) return Status::invalid_argument;
+  if (!image.valid() || capacity < 0 || (capacity > 0 && !out) || (suppress && !scratch))
+    return Status::invalid_argument;
   int n = 0;
   detail::scan_fast(image, threshold, suppress, scratch, [&](int x, int y, int score) {
     if (n < capacity) out[n] = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(score)};

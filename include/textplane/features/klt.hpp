@@ -1,4 +1,5 @@
-// KLT: sparse tracking from one image pyramid to the next, coarse to fine, invariant to gain and bias, checked backwards.
+// KLT: sparse tracking from one image pyramid to the next, coarse to fine, invariant to gain and bias, checked
+// backwards.
 //
 // Lucas and Kanade 1981 and Tomasi and Kanade 1991 with the normalised inverse-compositional step of align.hpp on every
 // level; pyramid levels as in DESIGN section 2: level l pixel = (x + 0.5) / 2^l - 0.5.
@@ -15,8 +16,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 
-// Extents of a coarse level's patch: cut where the borders of either image are nearer than half_window, so that points near
-// a border keep their coarse levels. `at` and `start` are the point and its estimate in px of the level.
+// Extents of a coarse level's patch: cut where a border of either image is nearer than half_window, so that points near
+// it keep their coarse levels. `at` and `start` are the point and its estimate in px of the level.
 inline void cut_extents(const Vector2<float>& at, const Vector2<float>& start, const ImageView8& from,
                         const ImageView8& to, int half, PatchTemplate* t) noexcept {
   const auto room = [half](float a, float b) {
@@ -25,11 +26,14 @@ inline void cut_extents(const Vector2<float>& at, const Vector2<float>& start, c
   };
   t->left = room(at[0], start[0]);
   t->top = room(at[1], start[1]);
-  t->columns = t->left + 1 + room(static_cast<float>(from.width() - 1) - at[0], static_cast<float>(to.width() - 1) - start[0]);
-  t->rows = t->top + 1 + room(static_cast<float>(from.height() - 1) - at[1], static_cast<float>(to.height() - 1) - start[1]);
+  const auto beyond = [&room](int from_size, float a, int to_size, float b) {
+    return room(static_cast<float>(from_size - 1) - a, static_cast<float>(to_size - 1) - b);
+  };
+  t->columns = t->left + 1 + beyond(from.width(), at[0], to.width(), start[0]);
+  t->rows = t->top + 1 + beyond(from.height(), at[1], to.height(), start[1]);
 }
 
-// Where the descent on the coarsest level missed: aligns anew from the best correlation on a grid round the start, and
+// Where the descent on a coarse level missed: aligns anew from the best correlation on a grid round the start, and
 // returns that or `missed`, whichever correlates better.
 inline Alignment search(const PatchTemplate& t, const ImageView8& image, const Vector2<float>& start,
                         const Alignment& missed, const KltOptions& options) noexcept {
@@ -50,11 +54,12 @@ inline Alignment search(const PatchTemplate& t, const ImageView8& image, const V
   return is_ok(found.status) && found.zncc > missed.zncc ? found : missed;
 }
 
-// One direction: the patch round `source` (level 0 of `from`) is looked for in `to`, starting at `guess`. A coarse level
-// that does not work out is skipped, the finest must succeed.
+// One direction: the patch round `source` (level 0 of `from`) is looked for in `to`, starting at `guess`. A coarse
+// level that does not work out is skipped, the finest must succeed.
 inline Alignment track_one(const PyramidView& from, const PyramidView& to, const Vector2<float>& source,
                            const Vector2<float>& guess, int levels, const KltOptions& options) noexcept {
-  constexpr int kMinSide = 7;  // of a cut patch
+  constexpr int kMinSide = 7;             // of a cut patch, px
+  constexpr float kMinCoarseZncc = 0.3F;  // below it a coarse estimate is no better than none
   PatchTemplate t;
   Alignment found{guess[0], guess[1], 0, Status::out_of_view};
   for (int level = levels - 1; level >= 0; --level) {
@@ -72,9 +77,13 @@ inline Alignment track_one(const PyramidView& from, const PyramidView& to, const
     Alignment a{start[0], start[1], 0, extract_upright_template(from_image, at[0], at[1], &t)};
     if (is_ok(a.status) && t.contrast() < options.min_contrast) a.status = Status::no_contrast;
     if (is_ok(a.status)) a = align_translation(t, to_image, start[0], start[1], options);
-    if (level > 0 && is_ok(t.status) && a.zncc < options.min_zncc)
-      a = search(t, to_image, start, a, options);
-    if (is_ok(a.status) || (level > 0 && a.status == Status::out_of_view)) {
+    bool usable = is_ok(a.status);
+    if (level > 0) {
+      const bool aligned = is_ok(t.status) && (usable || a.status == Status::out_of_view);
+      if (aligned && a.zncc < options.min_zncc) a = search(t, to_image, start, a, options);
+      usable = aligned && a.zncc > kMinCoarseZncc;
+    }
+    if (usable) {
       const Vector2<float> px = point_from_level(Vector2<float>(a.x, a.y), level);
       found.x = px[0];
       found.y = px[1];
@@ -93,16 +102,17 @@ inline bool valid_levels(const PyramidView& pyramid, int levels) noexcept {
 
 }  // namespace detail
 
-/// Tracks n points from one image to another: out[i] is where the patch round from_px[i] is seen in `to`.
-/// `from_px`, and `guess` if not null (predicted positions in `to`): px of level 0. Without a guess the search starts at
-/// from_px. Points are independent of each other: split the range to use several threads. No allocation.
+/// Tracks n points from one image to another: out[i] is where the patch round from_px[i] is seen in `to`. `from_px`,
+/// and `guess` if not null (predicted positions in `to`): px of level 0. Without a guess the search starts at from_px.
+/// Points are independent of each other: split the range to use several threads. No allocation.
 ///
-/// A point whose patch (with one more ring of pixels for its gradients) leaves the image at a level skips that level; at
-/// level 0 it fails. out[i].status: converged or iteration_limit for a track that passed every check; out_of_view,
-/// no_contrast, rank_deficient (texture in one direction only) as they arise at level 0; diverged where the correlation is
-/// below min_zncc or the point tracked back is more than max_forward_backward px off (px, zncc and fb_error tell);
-/// non_finite (px = 0); invalid_argument for broken pyramids or options. On failures but `diverged`, px is the guess or
-/// the estimate of the coarser levels.
+/// The patch, with one more ring of pixels for its gradients, must lie inside the image at level 0; on coarser levels
+/// it is cut at the borders, and a level where less than 7 px a side remain or that does not align is skipped.
+/// out[i].status: converged or iteration_limit for a track that passed every check; out_of_view, no_contrast,
+/// rank_deficient (texture in one direction only) as they arise at level 0; diverged where the correlation is below
+/// min_zncc or the point tracked back is more than max_forward_backward px off (px, zncc and fb_error tell); non_finite
+/// (px = 0); invalid_argument for broken pyramids or options. On failures but `diverged`, px is the guess or the
+/// estimate of the coarser levels.
 inline void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<float>* from_px,
                       const Vector2<float>* guess, int n, const KltOptions& options, KltResult* out) noexcept {
   int levels = options.levels < from.levels ? options.levels : from.levels;

@@ -21,15 +21,15 @@ TEXTPLANE_BEGIN_NAMESPACE
 constexpr int kMaxPatchHalf = 10;
 
 /// A normalised patch with gradients, ready to be aligned: a rectangle of columns x rows samples, of which the one at
-/// (left, top) is the point itself. Fixed capacity (6 KB), no allocation, freely copied. Rows are `stride` floats apart (16
-/// or 24); the columns past `columns` hold zeros.
+/// (left, top) is the point itself. Fixed capacity (6 KB), no allocation, freely copied. Rows are `stride` floats apart
+/// (16 or 24); the columns past `columns` hold zeros.
 struct PatchTemplate {
   static constexpr int kCapacity = 21 * 24;
 
   int left = 0, top = 0, columns = 0, rows = 0;
   int stride = 0;
-  float mean = 0;           ///< Intensity.
-  float s = 0;              ///< ||T - mean||, intensity.
+  float mean = 0;                   ///< Intensity.
+  float s = 0;                      ///< ||T - mean||, intensity.
   float hxx = 0, hxy = 0, hyy = 0;  ///< J~^T J~, 1/px^2.
   float min_eigenvalue = 0;         ///< Of J~^T J~: the position variance of a unit residual is its inverse.
   Status status = Status::invalid_argument;
@@ -195,8 +195,7 @@ void normalise_template(const PaddedPatch& patch, PatchTemplate* t) noexcept {
     t->hyy += c_yy[i];
   }
   const float difference = t->hxx - t->hyy;
-  t->min_eigenvalue =
-      0.5F * (t->hxx + t->hyy - std::sqrt(difference * difference + 4.0F * t->hxy * t->hxy));
+  t->min_eigenvalue = 0.5F * (t->hxx + t->hyy - std::sqrt(difference * difference + 4.0F * t->hxy * t->hxy));
   t->status = Status::ok;
 }
 
@@ -223,13 +222,13 @@ inline Status extract_upright_template(const ImageView8& image, float x, float y
 }  // namespace detail
 
 /// Samples a template of (2 half + 1)^2 pixels: its offset (dx, dy) shows `image` at centre + A (dx, dy), bilinearly.
-/// `A`: template offset -> image offset (px); to re-observe a point of a key frame, d(host pixel)/d(target pixel) scaled
-/// to the levels used. Choose the level of the source so that |A| is about 1: nothing is filtered here.
-/// `half` in [1, kMaxPatchHalf]. One more ring of samples is read for the gradients (central differences).
-/// Returns, and stores in `t->status`: ok; out_of_view where a sample leaves the image; no_contrast; degenerate for a
-/// singular A; non_finite; invalid_argument. No allocation; any number of threads.
-inline Status extract_template(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int half,
-                               PatchTemplate* t) noexcept {
+/// `A`: template offset -> image offset (px); to re-observe a point of a key frame, d(host pixel)/d(target pixel)
+/// scaled to the levels used. Choose the level of the source so that |A| is about 1: nothing is filtered here. `half`
+/// in [1, kMaxPatchHalf]. One more ring of samples is read for the gradients (central differences). Returns, and stores
+/// in `t->status`: ok; out_of_view where a sample leaves the image; no_contrast; degenerate for a singular A;
+/// non_finite; invalid_argument. No allocation; any number of threads.
+inline Status extract_template(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A,
+                               int half, PatchTemplate* t) noexcept {
   t->left = t->top = t->columns = t->rows = t->stride = 0;
   if (!image.valid() || half < 1 || half > kMaxPatchHalf) return t->status = Status::invalid_argument;
   if (!all_finite(centre) || !all_finite(A)) return t->status = Status::non_finite;

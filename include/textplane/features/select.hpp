@@ -1,7 +1,8 @@
 // Selection: which pixels represent a text object, and which corners of an image are worth tracking.
 //
-// Section IV-A of the paper: text is represented by FAST points inside its quad, at least 15 of them. Here they are spread
-// over the quad and topped up with the pixels of strongest gradient, so that a sum over them sees the whole plane.
+// Section IV-A of the paper: text is represented by FAST points inside its quad, at least 15 of them. Here they are
+// spread over the quad and topped up with the pixels of strongest gradient, so that a sum over them sees the whole
+// plane.
 #ifndef TEXTPLANE_FEATURES_SELECT_HPP
 #define TEXTPLANE_FEATURES_SELECT_HPP
 
@@ -19,10 +20,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Parameters of select_pixels() and make_patch().
 struct SelectOptions {
-  int min_pixels = 15;     ///< The paper's minimum; fewer is Status::too_few.
-  int max_pixels = 300;    ///< On each level.
-  int levels = 3;          ///< Pyramid levels of a patch.
-  int fast_threshold = 20; ///< Intensity; lowered stepwise until half of max_pixels are corners.
+  int min_pixels = 15;      ///< The paper's minimum; fewer is Status::too_few.
+  int max_pixels = 300;     ///< On each level.
+  int levels = 3;           ///< Pyramid levels of a patch.
+  int fast_threshold = 20;  ///< Intensity; lowered stepwise until half of max_pixels are corners.
   int lowest_fast_threshold = 5;
   float min_gradient = 4.0F;  ///< Intensity per px: central difference that a topping-up pixel must reach.
 };
@@ -74,14 +75,15 @@ inline PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
 }
 
 // Corners inside the region at the highest threshold that gives `enough` of them, or at the lowest.
-inline std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
-                                           const SelectOptions& options, int enough) {
+inline std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region,
+                                             const PixelBox& box, const SelectOptions& options, int enough) {
   // The detector leaves out 3 px at each border of what it is given.
   const int x0 = std::max(box.x0 - 3, 0), y0 = std::max(box.y0 - 3, 0);
   const int x1 = std::min(box.x1 + 3, image.width()), y1 = std::min(box.y1 + 3, image.height());
   const ImageView8 part(image.row(y0) + x0, x1 - x0, y1 - y0, image.stride());
   std::vector<Corner> found, inside;
-  for (int threshold = options.fast_threshold;; threshold = std::max(threshold * 3 / 4, options.lowest_fast_threshold)) {
+  for (int threshold = options.fast_threshold;;
+       threshold = std::max(threshold * 3 / 4, options.lowest_fast_threshold)) {
     detect_fast(part, threshold, true, found);
     inside.clear();
     for (Corner c : found) {
@@ -145,11 +147,11 @@ inline void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<doub
 
 }  // namespace detail
 
-/// Representative pixels of a quad in an image: FAST corners inside it, spread over a grid of about max_pixels cells, then the
-/// pixels of strongest gradient of the cells of a finer grid that are still empty, until max_pixels.
-/// `quad`: px of `image`; its convex hull is meant, and what of it lies outside the image is left out. `out`: integer positions, replaced, each pixel
-/// once. Deterministic. Status::too_few where fewer than min_pixels qualify (out then holds those), degenerate for a quad
-/// without area, non_finite, invalid_argument. Allocates.
+/// Representative pixels of a quad in an image: FAST corners inside it, spread over a grid of about max_pixels cells,
+/// then the pixels of strongest gradient of the cells of a finer grid that are still empty, until max_pixels. `quad`:
+/// px of `image`; its convex hull is meant, and what of it lies outside the image is left out. `out`: integer
+/// positions, replaced, each pixel once. Deterministic. Status::too_few where fewer than min_pixels qualify (out then
+/// holds those), degenerate for a quad without area, non_finite, invalid_argument. Allocates.
 inline Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
                             std::vector<Vector2<float>>& out) {
   out.clear();
@@ -163,7 +165,9 @@ inline Status select_pixels(const ImageView8& image, const Quad<double>& quad, c
   const double most = static_cast<double>(options.max_pixels);
   const int coarse = std::max(static_cast<int>(std::sqrt(area(region) / most)), 1);
   const int fine = std::max(static_cast<int>(std::sqrt(area(region) / (2.0 * most))), 1);
-  const auto grid = [&box](int cell) { return detail::CellGrid(box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0, cell); };
+  const auto grid = [&box](int cell) {
+    return detail::CellGrid(box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0, cell);
+  };
 
   std::vector<Corner> corners = detail::corners_in_region(image, region, box, options, (options.max_pixels + 1) / 2);
   detail::take_in_rounds(corners, grid(coarse), options.max_pixels, &out);
@@ -171,9 +175,9 @@ inline Status select_pixels(const ImageView8& image, const Quad<double>& quad, c
   return static_cast<int>(out.size()) < options.min_pixels ? Status::too_few : Status::ok;
 }
 
-/// Of the corners of a width x height image the strongest of every square cell of `cell` px in which no point of `occupied`
-/// lies, strongest first (equal scores in raster order), at most `max_corners`. Corners and occupied points outside the
-/// image are ignored. `out` is replaced and left empty for non-positive sizes. Allocates.
+/// Of the corners of a width x height image the strongest of every square cell of `cell` px in which no point of
+/// `occupied` lies, strongest first (equal scores in raster order), at most `max_corners`. Corners and occupied points
+/// outside the image are ignored. `out` is replaced and left empty for non-positive sizes. Allocates.
 inline void select_spread(const std::vector<Corner>& corners, int width, int height, int cell, int max_corners,
                           const std::vector<Vector2<float>>& occupied, std::vector<Corner>& out) {
   std::vector<Corner> best;  // `out` may be `corners`
@@ -196,9 +200,10 @@ inline void select_spread(const std::vector<Corner>& corners, int width, int hei
   out.swap(best);
 }
 
-/// The patch of a text object: pixels selected on each of options.levels levels of its host image (fewer where the pyramid has
-/// fewer), with their intensities. `quad`: px of level 0, `camera`: the host's. Status as patch_from_pixels(), and that of
-/// select_pixels() where the finest level fails: a patch without level 0 is not used. Allocates.
+/// The patch of a text object: pixels selected on each of options.levels levels of its host image (fewer where the
+/// pyramid has fewer), with their intensities. `quad`: px of level 0, `camera`: the host's. Status as
+/// patch_from_pixels(), and that of select_pixels() where the finest level fails: a patch without level 0 is not used.
+/// Allocates.
 inline TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
                             const SelectOptions& options = {}) {
   const int levels = std::min({options.levels, host.levels, kMaxPyramidLevels});
