@@ -37,12 +37,13 @@ template <class S>
 Matrix3<S> pixel_homography(const Matrix3<S>& H, const Pinhole<S>& host, const Pinhole<S>& target) noexcept {
   Matrix3<S> K_target, K_host_inverse;
   K_target << target.fx, S(0), target.cx, S(0), target.fy, target.cy, S(0), S(0), S(1);
-  K_host_inverse << S(1) / host.fx, S(0), -host.cx / host.fx, S(0), S(1) / host.fy, -host.cy / host.fy, S(0), S(0), S(1);
+  K_host_inverse << S(1) / host.fx, S(0), -host.cx / host.fx, S(0), S(1) / host.fy, -host.cy / host.fy, S(0), S(0),
+      S(1);
   return K_target * H * K_host_inverse;
 }
 
-/// Image q_xy / q_z of m~ under H (normalised or px, as H is). behind_camera where q_z <= 0, non_finite for NaN or overflow;
-/// *out is then untouched. The host side is not checked: see warp_point().
+/// Image q_xy / q_z of m~ under H (normalised or px, as H is). behind_camera where q_z <= 0, non_finite for NaN or
+/// overflow; *out is then untouched. The host side is not checked: see warp_point().
 template <class S>
 Status warp(const Matrix3<S>& H, const Vector3<S>& m, Vector2<S>* out) noexcept {
   const Vector3<S> q = H * m;
@@ -61,8 +62,8 @@ struct WarpJacobians {
   Eigen::Matrix<S, 2, 3> theta;  ///< By theta.
 };
 
-/// m' of m~ through the plane, both depths checked: rho > 0 and q_z > 0, else behind_camera; non_finite for NaN. Outputs are
-/// untouched on failure.
+/// m' of m~ through the plane, both depths checked: rho > 0 and q_z > 0, else behind_camera; non_finite for NaN.
+/// Outputs are untouched on failure.
 ///
 /// dq = omega x q + rho v + t (m~ . dtheta) and dm' = P dq, P = (1/q_z) [I | -m'], so
 /// pose = P [rho I, -[q]x] and theta = (P t) m~^T.
@@ -104,7 +105,8 @@ struct RelativePoseJacobians {
 /// right: host = Ad(T_t_h), target = -I; left: host = Ad(T_w_t^-1), target = -Ad(T_w_t^-1). A Jacobian by the left
 /// perturbation of T_t_h times `host` or `target` is the Jacobian by that world pose.
 template <class S>
-RelativePoseJacobians<S> relative_pose_jacobians(const SE3<S>& T_w_h, const SE3<S>& T_w_t, PerturbationSide side) noexcept {
+RelativePoseJacobians<S> relative_pose_jacobians(const SE3<S>& T_w_h, const SE3<S>& T_w_t,
+                                                 PerturbationSide side) noexcept {
   const SE3<S> T_t_w = T_w_t.inverse();
   RelativePoseJacobians<S> J;
   if (side == PerturbationSide::right) {

@@ -1,9 +1,9 @@
-// Planes by their three parameters theta: from and to normal and distance, depth along a ray, and change of frame. Fits of
-// theta to measurements are in plane_fit.hpp.
+// Planes by their three parameters theta: from and to normal and distance, depth along a ray, and change of frame. Fits
+// of theta to measurements are in plane_fit.hpp.
 //
-// A plane n^T p + d = 0 of the host camera frame is theta = -n / d, so theta^T p = 1 on the plane and the inverse depth of
-// the normalised point m~ = (u, v, 1) is rho = theta^T m~ (paper, eq. 1 to 3; DESIGN sections 2 and 3). theta has the unit
-// of an inverse length; theta = 0 is the plane at infinity. The code published with the paper stores -theta.
+// A plane n^T p + d = 0 of the host camera frame is theta = -n / d, so theta^T p = 1 on the plane and the inverse depth
+// of the normalised point m~ = (u, v, 1) is rho = theta^T m~ (paper, eq. 1 to 3; DESIGN sections 2 and 3). theta has
+// the unit of an inverse length; theta = 0 is the plane at infinity. The code published with the paper stores -theta.
 #ifndef TEXTPLANE_GEOMETRY_PLANE_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_HPP
 
@@ -16,8 +16,8 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// theta of the plane n^T p + d = 0: -n / d. n need not be a unit vector. Zero where d is zero or not finite: such a plane
-/// passes through the camera centre and has no theta.
+/// theta of the plane n^T p + d = 0: -n / d. n need not be a unit vector. Zero where d is zero or not finite: such a
+/// plane passes through the camera centre and has no theta.
 template <class S>
 Vector3<S> plane_from_normal(const Vector3<S>& n, const S& d) noexcept {
   if (!is_finite(d) || d == S(0)) return Vector3<S>::Zero();
@@ -50,7 +50,8 @@ S inverse_depth(const Vector3<S>& theta, const Vector3<S>& m) noexcept {
   return theta.dot(m);
 }
 
-/// The plane's point m~ / rho on the ray of m~. behind_camera where rho <= 0, non_finite for NaN; *point is then untouched.
+/// The plane's point m~ / rho on the ray of m~. behind_camera where rho <= 0, non_finite for NaN; *point is then
+/// untouched.
 template <class S>
 Status plane_point(const Vector3<S>& theta, const Vector3<S>& m, Vector3<S>* point) noexcept {
   const S rho = theta.dot(m);
@@ -72,9 +73,9 @@ Vector3<S> plane_point(const Vector3<S>& theta, const Vector3<S>& m) noexcept {
 
 /// The same plane in the target frame: theta' = R theta / k with k = 1 + theta^T R^T t.
 ///
-/// J_theta (3 x 3): d theta' / d theta = (I - theta' t^T) R / k. J_pose (3 x 6): d theta' / d xi for the left perturbation
-/// T_t_h <- Exp(xi) T_t_h, xi = (v, omega): [-theta' theta'^T, -[theta']x].
-/// behind_camera where k <= 0 (the target centre lies on the plane or beyond it), non_finite for NaN; outputs untouched.
+/// J_theta (3 x 3): d theta' / d theta = (I - theta' t^T) R / k. J_pose (3 x 6): d theta' / d xi for the left
+/// perturbation T_t_h <- Exp(xi) T_t_h, xi = (v, omega): [-theta' theta'^T, -[theta']x]. behind_camera where k <= 0
+/// (the target centre lies on the plane or beyond it), non_finite for NaN; outputs untouched.
 template <class S>
 Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* out, Matrix3<S>* J_theta = nullptr,
                       Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {

@@ -16,17 +16,18 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A fitted plane. `value` is usable where is_ok(status); with behind_camera it holds the algebraic solution, else zero.
+/// A fitted plane. `value` is usable where is_ok(status); with behind_camera it holds the algebraic solution, else
+/// zero.
 template <class S>
 struct PlaneFit {
   using Scalar = S;
   Vector3<S> value = Vector3<S>::Zero();  ///< theta in the host frame.
-  /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative ones)
-  /// multiply it by sigma^2. Zero unless rank is 3.
+  /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative
+  /// ones) multiply it by sigma^2. Zero unless rank is 3.
   Matrix3<S> covariance = Matrix3<S>::Zero();
-  int rank = 0;                                    ///< Of the weighted design matrix (0 to 3).
-  S condition = std::numeric_limits<S>::max();     ///< Its largest over smallest singular value; max() unless rank is 3.
-  S sigma = S(0);                                  ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
+  int rank = 0;                                 ///< Of the weighted design matrix (0 to 3).
+  S condition = std::numeric_limits<S>::max();  ///< Its largest over smallest singular value; max() unless rank is 3.
+  S sigma = S(0);                               ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
   Status status = Status::too_few;
 };
 
@@ -45,14 +46,21 @@ struct PlaneSums {
   }
 };
 
+/// An eigenvalue below this ratio to the largest is rounding: of the input, or of the sums.
+template <class S>
+Wide<S> rank_ratio() noexcept {
+  using W = Wide<S>;
+  const W input = W(16) * W(std::numeric_limits<S>::epsilon()), sums = W(64) * std::numeric_limits<W>::epsilon();
+  return input * input > sums ? input * input : sums;
+}
+
 /// Rank and condition of a design matrix from its 3 x 3 normal matrix, for input rounded to S and sums in Wide<S>.
 template <class S>
 void set_rank(const Matrix3<Wide<S>>& A, PlaneFit<S>* fit) noexcept {
   using std::sqrt;
   using W = Wide<S>;
   const auto e = symmetric_eigen<W, 3>(A);
-  const W input = W(16) * W(std::numeric_limits<S>::epsilon()), sums = W(64) * std::numeric_limits<W>::epsilon();
-  const W ratio = input * input > sums ? input * input : sums;
+  const W ratio = rank_ratio<S>();
   fit->rank = 0;
   if (!all_finite(e.values) || !(e.values[2] > W(0))) return;
   for (int i = 0; i < 3; ++i) fit->rank += e.values[i] > ratio * e.values[2] ? 1 : 0;
@@ -63,15 +71,19 @@ void set_rank(const Matrix3<Wide<S>>& A, PlaneFit<S>* fit) noexcept {
 template <class S>
 Wide<S> plane_weight(const S* weight, int i, Status* status) noexcept {
   if (!weight) return Wide<S>(1);
-  if (!is_finite(weight[i])) *status = Status::non_finite;
-  else if (weight[i] < S(0)) *status = Status::invalid_argument;
+  if (!is_finite(weight[i]))
+    *status = Status::non_finite;
+  else if (weight[i] < S(0))
+    *status = Status::invalid_argument;
   return Wide<S>(weight[i]);
 }
 
+/// The covariance scale * information^-1; false where the numbers left the range of S.
 template <class S>
-void set_covariance(const Ldlt<Wide<S>, 3>& information, PlaneFit<S>* fit) noexcept {
+bool set_covariance(const Ldlt<Wide<S>, 3>& information, const Wide<S>& scale, PlaneFit<S>* fit) noexcept {
   const Matrix3<Wide<S>> c = information.inverse();
-  fit->covariance = ((c + c.transpose()) / Wide<S>(2)).template cast<S>();
+  fit->covariance = ((c + c.transpose()) * (scale / Wide<S>(2))).template cast<S>();
+  return all_finite(fit->covariance) && all_finite(fit->value) && is_finite(fit->sigma);
 }
 
 template <class S>
@@ -88,10 +100,10 @@ PlaneFit<S> failed_plane(Status status) noexcept {
 
 /// theta from n >= 3 inverse depths: weighted least squares of m~_i^T theta = rho_i (DESIGN section 3).
 ///
-/// m: homogeneous normalised points (third entry 1); rho: their inverse depths; weight: 1 / variance of each rho, or null
-/// for ones; a weight of 0 leaves its row out. Degrees of freedom of sigma: n - 3.
-/// Status: too_few (n < 3, rank still reported), rank_deficient (collinear or coincident points), behind_camera (the
-/// solution has rho <= 0 at one of the points), non_finite, invalid_argument (null pointer, negative n or weight).
+/// m: homogeneous normalised points (third entry 1); rho: their inverse depths; weight: 1 / variance of each rho, or
+/// null for ones; a weight of 0 leaves its row out. Degrees of freedom of sigma: n - 3. Status: too_few (n < 3, rank
+/// still reported), rank_deficient (collinear or coincident points), behind_camera (the solution has rho <= 0 at one of
+/// the points), non_finite, invalid_argument (null pointer, negative n or weight).
 template <class S>
 PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const typename PlaneFit<S>::Scalar* weight,
                                       int n) noexcept {
@@ -128,10 +140,9 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
     chi2 += w * r * r;
     if (w > W(0) && !(fitted > W(0))) fit.status = Status::behind_camera;
   }
-  if (!all_finite(theta) || !is_finite(chi2)) return detail::failed_plane<S>(Status::non_finite);
   fit.value = theta.template cast<S>();
-  detail::set_covariance(ldlt, &fit);
   if (used > 3 && chi2 > W(0)) fit.sigma = S(sqrt(chi2 / W(used - 3)));
+  if (!detail::set_covariance(ldlt, W(1), &fit)) return detail::failed_plane<S>(Status::non_finite);
   return fit;
 }
 
@@ -140,10 +151,10 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
 /// The linear system [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i gives the start; up to three Gauss-Newton steps on the
 /// target's reprojection error make it the maximum-likelihood estimate for isotropic noise on the target points.
 /// host_m, target_m: homogeneous normalised points (third entry 1); T_t_h: host to target; weight: 1 / variance of one
-/// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` are those of the linear
-/// system; degrees of freedom of sigma: 2 n - 3.
-/// Status: too_few, rank_deficient (collinear), degenerate (no baseline, or parallax below the rounding error, as after a
-/// pure rotation), behind_camera (a match ends behind a camera), non_finite, invalid_argument.
+/// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` are those of the
+/// linear system; degrees of freedom of sigma: 2 n - 3. Status: too_few, rank_deficient (collinear), degenerate (no
+/// baseline, or parallax below the rounding error, as after a pure rotation), behind_camera (a match ends behind a
+/// camera), non_finite, invalid_argument.
 template <class S>
 PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, int n, const SE3<S>& T_t_h,
                                const typename PlaneFit<S>::Scalar* weight = nullptr) noexcept {
@@ -216,22 +227,25 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
   if (fit.status != Status::ok) return fit;
   const W smallest = W(64) * W(std::numeric_limits<S>::epsilon());
   const Ldlt<W, 3> ldlt(information);
-  if (!(parallax > smallest * smallest)) fit.status = Status::degenerate;
-  else if (!ldlt.ok()) fit.status = Status::rank_deficient;
+  if (!(parallax > smallest * smallest))
+    fit.status = Status::degenerate;
+  else if (!ldlt.ok())
+    fit.status = Status::rank_deficient;
   if (fit.status != Status::ok) {
     fit.value.setZero();
     return fit;
   }
-  detail::set_covariance(ldlt, &fit);
   if (chi2 > W(0)) fit.sigma = S(sqrt(chi2 / W(2 * used - 3)));
+  if (!detail::set_covariance(ldlt, W(1), &fit)) return detail::failed_plane<S>(Status::non_finite);
   return fit;
 }
 
-/// theta of n >= 3 points of the host frame by total least squares: the plane that minimises the weighted sum of squared
-/// distances. weight: 1 / variance of a point along each axis (isotropic), or null for ones; 0 leaves its point out.
+/// theta of n >= 3 points of the host frame by total least squares: the plane that minimises the weighted sum of
+/// squared distances. weight: 1 / variance of a point along each axis (isotropic), or null for ones; 0 leaves its point
+/// out.
 ///
-/// covariance to first order: |theta|^2 (sum w p p^T)^-1. Degrees of freedom of sigma (a length): n - 3.
-/// Status: too_few, rank_deficient (collinear or coincident), behind_camera (the plane passes through the camera centre),
+/// covariance to first order: |theta|^2 (sum w p p^T)^-1. Degrees of freedom of sigma (a length): n - 3. Status:
+/// too_few, rank_deficient (collinear or coincident), behind_camera (the plane passes through the camera centre),
 /// non_finite, invalid_argument.
 template <class S>
 PlaneFit<S> plane_from_points(const Vector3<S>* p, int n,
@@ -260,20 +274,26 @@ PlaneFit<S> plane_from_points(const Vector3<S>* p, int n,
     const Vector3<W> r = p[i].template cast<W>() - centre;
     scatter += (weight ? W(weight[i]) : W(1)) * r * r.transpose();
   }
-  PlaneFit<S> flat;
-  detail::set_rank(scatter, &flat);
   const auto e = symmetric_eigen<W, 3>(scatter);
   const Ldlt<W, 3> ldlt(sums.A);
-  if (flat.rank < 2 || fit.rank < 2) return detail::with_status(fit, Status::rank_deficient);
+  const W rounding = detail::rank_ratio<S>() * sums.A.trace();  // points are rounded to their size, not to their spread
+  if (!(e.values[1] > rounding)) {
+    fit.rank = fit.rank < 2 ? fit.rank : 2;
+    fit.condition = std::numeric_limits<S>::max();
+    return detail::with_status(fit, Status::rank_deficient);
+  }
   if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::behind_camera);
   const Vector3<W> normal = e.vectors.col(0);
   const Vector3<W> theta = normal / normal.dot(centre);
   if (!all_finite(theta)) return detail::with_status(fit, Status::behind_camera);
-  const W length2 = theta.squaredNorm();
+  W chi2 = W(0);
+  for (int i = 0; i < n; ++i) {
+    const W r = normal.dot(p[i].template cast<W>() - centre);
+    chi2 += (weight ? W(weight[i]) : W(1)) * r * r;
+  }
   fit.value = theta.template cast<S>();
-  detail::set_covariance(ldlt, &fit);
-  fit.covariance *= S(length2);
-  if (used > 3 && e.values[0] > W(0)) fit.sigma = S(sqrt(e.values[0] / W(used - 3)));
+  if (used > 3 && chi2 > W(0)) fit.sigma = S(sqrt(chi2 / W(used - 3)));
+  if (!detail::set_covariance(ldlt, theta.squaredNorm(), &fit)) return detail::failed_plane<S>(Status::non_finite);
   fit.status = Status::ok;
   return fit;
 }
@@ -284,7 +304,8 @@ template <class Points>
 using PointScalar = typename std::decay_t<decltype(*std::declval<const Points&>().data())>::Scalar;
 }  // namespace detail
 
-/// Container forms of the three fits. Containers of different sizes give invalid_argument. Weights go by the pointer forms.
+/// Container forms of the three fits. Containers of different sizes give invalid_argument. Weights go by the pointer
+/// forms.
 template <class Points, class Depths, class S = detail::PointScalar<Points>>
 PlaneFit<S> plane_from_inverse_depths(const Points& m, const Depths& rho) noexcept {
   if (m.size() != rho.size()) return detail::failed_plane<S>(Status::invalid_argument);

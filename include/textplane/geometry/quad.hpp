@@ -71,12 +71,17 @@ template <class S>
 S turn(const Vector2<S>& a, const Vector2<S>& b, const Vector2<S>& c) noexcept {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
-/// turn(), with zero for what rounding alone can explain.
+/// turn(), with zero for what the rounding of the coordinates alone can explain.
 template <class S>
 S significant_turn(const Vector2<S>& a, const Vector2<S>& b, const Vector2<S>& c) noexcept {
   using std::abs;
-  const S x = (b[0] - a[0]) * (c[1] - a[1]), y = (b[1] - a[1]) * (c[0] - a[0]), d = x - y;
-  return S(abs(d)) > S(8) * std::numeric_limits<S>::epsilon() * S(abs(x) + abs(y)) ? d : S(0);
+  S size = S(0);
+  for (const Vector2<S>* p : {&a, &b, &c})
+    for (int k = 0; k < 2; ++k)
+      if (S(abs((*p)[k])) > size) size = S(abs((*p)[k]));
+  const S extent = S(abs(b[0] - a[0])) + S(abs(b[1] - a[1])) + S(abs(c[0] - a[0])) + S(abs(c[1] - a[1]));
+  const S t = turn(a, b, c);
+  return S(abs(t)) > S(4) * std::numeric_limits<S>::epsilon() * size * extent ? t : S(0);
 }
 }  // namespace detail
 
@@ -169,7 +174,8 @@ ConvexPolygon<S> convex_hull(const Quad<S>& quad) noexcept {
   if (!all_finite(quad)) return hull;
   std::array<Vector2<S>, 4> p = quad.corner;
   for (std::size_t i = 1; i < 4; ++i)
-    for (std::size_t j = i; j > 0 && (p[j][0] < p[j - 1][0] || (p[j][0] == p[j - 1][0] && p[j][1] < p[j - 1][1])); --j) {
+    for (std::size_t j = i; j > 0 && (p[j][0] < p[j - 1][0] || (p[j][0] == p[j - 1][0] && p[j][1] < p[j - 1][1]));
+         --j) {
       const Vector2<S> swapped = p[j];
       p[j] = p[j - 1];
       p[j - 1] = swapped;
@@ -191,7 +197,8 @@ ConvexPolygon<S> convex_hull(const Quad<S>& quad) noexcept {
 }
 
 namespace detail {
-/// The part of the polygon on the clockwise side of the line from a to b (Sutherland and Hodgman). Adds at most one vertex.
+/// The part of the polygon on the clockwise side of the line from a to b (Sutherland and Hodgman). Adds at most one
+/// vertex.
 template <class S>
 ConvexPolygon<S> clip_half_plane(const ConvexPolygon<S>& polygon, const Vector2<S>& a, const Vector2<S>& b) noexcept {
   ConvexPolygon<S> out;

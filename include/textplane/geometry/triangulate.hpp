@@ -1,7 +1,7 @@
 // Points from their rays in two or more views of known pose.
 //
-// The start is the point nearest to all rays (a 3 x 3 linear system), then damped Gauss-Newton on the reprojection error in
-// normalised coordinates: the maximum-likelihood point for isotropic noise. float input is solved in double.
+// The start is the point nearest to all rays (a 3 x 3 linear system), then damped Gauss-Newton on the reprojection
+// error in normalised coordinates: the maximum-likelihood point for isotropic noise. float input is solved in double.
 #ifndef TEXTPLANE_GEOMETRY_TRIANGULATE_HPP
 #define TEXTPLANE_GEOMETRY_TRIANGULATE_HPP
 
@@ -23,7 +23,8 @@ S ray_angle(const Vector3<S>& a, const Vector3<S>& b) noexcept {
   return sine2 > S(0) ? S(atan2(S(sqrt(sine2)), a.dot(b))) : (a.dot(b) < S(0) ? S(atan2(S(0), S(-1))) : S(0));
 }
 
-/// Angle in rad under which the match m~_a, m~_b sees the baseline: between the ray of a, turned into frame b, and the ray of b.
+/// Angle in rad under which the match m~_a, m~_b sees the baseline: between the ray of a, turned into frame b, and the
+/// ray of b.
 template <class S>
 S parallax_angle(const Vector3<S>& m_a, const Vector3<S>& m_b, const SE3<S>& T_b_a) noexcept {
   return ray_angle<S>(T_b_a.R * m_a, m_b);
@@ -61,7 +62,8 @@ bool point_system(const View& view, int n, const Vector3<W>& p, PointSystem<W>* 
 }
 
 template <class W, class View>
-Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3<W>* point, Matrix3<W>* covariance) noexcept {
+Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3<W>* point,
+                        Matrix3<W>* covariance) noexcept {
   Matrix3<W> A = Matrix3<W>::Zero();
   Vector3<W> b = Vector3<W>::Zero(), first_centre = b, first_ray = b;
   W sine2 = W(0), baseline2 = W(0), extent2 = W(0);
@@ -128,9 +130,9 @@ Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3
 
 /// The point of the world seen as m~_i (homogeneous normalised, third entry 1) in n >= 2 views T_c_w (world to camera).
 ///
-/// covariance (optional, 3 x 3): to first order, for noise of standard deviation 1 on each normalised coordinate; multiply
-/// by sigma^2. Status: too_few (n < 2), degenerate (rays parallel or camera centres equal, to rounding), behind_camera (the
-/// rays meet behind a camera), non_finite, invalid_argument; outputs are then untouched.
+/// covariance (optional, 3 x 3): to first order, for noise of standard deviation 1 on each normalised coordinate;
+/// multiply by sigma^2. Status: too_few (n < 2), degenerate (rays parallel or camera centres equal, to rounding),
+/// behind_camera (the rays meet behind a camera), non_finite, invalid_argument; outputs are then untouched.
 template <class S>
 Status triangulate_views(const SE3<S>* T_c_w, const Vector3<S>* m, int n, Vector3<S>* p_w,
                          Matrix3<S>* covariance = nullptr) noexcept {

@@ -1,0 +1,225 @@
+#include "textplane/core/numeric.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "support/calculus.hpp"
+
+namespace tp = textplane;
+using textplane_test::central_difference;
+using textplane_test::Dual;
+using textplane_test::dual_derivative;
+using textplane_test::Random;
+using textplane_test::relative_error;
+using textplane_test::tolerance;
+using textplane_test::value;
+using textplane_test::values;
+
+template class textplane::Ldlt<float, 3>;
+template class textplane::Ldlt<double, 6>;
+template class textplane::Ldlt<Dual<3>, 3>;
+template struct textplane::SymmetricEigen<float, 3>;
+template struct textplane::SymmetricEigen<double, 3>;
+template struct textplane::SymmetricEigen<Dual<3>, 3>;
+
+namespace {
+
+const double kNan = std::nan(""), kInf = std::numeric_limits<double>::infinity();
+
+template <class S>
+class Numeric : public testing::Test {};
+using Scalars = testing::Types<float, double, Dual<6>>;
+TYPED_TEST_SUITE(Numeric, Scalars, );
+
+template <int N>
+Eigen::Matrix<double, N, N> random_matrix(Random& random) {
+  Eigen::Matrix<double, N, N> m;
+  for (int i = 0; i < N * N; ++i) m(i / N, i % N) = random.uniform(-1, 1);
+  return m;
+}
+
+template <class S, int N>
+void check_ldlt(Random& random) {
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const Eigen::Matrix<double, N, N> root = random_matrix<N>(random);
+    const Eigen::Matrix<double, N, N> full = root * root.transpose() + 0.1 * Eigen::Matrix<double, N, N>::Identity();
+    Eigen::Matrix<S, N, N> a = full.template cast<S>();
+    // What lies above the diagonal is never read.
+    for (int i = 0; i < N; ++i)
+      for (int j = i + 1; j < N; ++j) a(i, j) = S(1e30);
+    const tp::Ldlt<S, N> ldlt(a);
+    ASSERT_TRUE(ldlt.ok());
+    Eigen::Matrix<double, N, 1> b = random.vector<N>(1);
+    const auto x = values(ldlt.solve(b.template cast<S>()));
+    EXPECT_LT((full * x - b).norm(), tolerance<S>(1e-4, 1e-12)) << N;
+    const auto identity = Eigen::Matrix<double, N, N>(full * values(ldlt.inverse()));
+    EXPECT_LT((identity - Eigen::Matrix<double, N, N>::Identity()).norm(), tolerance<S>(1e-4, 1e-12)) << N;
+  }
+}
+
+TYPED_TEST(Numeric, LdltSolves) {
+  Random random(1);
+  check_ldlt<TypeParam, 1>(random);
+  check_ldlt<TypeParam, 2>(random);
+  check_ldlt<TypeParam, 3>(random);
+  check_ldlt<TypeParam, 6>(random);
+  check_ldlt<TypeParam, 9>(random);
+}
+
+TYPED_TEST(Numeric, LdltRefusesWhatIsNotPositiveDefinite) {
+  using S = TypeParam;
+  using M = Eigen::Matrix<S, 3, 3>;
+  M a = M::Identity();
+  a(1, 1) = S(-1);
+  EXPECT_FALSE((tp::Ldlt<S, 3>(a).ok()));
+  EXPECT_FALSE((tp::Ldlt<S, 3>(M(M::Zero())).ok()));
+  const tp::Vector3<S> v(S(0.3), S(-0.7), S(1.1)), w(S(0.9), S(0.1), S(-0.4));
+  EXPECT_FALSE((tp::Ldlt<S, 3>(M(v * v.transpose() + w * w.transpose())).ok())) << "rank 2";
+  for (const double bad : {kNan, kInf, -kInf})
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) {
+        M broken = M::Identity();
+        broken(i, j) = S(static_cast<float>(bad));
+        EXPECT_FALSE((tp::Ldlt<S, 3>(broken).ok())) << i << j << bad;
+      }
+}
+
+// The scale of the matrix does not matter, only its shape.
+TEST(LdltTest, PivotsAreJudgedRelatively) {
+  const Eigen::Matrix3d small = 1e-200 * Eigen::Matrix3d::Identity();
+  EXPECT_TRUE((tp::Ldlt<double, 3>(small).ok()));
+  Eigen::Matrix3d graded = Eigen::Matrix3d::Identity();
+  graded(2, 2) = 1e-30;
+  EXPECT_TRUE((tp::Ldlt<double, 3>(graded).ok()));
+}
+
+TEST(LdltTest, DualsThroughSolve) {
+  Random random(2);
+  const Eigen::Matrix3d root = random_matrix<3>(random), base = root * root.transpose() + Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d b = random.vector<3>(1);
+  // x as a function of six entries of the matrix.
+  const auto f = [&](const auto& x) {
+    using S = typename std::decay_t<decltype(x)>::Scalar;
+    tp::Matrix3<S> a = base.cast<S>();
+    int k = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) a(i, j) += x[k++];
+    return tp::Vector3<S>(tp::Ldlt<S, 3>(a).solve(b.cast<S>()));
+  };
+  const Eigen::Matrix<double, 6, 1> zero = Eigen::Matrix<double, 6, 1>::Zero();
+  EXPECT_LT(relative_error((dual_derivative<3, 6>(f, zero)), (central_difference<3, 6>(f, zero))), 1e-10);
+}
+
+template <class S, int N>
+void check_eigen(const Eigen::Matrix<double, N, N>& a) {
+  using M = Eigen::Matrix<double, N, N>;
+  const auto e = tp::symmetric_eigen<S, N>(a.template cast<S>());
+  const M vectors = values(e.vectors);
+  const Eigen::Matrix<double, N, 1> eigenvalues = values(e.values);
+  const double scale = 1e-300 + a.norm(), bound = tolerance<S>(2e-6, 1e-14);
+  EXPECT_LT((vectors.transpose() * vectors - M::Identity()).norm(), N * bound);
+  EXPECT_LT((vectors * eigenvalues.asDiagonal() * vectors.transpose() - a).norm(), N * bound * scale);
+  const Eigen::SelfAdjointEigenSolver<M> reference(a);
+  EXPECT_LT((eigenvalues - reference.eigenvalues()).norm(), N * bound * scale);
+  for (int i = 0; i + 1 < N; ++i) EXPECT_LE(eigenvalues[i], eigenvalues[i + 1]);
+}
+
+TYPED_TEST(Numeric, EigenOfRandomMatrices) {
+  using S = TypeParam;
+  Random random(3);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    const auto a = random_matrix<3>(random);
+    check_eigen<S, 3>(Eigen::Matrix3d(a + a.transpose()));
+    const auto b = random_matrix<6>(random);
+    check_eigen<S, 6>(Eigen::Matrix<double, 6, 6>(b + b.transpose()));
+    const auto c = random_matrix<2>(random);
+    check_eigen<S, 2>(Eigen::Matrix2d(c + c.transpose()));
+  }
+}
+
+TYPED_TEST(Numeric, EigenOfSpecialMatrices) {
+  using S = TypeParam;
+  const Eigen::Vector3d v(0.25, -0.5, 1.5), w(2, 0.5, -1);
+  check_eigen<S, 3>(Eigen::Matrix3d::Zero());
+  check_eigen<S, 3>(Eigen::Matrix3d::Identity());
+  check_eigen<S, 3>(Eigen::Vector3d(3, -1, 2).asDiagonal());
+  check_eigen<S, 3>(v * v.transpose());
+  check_eigen<S, 3>(v * v.transpose() + w * w.transpose());
+  check_eigen<S, 3>(Eigen::Matrix3d::Ones());
+  check_eigen<S, 3>(Eigen::Matrix3d(1e-12 * v * v.transpose() + w * w.transpose()));
+  Eigen::Matrix3d swap = Eigen::Matrix3d::Zero();
+  swap(0, 2) = swap(2, 0) = swap(1, 1) = 1;
+  check_eigen<S, 3>(swap);
+}
+
+// d lambda_i = v_i^T dA v_i. The second matrix is diagonal: its off-diagonal zeros carry derivatives.
+TEST(EigenTest, DualsThroughValuesAndVectors) {
+  Random random(4);
+  const Eigen::Matrix3d root = random_matrix<3>(random);
+  for (const Eigen::Matrix3d& base :
+       {Eigen::Matrix3d(root + root.transpose()), Eigen::Matrix3d(Eigen::Vector3d(1, 4, 2).asDiagonal())}) {
+    const auto perturbed = [&](const auto& x) {
+      using S = typename std::decay_t<decltype(x)>::Scalar;
+      tp::Matrix3<S> a = base.cast<S>();
+      int k = 0;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j) {
+          a(i, j) += x[k];
+          if (i != j) a(j, i) += x[k];
+          ++k;
+        }
+      return a;
+    };
+    const auto spectrum = [&](const auto& x) {
+      using S = typename std::decay_t<decltype(x)>::Scalar;
+      return tp::Vector3<S>(tp::symmetric_eigen<S, 3>(perturbed(x)).values);
+    };
+    // Projectors v v^T: free of the sign of v.
+    const auto projector = [&](const auto& x) {
+      using S = typename std::decay_t<decltype(x)>::Scalar;
+      const auto e = tp::symmetric_eigen<S, 3>(perturbed(x));
+      Eigen::Matrix<S, 9, 1> flat;
+      for (int c = 0; c < 3; ++c) flat.template segment<3>(3 * c) = e.vectors.col(c) * e.vectors(c == 0 ? 1 : 0, c);
+      return flat;
+    };
+    const Eigen::Matrix<double, 6, 1> zero = Eigen::Matrix<double, 6, 1>::Zero();
+    EXPECT_LT(relative_error((dual_derivative<3, 6>(spectrum, zero)), (central_difference<3, 6>(spectrum, zero))),
+              1e-9);
+    EXPECT_LT(relative_error((dual_derivative<9, 6>(projector, zero)), (central_difference<9, 6>(projector, zero))),
+              1e-8);
+  }
+}
+
+TEST(FiniteTest, DecidesOnTheBits) {
+  EXPECT_TRUE(tp::is_finite(0.0));
+  EXPECT_TRUE(tp::is_finite(-0.0));
+  EXPECT_TRUE(tp::is_finite(std::numeric_limits<double>::max()));
+  EXPECT_TRUE(tp::is_finite(std::numeric_limits<double>::lowest()));
+  EXPECT_TRUE(tp::is_finite(std::numeric_limits<double>::denorm_min()));
+  EXPECT_FALSE(tp::is_finite(kNan));
+  EXPECT_FALSE(tp::is_finite(-kNan));
+  EXPECT_FALSE(tp::is_finite(kInf));
+  EXPECT_FALSE(tp::is_finite(-kInf));
+  EXPECT_TRUE(tp::is_finite(std::numeric_limits<float>::max()));
+  EXPECT_TRUE(tp::is_finite(std::numeric_limits<float>::denorm_min()));
+  EXPECT_FALSE(tp::is_finite(std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_FALSE(tp::is_finite(std::numeric_limits<float>::infinity()));
+  EXPECT_FALSE(tp::is_finite(-std::numeric_limits<float>::infinity()));
+  EXPECT_TRUE(tp::is_finite(Dual<2>(3.0, 1)));
+  EXPECT_FALSE(tp::is_finite(Dual<2>(kNan)));
+  EXPECT_FALSE(tp::is_finite(Dual<2>(kInf)));
+}
+
+TEST(FiniteTest, AllFiniteLooksEverywhere) {
+  for (int i = 0; i < 6; ++i) {
+    Eigen::Matrix<double, 2, 3> m = Eigen::Matrix<double, 2, 3>::Ones();
+    EXPECT_TRUE(tp::all_finite(m));
+    m(i / 3, i % 3) = i % 2 ? kNan : kInf;
+    EXPECT_FALSE(tp::all_finite(m)) << i;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,460 @@
+#include "textplane/geometry/plane_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/calculus.hpp"
+#include "textplane/geometry/homography.hpp"
+
+namespace tp = textplane;
+using textplane_test::central_difference;
+using textplane_test::Dual;
+using textplane_test::dual_derivative;
+using textplane_test::Random;
+using textplane_test::relative_error;
+using textplane_test::tolerance;
+using textplane_test::value;
+using textplane_test::values;
+using Vector3d = Eigen::Vector3d;
+
+#define TEXTPLANE_INSTANTIATE(S)                                                                             \
+  template struct tp::PlaneFit<S>;                                                                           \
+  template tp::PlaneFit<S> tp::plane_from_inverse_depths<S>(const tp::Vector3<S>*, const S*, const S*, int); \
+  template tp::PlaneFit<S> tp::plane_from_matches<S>(const tp::Vector3<S>*, const tp::Vector3<S>*, int,      \
+                                                     const tp::SE3<S>&, const S*);                           \
+  template tp::PlaneFit<S> tp::plane_from_points<S>(const tp::Vector3<S>*, int, const S*);
+TEXTPLANE_INSTANTIATE(float)
+TEXTPLANE_INSTANTIATE(double)
+TEXTPLANE_INSTANTIATE(Dual<6>)
+#undef TEXTPLANE_INSTANTIATE
+
+namespace {
+
+const double kNan = std::nan(""), kInf = std::numeric_limits<double>::infinity();
+
+// A sign of about a tenth of a radian, somewhere in view, seen from a second pose.
+template <class S>
+struct Scene {
+  Vector3d theta;
+  tp::SE3<S> T_t_h;
+  std::vector<tp::Vector3<S>> host, target, points;
+  std::vector<S> rho;
+};
+
+Vector3d facing_plane(Random& random) {
+  const Vector3d n(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), -1);
+  return -n.normalized() / random.uniform(0.8, 4);
+}
+
+template <class S>
+Scene<S> make_scene(Random& random, int n, double half_width = 0.1, double half_height = 0.04) {
+  Scene<S> scene;
+  scene.theta = facing_plane(random);
+  const tp::SE3d T = random.pose(0.15, 0.1);
+  scene.T_t_h = T.cast<S>();
+  const double u = random.uniform(-0.3, 0.3), v = random.uniform(-0.2, 0.2);
+  for (int i = 0; i < n; ++i) {
+    const Vector3d m(u + random.uniform(-half_width, half_width), v + random.uniform(-half_height, half_height), 1);
+    const Vector3d p = m / scene.theta.dot(m), q = T * p;
+    scene.host.push_back(m.cast<S>());
+    scene.target.push_back(Vector3d(q / q[2]).cast<S>());
+    scene.points.push_back(p.cast<S>());
+    scene.rho.push_back(S(scene.theta.dot(m)));
+  }
+  return scene;
+}
+
+template <class S>
+class PlaneFits : public testing::Test {};
+using Scalars = testing::Types<float, double, Dual<6>>;
+TYPED_TEST_SUITE(PlaneFits, Scalars, );
+
+TYPED_TEST(PlaneFits, ExactDataGiveThetaBack) {
+  using S = TypeParam;
+  Random random(1);
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    const Scene<S> scene = make_scene<S>(random, repeat % 2 == 0 ? 3 : 20);
+    const auto by_depth = tp::plane_from_inverse_depths(scene.host, scene.rho);
+    const auto by_match = tp::plane_from_matches(scene.host, scene.target, scene.T_t_h);
+    const auto by_point = tp::plane_from_points(scene.points);
+    for (const auto& fit : {by_depth, by_match, by_point}) {
+      if (fit.condition > S(1000)) continue;  // three random points can lie almost on a line
+      EXPECT_EQ(fit.status, tp::Status::ok) << repeat;
+      EXPECT_EQ(fit.rank, 3);
+      EXPECT_GE(value(fit.condition), 1);
+      // float input is rounded to 6e-8, which the system amplifies by its condition and, for matches, by 1 / parallax.
+      EXPECT_LT((values(fit.value) - scene.theta).norm(), tolerance<S>(0.02, 1e-10)) << repeat;
+      EXPECT_LT(value(fit.sigma), tolerance<S>(3e-6, 1e-13));
+    }
+  }
+}
+
+TEST(PlaneFitTest, ExactRecoveryIsNotOnlyForWellShapedSigns) {
+  Random random(2);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    // A line of small print: 0.2 rad long, 0.002 rad high.
+    const auto scene = make_scene<double>(random, 30, 0.1, 0.001);
+    const auto by_depth = tp::plane_from_inverse_depths(scene.host, scene.rho);
+    const auto by_match = tp::plane_from_matches(scene.host, scene.target, scene.T_t_h);
+    EXPECT_GT(by_depth.condition, 500);
+    EXPECT_LT((by_depth.value - scene.theta).norm(), 1e-10);
+    EXPECT_LT((by_match.value - scene.theta).norm(), 1e-10);
+    EXPECT_LT((tp::plane_from_points(scene.points).value - scene.theta).norm(), 1e-10);
+  }
+}
+
+// The printed rows [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i, solved by Eigen's QR, agree on exact data.
+TEST(PlaneFitTest, AgreesWithThePrintedSystem) {
+  Random random(3);
+  const auto scene = make_scene<double>(random, 12);
+  Eigen::Matrix<double, 36, 3> A;
+  Eigen::Matrix<double, 36, 1> b;
+  for (int i = 0; i < 12; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Eigen::Matrix3d mx = tp::hat(scene.target[k]);
+    A.middleRows<3>(3 * i) = mx * scene.T_t_h.t * scene.host[k].transpose();
+    b.segment<3>(3 * i) = -mx * scene.T_t_h.R * scene.host[k];
+  }
+  const Vector3d theta = A.colPivHouseholderQr().solve(b);
+  const auto fit = tp::plane_from_matches(scene.host, scene.target, scene.T_t_h);
+  EXPECT_LT((fit.value - theta).norm(), 1e-11);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A);
+  EXPECT_NEAR(fit.condition, svd.singularValues()[0] / svd.singularValues()[2], 1e-6 * fit.condition);
+}
+
+TEST(PlaneFitTest, ConditionIsThatOfTheWeightedDesign) {
+  Random random(4);
+  const auto scene = make_scene<double>(random, 9);
+  std::vector<double> weight;
+  Eigen::Matrix<double, 9, 3> A;
+  for (std::size_t i = 0; i < 9; ++i) {
+    weight.push_back(random.uniform(0.2, 5));
+    A.row(static_cast<Eigen::Index>(i)) = std::sqrt(weight[i]) * scene.host[i].transpose();
+  }
+  const auto fit = tp::plane_from_inverse_depths(scene.host.data(), scene.rho.data(), weight.data(), 9);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A);
+  EXPECT_NEAR(fit.condition, svd.singularValues()[0] / svd.singularValues()[2], 1e-9 * fit.condition);
+  EXPECT_LT(relative_error(fit.covariance, Eigen::Matrix3d((A.transpose() * A).inverse())), 1e-9);
+}
+
+// Statistics of `draws` noisy fits: the covariance that each reports must be the covariance that they have. E[e^T C^-1
+// e] = 3 with standard error sqrt(6 / draws) = 0.0245, so 0.1 is four of them; the sample covariance, whitened by the
+// reported one, is the identity with standard errors sqrt(2 / draws) = 0.014 on and 0.01 off the diagonal.
+template <class Fit>
+void check_covariance(const Vector3d& truth, const Fit& fit_noisy, int degrees) {
+  constexpr int kDraws = 10000;
+  Eigen::Matrix3d sample = Eigen::Matrix3d::Zero();
+  Vector3d mean = Vector3d::Zero();
+  double mahalanobis = 0, chi2 = 0;
+  Eigen::Matrix3d reported = Eigen::Matrix3d::Zero();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const tp::PlaneFit<double> fit = fit_noisy();
+    ASSERT_EQ(fit.status, tp::Status::ok);
+    const Vector3d e = fit.value - truth;
+    mahalanobis += e.dot(fit.covariance.llt().solve(e)) / kDraws;
+    sample += e * e.transpose() / kDraws;
+    mean += e / kDraws;
+    reported += fit.covariance / kDraws;
+    chi2 += fit.sigma * fit.sigma / kDraws;
+  }
+  EXPECT_NEAR(mahalanobis, 3, 0.1);
+  const Eigen::Matrix3d L = reported.llt().matrixL(), inverse = L.inverse();
+  const Eigen::Matrix3d ratio = inverse * sample * inverse.transpose();
+  EXPECT_LT((ratio - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.06) << ratio;
+  EXPECT_LT((inverse * mean).cwiseAbs().maxCoeff(), 0.05) << "bias in standard deviations";
+  // sigma^2 estimates the variance of unit weight: 1, with standard error sqrt(2 / (degrees * draws)).
+  EXPECT_NEAR(chi2, 1, 4.5 * std::sqrt(2.0 / (degrees * kDraws)));
+}
+
+// Ten thousand draws each; every measurement has its own variance.
+TEST(PlaneFitCovariance, InverseDepths) {
+  Random random(5);
+  const auto scene = make_scene<double>(random, 15);
+  std::vector<double> sigma, weight;
+  for (std::size_t i = 0; i < scene.host.size(); ++i) {
+    sigma.push_back(random.uniform(0.002, 0.01));
+    weight.push_back(1 / (sigma[i] * sigma[i]));
+  }
+  check_covariance(
+      scene.theta,
+      [&] {
+        auto rho = scene.rho;
+        for (std::size_t i = 0; i < rho.size(); ++i) rho[i] += sigma[i] * random.normal();
+        return tp::plane_from_inverse_depths(scene.host.data(), rho.data(), weight.data(), 15);
+      },
+      15 - 3);
+}
+
+TEST(PlaneFitCovariance, Matches) {
+  Random random(6);
+  for (int geometry = 0; geometry < 3; ++geometry) {
+    auto scene = make_scene<double>(random, 25, 0.15, 0.1);
+    // Sideways, forward, and both with a large turn: the depth of the target points then varies much.
+    scene.T_t_h = tp::SE3d();
+    if (geometry == 0) scene.T_t_h.t = Vector3d(0.3, 0.05, 0);
+    if (geometry == 1) scene.T_t_h.t = Vector3d(0.1, 0.1, -0.3);
+    if (geometry == 2) scene.T_t_h = {tp::so3_exp<double>({0.1, -0.4, 0.2}), Vector3d(0.4, -0.1, 0.1)};
+    std::vector<double> sigma, weight;
+    for (std::size_t i = 0; i < scene.host.size(); ++i) {
+      sigma.push_back(random.uniform(0.0003, 0.001));
+      weight.push_back(1 / (sigma[i] * sigma[i]));
+      const Vector3d q = scene.T_t_h * scene.points[i];
+      ASSERT_GT(q[2], 0.1);
+      scene.target[i] = q / q[2];
+    }
+    SCOPED_TRACE(geometry);
+    check_covariance(
+        scene.theta,
+        [&] {
+          auto target = scene.target;
+          for (std::size_t i = 0; i < target.size(); ++i) {
+            target[i][0] += sigma[i] * random.normal();
+            target[i][1] += sigma[i] * random.normal();
+          }
+          return tp::plane_from_matches(scene.host.data(), target.data(), 25, scene.T_t_h, weight.data());
+        },
+        2 * 25 - 3);
+  }
+}
+
+TEST(PlaneFitCovariance, Points) {
+  Random random(7);
+  const auto scene = make_scene<double>(random, 20, 0.3, 0.2);
+  std::vector<double> sigma, weight;
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    sigma.push_back(random.uniform(0.002, 0.006));
+    weight.push_back(1 / (sigma[i] * sigma[i]));
+  }
+  check_covariance(
+      scene.theta,
+      [&] {
+        auto p = scene.points;
+        for (std::size_t i = 0; i < p.size(); ++i)
+          for (int k = 0; k < 3; ++k) p[i][k] += sigma[i] * random.normal();
+        return tp::plane_from_points(p.data(), 20, weight.data());
+      },
+      20 - 3);
+}
+
+// The fit of noisy matches is the minimum of the target reprojection error: its gradient vanishes there.
+TEST(PlaneFitTest, MatchesMinimiseTheReprojectionError) {
+  Random random(8);
+  for (int repeat = 0; repeat < 10; ++repeat) {
+    auto scene = make_scene<double>(random, 12, 0.2, 0.15);
+    scene.T_t_h.t = Vector3d(0.3, -0.1, 0.1);
+    for (std::size_t i = 0; i < 12; ++i) {
+      const Vector3d q = scene.T_t_h * scene.points[i];
+      scene.target[i] = q / q[2] + Vector3d(0.0005 * random.normal(), 0.0005 * random.normal(), 0);
+    }
+    const auto cost = [&](const Vector3d& theta) {
+      Eigen::Matrix<double, 1, 1> sum = Eigen::Matrix<double, 1, 1>::Zero();
+      for (std::size_t i = 0; i < 12; ++i) {
+        Eigen::Vector2d m = Eigen::Vector2d::Zero();
+        EXPECT_EQ(tp::warp_point(theta, scene.T_t_h, scene.host[i], &m), tp::Status::ok);
+        sum[0] += (m - scene.target[i].head<2>()).squaredNorm();
+      }
+      return sum;
+    };
+    const auto fit = tp::plane_from_matches(scene.host, scene.target, scene.T_t_h);
+    ASSERT_EQ(fit.status, tp::Status::ok);
+    // Distance to the stationary point, in standard deviations of theta.
+    const Vector3d gradient = central_difference<1, 3>(cost, fit.value, 1e-4).transpose();
+    const Vector3d step = fit.covariance * gradient / 2;
+    EXPECT_LT(std::sqrt(step.dot(fit.covariance.llt().solve(step))) / 0.0005, 1e-3);
+  }
+}
+
+TYPED_TEST(PlaneFits, TooFewStillReportTheRank) {
+  using S = TypeParam;
+  Random random(9);
+  const Scene<S> scene = make_scene<S>(random, 3);
+  for (int n = 0; n < 3; ++n) {
+    const auto by_depth = tp::plane_from_inverse_depths(scene.host.data(), scene.rho.data(), nullptr, n);
+    const auto by_match = tp::plane_from_matches(scene.host.data(), scene.target.data(), n, scene.T_t_h);
+    const auto by_point = tp::plane_from_points(scene.points.data(), n);
+    for (const auto& fit : {by_depth, by_match, by_point}) {
+      EXPECT_EQ(fit.status, tp::Status::too_few);
+      EXPECT_EQ(fit.rank, n);
+      EXPECT_TRUE(values(fit.value).isZero());
+      EXPECT_TRUE(values(fit.covariance).isZero());
+      EXPECT_EQ(fit.condition, S(std::numeric_limits<S>::max()));
+    }
+  }
+  // A weight of zero takes a row out.
+  const S weight[3] = {S(1), S(0), S(1)};
+  EXPECT_EQ(tp::plane_from_inverse_depths(scene.host.data(), scene.rho.data(), weight, 3).status, tp::Status::too_few);
+  EXPECT_EQ(tp::plane_from_matches(scene.host.data(), scene.target.data(), 3, scene.T_t_h, weight).rank, 2);
+  EXPECT_EQ(tp::plane_from_points(scene.points.data(), 3, weight).status, tp::Status::too_few);
+}
+
+TYPED_TEST(PlaneFits, CollinearAndCoincidentPointsAreRankDeficient) {
+  using S = TypeParam;
+  Random random(10);
+  for (int repeat = 0; repeat < 30; ++repeat) {
+    const Vector3d theta = facing_plane(random);
+    const tp::SE3d T = random.pose(0.2, 0.2);
+    const Eigen::Vector2d a = random.vector<2>(0.3),
+                          b = repeat % 3 == 2 ? Eigen::Vector2d(0, 0) : random.vector<2>(0.3);
+    const int rank = repeat % 3 == 2 ? 1 : 2;
+    Scene<S> scene;
+    for (int i = 0; i < 10; ++i) {
+      const Eigen::Vector2d uv = a + random.uniform(-1, 1) * b;
+      const Vector3d m(uv[0], uv[1], 1), p = m / theta.dot(m), q = T * p;
+      scene.host.push_back(m.cast<S>());
+      scene.rho.push_back(S(theta.dot(m)));
+      scene.points.push_back(p.cast<S>());
+      scene.target.push_back(Vector3d(q / q[2]).cast<S>());
+    }
+    const auto by_depth = tp::plane_from_inverse_depths(scene.host, scene.rho);
+    const auto by_match = tp::plane_from_matches(scene.host, scene.target, tp::SE3<S>(T.cast<S>()));
+    const auto by_point = tp::plane_from_points(scene.points);
+    for (const auto& fit : {by_depth, by_match, by_point}) {
+      EXPECT_EQ(fit.status, tp::Status::rank_deficient) << repeat;
+      EXPECT_EQ(fit.rank, rank) << repeat;
+      EXPECT_TRUE(values(fit.value).isZero());
+      EXPECT_EQ(fit.condition, S(std::numeric_limits<S>::max()));
+    }
+  }
+}
+
+TYPED_TEST(PlaneFits, NoBaselineIsDegenerate) {
+  using S = TypeParam;
+  Random random(11);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    Scene<S> scene = make_scene<S>(random, 10);
+    tp::SE3d turn;
+    if (repeat > 0) turn.R = tp::so3_exp<double>(random.vector<3>(0.2));
+    // No motion; a pure rotation; a pure rotation whose translation is rounding noise.
+    if (repeat > 10) turn.t = random.vector<3>(1e-17);
+    for (std::size_t i = 0; i < 10; ++i) {
+      const Vector3d q = turn.R * values(scene.host[i]);
+      scene.target[i] = Vector3d(q / q[2]).cast<S>();
+    }
+    const auto fit = tp::plane_from_matches(scene.host, scene.target, tp::SE3<S>(turn.cast<S>()));
+    EXPECT_FALSE(tp::is_ok(fit.status)) << repeat;
+    if (repeat <= 10) {
+      EXPECT_EQ(fit.status, tp::Status::degenerate) << repeat;
+      EXPECT_EQ(fit.rank, 0);
+      EXPECT_TRUE(values(fit.value).isZero());
+    } else {
+      EXPECT_TRUE(fit.status == tp::Status::degenerate || fit.status == tp::Status::behind_camera)
+          << tp::to_string(fit.status);
+    }
+  }
+}
+
+TEST(PlaneFitTest, PlanesThroughOrBehindTheCameraAreNamed) {
+  // Points on the plane x = 0, which holds the camera centre.
+  const std::vector<Vector3d> through = {{0, 0, 1}, {0, 1, 2}, {0, -1, 3}, {0, 0.5, 1}};
+  EXPECT_EQ(tp::plane_from_points(through).status, tp::Status::behind_camera);
+  // Inverse depths that change sign inside the sign.
+  const std::vector<Vector3d> m = {{-0.1, 0, 1}, {0.1, 0, 1}, {0, 0.1, 1}, {0, -0.1, 1}};
+  const std::vector<double> rho = {-0.5, 0.7, 0.1, 0.1};
+  const auto fit = tp::plane_from_inverse_depths(m, rho);
+  EXPECT_EQ(fit.status, tp::Status::behind_camera);
+  EXPECT_LT((fit.value - Vector3d(6, 0, 0.1)).norm(), 1e-12) << "the algebraic solution is kept";
+  // A baseline of the wrong sign mirrors the plane behind the cameras.
+  Random random(12);
+  auto scene = make_scene<double>(random, 10);
+  scene.T_t_h.t = -scene.T_t_h.t;
+  EXPECT_EQ(tp::plane_from_matches(scene.host, scene.target, scene.T_t_h).status, tp::Status::behind_camera);
+}
+
+TEST(PlaneFitTest, BrokenInputGivesAStatus) {
+  Random random(13);
+  const auto scene = make_scene<double>(random, 5);
+  for (const double bad : {kNan, kInf, -kInf}) {
+    for (std::size_t i = 0; i < 5; ++i) {
+      auto broken = scene;
+      broken.rho[i] = bad;
+      EXPECT_EQ(tp::plane_from_inverse_depths(broken.host, broken.rho).status, tp::Status::non_finite);
+      broken.host[i][1] = bad;
+      EXPECT_EQ(tp::plane_from_inverse_depths(broken.host, scene.rho).status, tp::Status::non_finite);
+      EXPECT_EQ(tp::plane_from_matches(broken.host, scene.target, scene.T_t_h).status, tp::Status::non_finite);
+      broken.target[i][0] = bad;
+      EXPECT_EQ(tp::plane_from_matches(scene.host, broken.target, scene.T_t_h).status, tp::Status::non_finite);
+      broken.points[i][2] = bad;
+      EXPECT_EQ(tp::plane_from_points(broken.points).status, tp::Status::non_finite);
+      std::array<double, 5> weight = {1, 1, 1, 1, 1};
+      weight[i] = bad;
+      EXPECT_EQ(tp::plane_from_points(scene.points.data(), 5, weight.data()).status, tp::Status::non_finite);
+    }
+    auto T = scene.T_t_h;
+    T.R(1, 1) = bad;
+    EXPECT_EQ(tp::plane_from_matches(scene.host, scene.target, T).status, tp::Status::non_finite);
+  }
+  const std::array<double, 5> negative = {1, 1, -1, 1, 1};
+  EXPECT_EQ(tp::plane_from_matches(scene.host.data(), scene.target.data(), 5, scene.T_t_h, negative.data()).status,
+            tp::Status::invalid_argument);
+  const Vector3d* null = nullptr;
+  EXPECT_EQ(tp::plane_from_points(null, 3).status, tp::Status::invalid_argument);
+  EXPECT_EQ(tp::plane_from_points(scene.points.data(), -1).status, tp::Status::invalid_argument);
+  EXPECT_EQ(tp::plane_from_matches(scene.host.data(), null, 5, scene.T_t_h).status, tp::Status::invalid_argument);
+  const std::vector<double> short_rho(4, 1.0);
+  EXPECT_EQ(tp::plane_from_inverse_depths(scene.host, short_rho).status, tp::Status::invalid_argument);
+}
+
+// Huge and tiny coordinates neither overflow into a NaN nor pass for a plane without a status.
+TEST(PlaneFitTest, ExtremeValuesNeverGiveNanWithAnOkStatus) {
+  Random random(14);
+  for (const double scale : {1e-300, 1e-160, 1e-80, 1e80, 1e160, 1e300})
+    for (int repeat = 0; repeat < 10; ++repeat) {
+      auto scene = make_scene<double>(random, 6);
+      for (std::size_t i = 0; i < 6; ++i) {
+        scene.rho[i] *= scale;
+        scene.points[i] *= scale;
+      }
+      scene.T_t_h.t *= scale;
+      for (const auto& fit :
+           {tp::plane_from_inverse_depths(scene.host, scene.rho),
+            tp::plane_from_matches(scene.host, scene.target, scene.T_t_h), tp::plane_from_points(scene.points)}) {
+        EXPECT_TRUE(tp::all_finite(fit.value) || !tp::is_ok(fit.status)) << scale;
+        EXPECT_TRUE(tp::all_finite(fit.covariance) || !tp::is_ok(fit.status)) << scale;
+        EXPECT_TRUE(tp::is_finite(fit.sigma) || !tp::is_ok(fit.status)) << scale;
+      }
+    }
+}
+
+// Dual numbers pass through each fit: d theta by the measurements of two of the matches.
+TEST(PlaneFitTest, DualsThroughTheFits) {
+  Random random(15);
+  for (int repeat = 0; repeat < 10; ++repeat) {
+    const auto scene = make_scene<double>(random, 8, 0.2, 0.15);
+    const auto lift = [](const std::vector<Vector3d>& v, const auto& delta) {
+      using S = typename std::decay_t<decltype(delta)>::Scalar;
+      std::vector<tp::Vector3<S>> out;
+      for (const auto& x : v) out.push_back(x.cast<S>());
+      for (int k = 0; k < 6; ++k) out[static_cast<std::size_t>(k / 2)][k % 2] += delta[k];
+      return out;
+    };
+    const auto by_depth = [&](const auto& delta) {
+      using S = typename std::decay_t<decltype(delta)>::Scalar;
+      const std::vector<S> rho(scene.rho.begin(), scene.rho.end());
+      return tp::Vector3<S>(tp::plane_from_inverse_depths(lift(scene.host, delta), rho).value);
+    };
+    const auto by_match = [&](const auto& delta) {
+      using S = typename std::decay_t<decltype(delta)>::Scalar;
+      const auto zero = Eigen::Matrix<S, 6, 1>(Eigen::Matrix<S, 6, 1>::Zero());
+      return tp::Vector3<S>(
+          tp::plane_from_matches(lift(scene.host, zero), lift(scene.target, delta), tp::SE3<S>(scene.T_t_h.cast<S>()))
+              .value);
+    };
+    const auto by_point = [&](const auto& delta) {
+      using S = typename std::decay_t<decltype(delta)>::Scalar;
+      return tp::Vector3<S>(tp::plane_from_points(lift(scene.points, delta)).value);
+    };
+    const Eigen::Matrix<double, 6, 1> zero = Eigen::Matrix<double, 6, 1>::Zero();
+    EXPECT_LT(relative_error((dual_derivative<3, 6>(by_depth, zero)), (central_difference<3, 6>(by_depth, zero, 1e-6))),
+              1e-6);
+    EXPECT_LT(relative_error((dual_derivative<3, 6>(by_match, zero)), (central_difference<3, 6>(by_match, zero, 1e-6))),
+              1e-6);
+    EXPECT_LT(relative_error((dual_derivative<3, 6>(by_point, zero)), (central_difference<3, 6>(by_point, zero, 1e-6))),
+              1e-6);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,113 @@
+// Derivatives by central differences and by dual numbers, and a seeded random source that is the same everywhere.
+#ifndef TEXTPLANE_TESTS_SUPPORT_CALCULUS_HPP
+#define TEXTPLANE_TESTS_SUPPORT_CALCULUS_HPP
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "support/dual.hpp"
+#include "textplane/core/se3.hpp"
+
+namespace textplane_test {
+
+/// std::mt19937 with own mappings: the standard's distributions differ between libraries.
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
+  }
+  /// Standard normal, by Box and Muller.
+  double normal() {
+    const double r = std::sqrt(-2 * std::log(uniform(0, 1))), phi = uniform(0, 6.283185307179586);
+    return r * std::cos(phi);
+  }
+  template <int N>
+  Eigen::Matrix<double, N, 1> vector(double scale) {
+    Eigen::Matrix<double, N, 1> v;
+    for (int i = 0; i < N; ++i) v[i] = uniform(-scale, scale);
+    return v;
+  }
+  textplane::SE3d pose(double translation, double rotation) {
+    Eigen::Matrix<double, 6, 1> xi;
+    xi << vector<3>(translation), vector<3>(rotation);
+    return textplane::se3_exp<double>(xi);
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// d f / d x at x by central differences of fourth order; f maps Matrix<double, N, 1> to Matrix<double, M, 1>.
+template <int M, int N, class F>
+Eigen::Matrix<double, M, N> central_difference(const F& f, const Eigen::Matrix<double, N, 1>& x, double h = 1e-4) {
+  Eigen::Matrix<double, M, N> J;
+  for (int i = 0; i < N; ++i) {
+    const auto at = [&](double step) {
+      Eigen::Matrix<double, N, 1> moved = x;
+      moved[i] += step;
+      return Eigen::Matrix<double, M, 1>(f(moved));
+    };
+    J.col(i) = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
+  }
+  return J;
+}
+
+/// x as N independent variables.
+template <int N>
+Eigen::Matrix<Dual<N>, N, 1> seed(const Eigen::Matrix<double, N, 1>& x) {
+  Eigen::Matrix<Dual<N>, N, 1> d;
+  for (int i = 0; i < N; ++i) d[i] = Dual<N>(x[i], i);
+  return d;
+}
+
+/// The derivatives that a vector of dual numbers carries, one row an entry.
+template <int N, int M>
+Eigen::Matrix<double, M, N> derivative(const Eigen::Matrix<Dual<N>, M, 1>& y) {
+  Eigen::Matrix<double, M, N> J;
+  for (int i = 0; i < M; ++i) J.row(i) = y[i].v.transpose();
+  return J;
+}
+
+/// d f / d x at x by dual numbers; f maps Matrix<Dual<N>, N, 1> to Matrix<Dual<N>, M, 1>.
+template <int M, int N, class F>
+Eigen::Matrix<double, M, N> dual_derivative(const F& f, const Eigen::Matrix<double, N, 1>& x) {
+  return derivative<N, M>(Eigen::Matrix<Dual<N>, M, 1>(f(seed<N>(x))));
+}
+
+/// Largest difference of two matrices over the largest entry of the second. NaN counts as infinite.
+template <class A, class B>
+double relative_error(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
+  const double difference = (a - b).cwiseAbs().maxCoeff(), scale = b.cwiseAbs().maxCoeff();
+  if (!a.allFinite() || !b.allFinite()) return std::numeric_limits<double>::infinity();
+  return scale > 0 ? difference / scale : difference;
+}
+
+/// The value of any of the scalars under test.
+inline double value(float x) { return static_cast<double>(x); }
+inline double value(double x) { return x; }
+template <int N>
+double value(const Dual<N>& x) {
+  return x.a;
+}
+template <class Derived>
+Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime> values(
+    const Eigen::MatrixBase<Derived>& m) {
+  Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime> out;
+  for (Eigen::Index c = 0; c < m.cols(); ++c)
+    for (Eigen::Index r = 0; r < m.rows(); ++r) out(r, c) = value(m(r, c));
+  return out;
+}
+
+/// `in_float` for float, else `in_double`: tolerances that follow the scalar.
+template <class S>
+double tolerance(double in_float, double in_double) {
+  return std::is_same<S, float>::value ? in_float : in_double;
+}
+
+}  // namespace textplane_test
+
+#endif  // TEXTPLANE_TESTS_SUPPORT_CALCULUS_HPP
