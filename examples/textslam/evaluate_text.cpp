@@ -11,7 +11,8 @@
 namespace textslam {
 namespace {
 
-constexpr int kMinVisibleFrames = 10;
+constexpr int kMinVisibleFrames = 10;  // that a sign must be seen whole to count
+constexpr double kWhole = 0.99;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -21,12 +22,29 @@ double median(std::vector<double> values) {
 
 Vec3 centre_of(const std::array<Vec3, 4>& corners) { return (corners[0] + corners[1] + corners[2] + corners[3]) / 4; }
 
+// Counts the frames of truth/quads (x1,...,y4,text,sign,visible a line) that show each sign whole.
+void count_visible(const Sequence& sequence, std::vector<TrueSign>& signs) {
+  for (const FrameRef& frame : sequence.frames) {
+    const std::string path = sequence.folder + "/truth/quads/" + frame.stem + ".txt";
+    if (!std::filesystem::exists(path)) continue;
+    for (const TextLine& line : read_lines(path)) {
+      const std::size_t last = line.text.rfind(','), before = line.text.rfind(',', last - 1);
+      if (last == std::string::npos || before == std::string::npos)
+        throw InputError(path, line.number, "eight coordinates, a text, a sign and a share expected");
+      const double id = require_number(line.text.substr(before + 1, last - before - 1), path, line.number, "a sign");
+      const double visible = require_number(line.text.substr(last + 1), path, line.number, "a visible share");
+      for (TrueSign& sign : signs)
+        if (sign.id == static_cast<int>(id) && visible > kWhole) ++sign.visible_frames;
+    }
+  }
+}
+
 Vec3 to_vec3(const nlohmann::json& j) { return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()}; }
 
 }  // namespace
 
-std::vector<TrueSign> read_true_signs(const std::string& sequence_folder) {
-  const std::string path = sequence_folder + "/truth/signs.json";
+std::vector<TrueSign> read_true_signs(const Sequence& sequence) {
+  const std::string path = sequence.folder + "/truth/signs.json";
   std::vector<TrueSign> signs;
   if (!std::filesystem::exists(path)) return signs;
   try {
@@ -37,12 +55,12 @@ std::vector<TrueSign> read_true_signs(const std::string& sequence_folder) {
       sign.word = s.at("text").get<std::string>();
       for (std::size_t i = 0; i < 4; ++i) sign.corners[i] = to_vec3(s.at("corners").at(i));
       sign.normal = to_vec3(s.at("normal"));
-      sign.visible_frames = s.at("visible_frames").get<int>();
       signs.push_back(sign);
     }
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path, 0, error.what());
   }
+  count_visible(sequence, signs);
   return signs;
 }
 

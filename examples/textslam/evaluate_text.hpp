@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/evaluate.hpp"
+#include "io/sequence.hpp"
 #include "textslam/map.hpp"
 
 namespace textslam {
@@ -39,8 +40,8 @@ struct TextEvaluation {
   std::vector<SignMatch> matches;
 };
 
-/// The signs of SEQUENCE/truth, or none where there is no such folder. Throws InputError for a broken file.
-std::vector<TrueSign> read_true_signs(const std::string& sequence_folder);
+/// The signs in the folder truth of a sequence, or none where there is no such folder. Throws InputError for a broken file.
+std::vector<TrueSign> read_true_signs(const Sequence& sequence);
 
 /// Matches the mapped texts to the signs after `alignment` (map to truth).
 TextEvaluation evaluate_text(const Map& map, const std::vector<TrueSign>& signs, const Similarity& alignment);

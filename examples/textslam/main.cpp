@@ -15,6 +15,7 @@ constexpr int kInputError = 2;
 int execute(int argc, char** argv) {
   textslam::RunOptions options;
   textslam::RenderOptions render;
+  render.kind.clear();
   std::string mode = "text";
   bool only_render = false;
 
