@@ -1,8 +1,8 @@
 #include "textslam/adjustment.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "textplane/solver/window.hpp"
 #include "textslam/point_mapper.hpp"
 
 namespace textslam {

@@ -14,7 +14,7 @@ struct ClassicalParameters {
 
   // Ink: pixels that differ from the mean of their window by `ink_sigmas` standard deviations and by `ink_floor`.
   int window_radius = 8;     ///< level px; strokes wider than this break up and are left to the next level
-  double ink_sigmas = 0.2;
+  double ink_sigmas = 0.5;
   double ink_floor = 5.0;    ///< grey levels
 
   // A letter: a connected piece of ink.
@@ -43,11 +43,17 @@ struct ClassicalParameters {
   double max_turn = 25.0;              ///< degrees between the line and its next letter
   double max_residual = 0.12;          ///< median distance of the letters' tops or bottoms (the better of both) from a line
   double max_taper = 1.8;              ///< ratio of the heights at both ends
+  double max_lean = 0.5;               ///< tangent of the angle between the sides and the normal of the line
+  double min_height = 5.0;             ///< level px, of the letters, across the line
+  double max_quad_height = 2.0;        ///< over the letters' median height: ascenders and descenders, no more
+  double min_cover = 0.6, max_cover = 1.12;  ///< sum of the letters' widths over the quad's: gaps and overlaps are small
+  double min_ink = 0.18, max_ink = 0.58;     ///< part of the quad's area that is ink: from thin to fat print
   double bar_fill = 0.82;              ///< a letter that fills more of its box is a mere bar
   double max_bars = 0.5;               ///< share of bars
   double min_variety = 0.06;           ///< letters differ in width (over height) or fill; windows and tiles do not
   double max_line_tone_spread = 0.25;  ///< standard deviation of the letters' ink and paper, over the contrast
   double margin = 0.06;                ///< added around the ink
+  double min_score = 0.38;             ///< 0.4 to 0.6 is a clear word of three letters, 0.9 a long line of even capitals
 
   // Quads that share more than this part of the smaller one show the same text; the better one stays.
   double max_shared_area = 0.4;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "textplane/features/fast.hpp"
+#include "textplane/features/klt.hpp"
+#include "textplane/features/select.hpp"
+
 namespace textslam {
 namespace {
 
 constexpr int kTextCell = 6;  // px between the corners of a text
-
-}  // namespace
 
 textplane::KltOptions klt_options(const Parameters& parameters) {
   textplane::KltOptions options;
@@ -17,6 +19,8 @@ textplane::KltOptions klt_options(const Parameters& parameters) {
   options.min_zncc = parameters.min_track_zncc;
   return options;
 }
+
+}  // namespace
 
 void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>& guesses, const Parameters& parameters,
                     std::vector<Track>& tracks) {

@@ -9,9 +9,6 @@
 
 namespace textslam {
 
-/// The KLT options of the parameters.
-textplane::KltOptions klt_options(const Parameters& parameters);
-
 /// Moves every track from frame `from` to frame `to`; those that fail are erased. `guesses` (px in `to`) may be empty.
 void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>& guesses, const Parameters& parameters,
                     std::vector<Track>& tracks);

@@ -1,5 +1,8 @@
 #include "textslam/map.hpp"
 
+#include "textplane/geometry/homography.hpp"
+#include "textplane/geometry/plane.hpp"
+
 namespace textslam {
 
 std::vector<int> spread(const std::vector<int>& ids, std::size_t count) {

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "io/detections.hpp"
-#include "textplane/textplane.hpp"
+#include "textplane/photometry/patch.hpp"
+#include "textplane/photometry/pyramid.hpp"
 
 namespace textslam {
 

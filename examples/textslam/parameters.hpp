@@ -71,6 +71,7 @@ struct Parameters {
   double text_cull_zncc = 0.55;       ///< Below it, an observation counts against the object.
   double text_max_slant = 78;         ///< Degrees between viewing ray and normal.
   int text_patience = 25;             ///< Key frames a candidate may wait for its plane.
+  double text_rehost_area = 2;        ///< A key frame that shows a text this much larger becomes its host.
   int text_targets = 8;               ///< Key frames that a plane is refined against.
 
   // Bundle adjustment

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textplane/geometry/triangulate.hpp"
+
 namespace textslam {
 
 void add_observation(Map& map, int point, int keyframe, const Vec2& px) {

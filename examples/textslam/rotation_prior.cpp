@@ -1,5 +1,7 @@
 #include "textslam/rotation_prior.hpp"
 
+#include "textplane/photometry/residual.hpp"
+
 namespace textslam {
 
 RotationPrior align_rotation(const Frame& a, const Frame& b, const Pinhole<double>& camera,

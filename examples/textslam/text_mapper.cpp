@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textplane/features/select.hpp"
+#include "textplane/geometry/homography.hpp"
+#include "textplane/geometry/plane.hpp"
+#include "textplane/geometry/plane_fit.hpp"
+#include "textplane/photometry/residual.hpp"
+#include "textplane/solver/plane.hpp"
 #include "textslam/point_mapper.hpp"
 
 namespace textslam {
@@ -16,6 +22,14 @@ const Vec2* observed_in(const std::vector<PointObservation>& observations, int k
 
 const std::vector<PointObservation>& observations_of(const Map& map, const Track& track) {
   return track.point >= 0 ? map.point(track.point).observations : track.observations;
+}
+
+textplane::SelectOptions select_options(const Parameters& parameters) {
+  textplane::SelectOptions options;
+  options.min_pixels = parameters.text_min_pixels;
+  options.max_pixels = parameters.text_max_pixels;
+  options.levels = parameters.text_levels;
+  return options;
 }
 
 double overlap(const Quad<double>& a, const Quad<double>& b) {
@@ -93,11 +107,8 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
     TextObject text;
     text.id = static_cast<int>(map_.texts.size());
     text.host = id;
-    textplane::SelectOptions options;
-    options.min_pixels = parameters_.text_min_pixels;
-    options.max_pixels = parameters_.text_max_pixels;
-    options.levels = parameters_.text_levels;
-    text.patch = textplane::make_patch(map_.keyframe(id).frame.image->view(), map_.camera, detection.quad, options);
+    text.patch = textplane::make_patch(map_.keyframe(id).frame.image->view(), map_.camera, detection.quad,
+                                       select_options(parameters_));
     if (!textplane::is_ok(text.patch.status)) continue;
     text.detections = 1;
     if (!detection.text.empty() && detection.text != "###") ++text.votes[detection.text];
@@ -153,10 +164,11 @@ bool TextMapper::refine(TextObject& text, const std::vector<int>& keyframes, Vec
   const SE3d& T_w_h = map_.keyframe(text.host).T_w_c;
   for (const int id : keyframes)
     targets.push_back({map_.keyframe(id).frame.image->view(), map_.keyframe(id).T_w_c.inverse() * T_w_h});
-  plane_workspace_.reserve(text.patch, static_cast<int>(targets.size()));
+  textplane::PlaneWorkspace workspace;
+  workspace.reserve(text.patch, static_cast<int>(targets.size()));
   textplane::PlaneOptions options;
   const auto fit = textplane::refine_plane(text.patch, theta, targets.data(), static_cast<int>(targets.size()),
-                                           map_.camera, options, plane_workspace_);
+                                           map_.camera, options, workspace);
   if (!textplane::is_ok(fit.status) || fit.zncc < min_zncc) return false;
   const Vec3 ray = map_.camera.unproject(textplane::centroid(text.patch.quad)).normalized();
   if (-textplane::plane_normal(fit.theta).dot(ray) < std::cos(parameters_.text_max_slant * M_PI / 180)) return false;
@@ -178,9 +190,9 @@ void TextMapper::observe(TextObject& text, int keyframe) {
   const int level = text.patch.level_count() > 1 ? 1 : 0;
   const auto input =
       textplane::photometric_input(text.patch, level, map_.keyframe(keyframe).frame.image->view(), map_.camera);
-  workspace_.reserve(input.patch.n);
+  textplane::PhotometricWorkspace workspace(input.patch.n);
   const auto cost = textplane::reference::evaluate(input, text.theta, map_.T_c_h(T_c_w, text.host),
-                                                   textplane::PhotometricOptions{}, workspace_);
+                                                   textplane::PhotometricOptions{}, workspace);
   if (!textplane::is_ok(cost.status)) return;
   if (cost.zncc >= parameters_.text_min_zncc) {
     text.targets.push_back(keyframe);
@@ -188,6 +200,31 @@ void TextMapper::observe(TextObject& text, int keyframe) {
   } else if (cost.zncc < parameters_.text_cull_zncc) {
     ++text.failures;
   }
+}
+
+// Moves the object to key frame `keyframe` where that shows it much larger: a small host patch knows little of its plane.
+void TextMapper::rehost(TextObject& text, int keyframe) {
+  const SE3d T_t_h = map_.keyframe(keyframe).T_w_c.inverse() * map_.keyframe(text.host).T_w_c;
+  Quad<double> quad;
+  if (!project_text(map_, text, map_.keyframe(keyframe).T_w_c.inverse(), &quad)) return;
+  if (!textplane::inside_image(quad, map_.width, map_.height, parameters_.text_border)) return;
+  if (std::abs(textplane::area(quad)) < parameters_.text_rehost_area * std::abs(textplane::area(text.patch.quad))) return;
+  TextObject moved = text;
+  if (!textplane::is_ok(textplane::reanchor_plane(text.theta, T_t_h, &moved.theta))) return;
+  moved.patch = textplane::make_patch(map_.keyframe(keyframe).frame.image->view(), map_.camera, quad,
+                                      select_options(parameters_));
+  if (!textplane::is_ok(moved.patch.status)) return;
+  moved.host = keyframe;
+  moved.targets.clear();
+  for (const int id : text.targets)
+    if (id != keyframe) observe(moved, id);
+  observe(moved, text.host);
+  std::sort(moved.targets.begin(), moved.targets.end());
+  if (2 * moved.targets.size() < text.targets.size() ||
+      !refine(moved, spread(moved.targets, static_cast<std::size_t>(parameters_.text_targets)), moved.theta,
+              parameters_.text_min_zncc))
+    return;
+  text = std::move(moved);
 }
 
 void TextMapper::update(int id, const std::vector<Track>& tracks) {
@@ -210,6 +247,7 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
       refine(text, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)), text.theta,
              parameters_.text_cull_zncc);
     }
+    if (text.targets.size() > before) rehost(text, id);
     const int observations = static_cast<int>(text.targets.size()) + 1;
     if (text.state == TextState::tentative && observations >= parameters_.text_min_observations &&
         text.detections >= parameters_.text_min_detections)

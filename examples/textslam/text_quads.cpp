@@ -1,8 +1,10 @@
 #include "textslam/text_quads.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace textslam {
 namespace {
@@ -102,8 +104,9 @@ Layout lay_out(const std::vector<Letter>& letters, const std::vector<int>& line,
 
 /// How far the letters lean: the shear u' = u - lean v that makes them narrowest.
 double lean_of(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout) {
+  constexpr int kSteps = 24;
   double best = 0, narrowest = 0;
-  for (int step = 0; step <= 24; ++step) {
+  for (int step = 0; step <= kSteps; ++step) {
     const double lean = 0.05 * (step % 2 == 0 ? step / 2 : -(step + 1) / 2);  // from upright outwards
     const Point axis = layout.along - lean * layout.across;
     double sum = 0;
@@ -117,29 +120,84 @@ double lean_of(const std::vector<Letter>& letters, const std::vector<int>& line,
   return best;
 }
 
-/// Letters that are no mere bars, and not all the same; tones that are even.
-bool looks_like_print(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout,
-                      const ClassicalParameters& parameters, double* tone_spread) {
-  std::vector<double> inks, papers, contrasts, widths, fills;
+/// Mere bars, or all the same: books, railings, windows, tiles.
+bool is_pattern(const Layout& layout, const ClassicalParameters& parameters) {
+  std::vector<double> widths, fills;
   int bars = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const Letter& letter = letters[at(line[i])];
-    inks.push_back(letter.ink);
-    papers.push_back(letter.paper);
-    contrasts.push_back(letter.contrast());
-    widths.push_back(layout.boxes[i].u.length() / layout.boxes[i].v.length());
-    fills.push_back(layout.boxes[i].fill);
-    bars += layout.boxes[i].fill > parameters.bar_fill ? 1 : 0;
+  for (const Box& box : layout.boxes) {
+    widths.push_back(box.u.length() / box.v.length());
+    fills.push_back(box.fill);
+    bars += box.fill > parameters.bar_fill ? 1 : 0;
   }
-  if (bars > parameters.max_bars * static_cast<double>(line.size())) return false;
-  if (std::max(deviation(widths), deviation(fills)) < parameters.min_variety) return false;
-  *tone_spread = std::max(deviation(inks), deviation(papers)) / median(contrasts);
-  return *tone_spread <= parameters.max_line_tone_spread;
+  return bars > parameters.max_bars * static_cast<double>(layout.boxes.size()) ||
+         std::max(deviation(widths), deviation(fills)) < parameters.min_variety;
 }
 
-/// Intersection of v = offset + slope u with u = side + lean v.
-Point corner(double offset, double slope, double side, double lean) {
-  const double v = (offset + slope * side) / (1.0 - slope * lean);
+/// Standard deviation of the letters' inks or papers (the larger one), over the contrast.
+double tone_spread(const std::vector<Letter>& letters, const std::vector<int>& line) {
+  std::vector<double> inks, papers, contrasts;
+  for (const int i : line) {
+    inks.push_back(letters[at(i)].ink);
+    papers.push_back(letters[at(i)].paper);
+    contrasts.push_back(letters[at(i)].contrast());
+  }
+  return std::max(deviation(inks), deviation(papers)) / median(contrasts);
+}
+
+/// The ink in a quad's shape, all sides in the line's frame: v from top to bottom, u - lean v from left to right.
+struct Frame {
+  double top, bottom, left, right, lean;
+
+  double height_at(double u, const Layout& layout) const {
+    return bottom - top + (layout.bottom.slope - layout.top.slope) * u;
+  }
+};
+
+/// The closest frame around the letters whose sides have the directions given.
+Frame enclose(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout, double lean) {
+  Frame frame{layout.top.offset, layout.bottom.offset, 0, 0, lean};
+  frame.left = std::numeric_limits<double>::infinity();
+  frame.right = -frame.left;
+  const Point leaning = layout.along - lean * layout.across;
+  for (const int i : line)
+    for (const Point& p : letters[at(i)].outline) {
+      const double u = p.dot(layout.along), v = p.dot(layout.across);
+      frame.top = std::min(frame.top, v - layout.top.slope * u);
+      frame.bottom = std::max(frame.bottom, v - layout.bottom.slope * u);
+      frame.left = std::min(frame.left, p.dot(leaning));
+      frame.right = std::max(frame.right, p.dot(leaning));
+    }
+  return frame;
+}
+
+/// Gaps, overlaps, ink and heights are those of print.
+bool is_filled_like_text(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout,
+                         const Frame& frame, const ClassicalParameters& parameters) {
+  double ink = 0, covered = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    ink += letters[at(line[i])].area;
+    covered += layout.boxes[i].u.length();
+  }
+  const double width = frame.right - frame.left;
+  const double height = frame.height_at(0.5 * (frame.left + frame.right), layout);
+  const double cover = covered / width, share = ink / (width * height);
+  return layout.height >= parameters.min_height && height <= parameters.max_quad_height * layout.height &&
+         cover >= parameters.min_cover && cover <= parameters.max_cover &&  //
+         share >= parameters.min_ink && share <= parameters.max_ink;
+}
+
+/// In [0, 1]: many letters of equal height on common lines, upright and in even tones, make it 1.
+double score_of(const Layout& layout, double residual, double taper, double lean, double spread) {
+  std::vector<double> heights;
+  for (const Box& box : layout.boxes) heights.push_back(box.v.length() / layout.height);
+  const double letters = static_cast<double>(layout.boxes.size());
+  return (1.0 - std::exp(-0.3 * letters)) * std::max(0.0, 1.0 - 2.0 * spread) * std::max(0.0, 1.5 - 0.5 * taper) *
+         (1.0 - lean * lean) * std::max(0.0, 1.0 - deviation(heights)) * std::max(0.0, 1.0 - 2.0 * residual);
+}
+
+/// Where a rule meets the side u = side + lean v.
+Point corner(const Rule& rule, double side, double lean) {
+  const double v = (rule.offset + rule.slope * side) / (1.0 - rule.slope * lean);
   return {side + lean * v, v};
 }
 
@@ -156,38 +214,27 @@ TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& li
   layout = lay_out(letters, line, Point(layout.along + slope * layout.across).normalized());
 
   const double residual = std::min(layout.top.residual, layout.bottom.residual) / layout.height;
-  double tone_spread = 0;
-  if (residual > parameters.max_residual) return result;
-  if (!looks_like_print(letters, line, layout, parameters, &tone_spread)) return result;
+  if (residual > parameters.max_residual || is_pattern(layout, parameters)) return result;
+  const double spread = tone_spread(letters, line);
+  if (spread > parameters.max_line_tone_spread) return result;
+  const double lean = lean_of(letters, line, layout);
+  if (std::abs(lean) > parameters.max_lean) return result;
 
-  // Top and bottom move out until all ink is inside, and the margin with it.
-  const double lean = lean_of(letters, line, layout), margin = parameters.margin * layout.height;
-  const Point leaning = layout.along - lean * layout.across;
-  double top = layout.top.offset, bottom = layout.bottom.offset, left = 1e30, right = -1e30;
-  for (const int i : line)
-    for (const Point& p : letters[at(i)].outline) {
-      const double u = p.dot(layout.along), v = p.dot(layout.across);
-      top = std::min(top, v - layout.top.slope * u);
-      bottom = std::max(bottom, v - layout.bottom.slope * u);
-      left = std::min(left, p.dot(leaning));
-      right = std::max(right, p.dot(leaning));
-    }
-  top -= margin;
-  bottom += margin;
-  left -= margin;
-  right += margin;
+  Frame frame = enclose(letters, line, layout, lean);
+  const double first = frame.height_at(frame.left, layout), last = frame.height_at(frame.right, layout);
+  if (!(std::min(first, last) > 0)) return result;
+  const double taper = std::max(first, last) / std::min(first, last);
+  if (taper > parameters.max_taper || !is_filled_like_text(letters, line, layout, frame, parameters)) return result;
 
-  const double first = bottom - top + (layout.bottom.slope - layout.top.slope) * left;
-  const double last = bottom - top + (layout.bottom.slope - layout.top.slope) * right;
-  if (!(std::min(first, last) > 0) || std::max(first, last) > parameters.max_taper * std::min(first, last)) return result;
-  const std::array<Point, 4> corners{corner(top, layout.top.slope, left, lean), corner(top, layout.top.slope, right, lean),
-                                     corner(bottom, layout.bottom.slope, right, lean),
-                                     corner(bottom, layout.bottom.slope, left, lean)};
+  const double margin = parameters.margin * layout.height;
+  frame = {frame.top - margin, frame.bottom + margin, frame.left - margin, frame.right + margin, lean};
+  const Rule upper{layout.top.slope, frame.top, 0}, lower{layout.bottom.slope, frame.bottom, 0};
+  const std::array<Point, 4> corners{corner(upper, frame.left, lean), corner(upper, frame.right, lean),
+                                     corner(lower, frame.right, lean), corner(lower, frame.left, lean)};
   for (std::size_t k = 0; k < 4; ++k) result.quad.corner[k] = corners[k][0] * layout.along + corners[k][1] * layout.across;
   if (!textplane::is_convex(result.quad) || !(textplane::area(result.quad) > 0)) return result;
-
-  const double many = 1.0 - std::exp(-0.3 * static_cast<double>(line.size()));
-  result.score = many * (1.0 - residual) * (1.0 - tone_spread);
+  const double score = score_of(layout, residual, taper, lean, spread);
+  result.score = score >= parameters.min_score ? score : 0.0;
   return result;
 }
 

@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "textplane/features/klt.hpp"
+#include "textplane/geometry/quad.hpp"
+#include "textplane/solver/pose.hpp"
 #include "textslam/feature_tracks.hpp"
 #include "textslam/rotation_prior.hpp"
 
@@ -267,13 +270,14 @@ Tracker::Fit Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w) 
   fit.points = static_cast<int>(points.size());
   if (points.size() < 4 && texts.empty()) return fit;
   const int text_count = static_cast<int>(texts.size()), point_count = static_cast<int>(points.size());
-  workspace_.reserve(texts.data(), text_count, point_count);
+  textplane::PoseWorkspace workspace;
+  workspace.reserve(texts.data(), text_count, point_count);
   textplane::PoseOptions options;
   options.sigma_photo = parameters_.photometric_sigma;
   options.coarsest_level = parameters_.text_levels - 1;
   std::vector<float> zncc(texts.size()), chi2(points.size());
   const auto result = textplane::refine_pose(texts.data(), text_count, points.data(), point_count, frame.image->view(),
-                                             map_.camera, *T_c_w, options, workspace_, zncc.data(), chi2.data());
+                                             map_.camera, *T_c_w, options, workspace, zncc.data(), chi2.data());
   if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return fit;
   *T_c_w = textplane::renormalised(result.T_t_w);
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -57,7 +57,6 @@ class Tracker {
   SE3d velocity_;  // T_now_before of the last two frames
   bool moving_ = false;
   std::vector<Track> tracks_;
-  textplane::PoseWorkspace workspace_;
 };
 
 /// Tracks at the points that key frame `id` observes: what a tracker that starts there follows.

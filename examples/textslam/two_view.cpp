@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textplane/core/numeric.hpp"
+#include "textplane/core/se3.hpp"
+
 namespace textslam {
 namespace {
 
