@@ -177,8 +177,6 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
   if (!s.has_truth) return s;
   s.trajectory = evaluate_trajectory(final_trajectory(system), sequence.groundtruth, frames);
   s.live = evaluate_trajectory(live_trajectory(system), sequence.groundtruth, frames);
-  if (textplane::is_ok(s.trajectory.status))
-    s.text = evaluate_text(map, read_true_signs(sequence), s.trajectory.alignment);
   return s;
 }
 

@@ -34,7 +34,8 @@ struct RunSummary {
 std::vector<StampedPose> final_trajectory(const System& system);
 std::vector<StampedPose> live_trajectory(const System& system);
 
-/// Compares with ground truth where the sequence has it. `frames`: how many the run was to process.
+/// Compares the trajectories with ground truth where the sequence has it; `text` is left to the caller. `frames`: how many
+/// the run was to process.
 RunSummary summarise(const System& system, const Sequence& sequence, std::size_t frames);
 
 /// Writes every file into `folder`, which exists. Throws std::runtime_error where one cannot be written.

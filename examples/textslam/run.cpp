@@ -45,6 +45,16 @@ class FrameSource {
   std::unique_ptr<TextDetector> detector_;
 };
 
+// Broken input ends a step but not the run: what was computed is written. The first message is the one reported.
+template <class Step>
+void keep_going(RunResult& result, Step step) {
+  try {
+    step();
+  } catch (const InputError& error) {
+    if (result.error.empty()) result.error = error.what();
+  }
+}
+
 }  // namespace
 
 RunResult run(const RunOptions& options) {
@@ -61,7 +71,7 @@ RunResult run(const RunOptions& options) {
   const int total = last - options.first + 1;
   FrameSource source(sequence, options);
   System system(sequence.camera.pinhole, sequence.camera.width, sequence.camera.height, options.parameters);
-  try {
+  keep_going(result, [&] {
     Progress progress("tracking");
     for (int index = 0; index < total; ++index) {
       double detect_ms = 0;
@@ -71,13 +81,16 @@ RunResult run(const RunOptions& options) {
       progress.show(static_cast<std::size_t>(index + 1), static_cast<std::size_t>(total),
                     std::string(state) + ", " + std::to_string(record.points) + " points, " + std::to_string(record.texts) + " texts");
     }
-  } catch (const InputError& error) {
-    result.error = error.what();
-  }
+  });
   system.finish();
-  system.fill_in([&](int index) { return source.load(index, nullptr); });
-  result.summary = summarise(system, sequence, static_cast<std::size_t>(total));
-  write_outputs(options.output, system, result.summary);
+  keep_going(result, [&] { system.fill_in([&](int index) { return source.load(index, nullptr); }); });
+  RunSummary& summary = result.summary;
+  summary = summarise(system, sequence, static_cast<std::size_t>(total));
+  if (summary.has_truth && textplane::is_ok(summary.trajectory.status))
+    keep_going(result, [&] {
+      summary.text = evaluate_text(system.map(), read_true_signs(sequence), summary.trajectory.alignment);
+    });
+  write_outputs(options.output, system, summary);
   return result;
 }
 
