@@ -102,6 +102,8 @@ class Adjustment {
       textplane::WindowTextObservation observation;
       observation.text = static_cast<int>(texts_.size());
       observation.frame = slot_of_[static_cast<std::size_t>(id)];
+      Quad<double> quad;
+      if (project_text(map_, text, map_.keyframe(id).T_w_c.inverse(), &quad)) observation.scale_shift = scale_shift(text, quad);
       window_.text_observations.push_back(observation);
     }
     textplane::WindowText window_text;

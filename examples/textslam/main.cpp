@@ -29,7 +29,7 @@ int execute(int argc, char** argv) {
       ->check(CLI::IsMember({"files", "classical"}))->capture_default_str();
   app.add_option("--first", options.first, "Index of the first frame")->check(CLI::NonNegativeNumber)->capture_default_str();
   app.add_option("--last", options.last, "Index of the last frame")->check(CLI::NonNegativeNumber);
-  app.add_option("--seed", options.parameters.seed, "Of the rendered sequence and of every random draw")->capture_default_str();
+  app.add_option("--seed", render.seed, "Of the rendered sequence; the system itself draws nothing at random")->capture_default_str();
   app.add_option("--frames", render.frames, "Number of rendered frames")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_flag("--render-only", only_render, "Render without running on it");
   try {
@@ -45,7 +45,6 @@ int execute(int argc, char** argv) {
   options.parameters.mode = mode == "points" ? textslam::Mode::points : textslam::Mode::text;
   if (!render.kind.empty()) {
     options.sequence = render.output = options.output + "/sequence";
-    render.seed = options.parameters.seed;
     textslam::Progress progress("rendering");
     textslam::render_sequence(render, [&](int done, int total) {
       progress.show(static_cast<std::size_t>(done), static_cast<std::size_t>(total), render.kind);

@@ -1,7 +1,10 @@
 #include "textslam/map.hpp"
 
+#include <cmath>
+
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textplane/photometry/residual_types.hpp"
 
 namespace textslam {
 
@@ -20,6 +23,10 @@ bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Qua
     quad->corner[i] = map.camera.pixel(Vec2(q.x() / q.z(), q.y() / q.z()));
   }
   return true;
+}
+
+int scale_shift(const TextObject& text, const Quad<double>& quad) {
+  return textplane::scale_shift(std::abs(textplane::area(text.patch.quad)), std::abs(textplane::area(quad)));
 }
 
 double facing(const Map& map, const TextObject& text, const SE3d& T_c_w) {

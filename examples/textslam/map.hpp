@@ -112,6 +112,9 @@ std::vector<int> spread(const std::vector<int>& ids, std::size_t count);
 /// The text object's quad as seen by a camera with world-to-camera pose T_c_w; false where a corner is behind the camera.
 bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Quad<double>* quad);
 
+/// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
+int scale_shift(const TextObject& text, const Quad<double>& quad);
+
 /// Cosine of the angle between a text's normal and the ray to its centre, seen from T_c_w; positive towards the camera.
 double facing(const Map& map, const TextObject& text, const SE3d& T_c_w);
 

@@ -1,11 +1,13 @@
 #include "textslam/outputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "io/output_file.hpp"
+#include "textplane/geometry/plane.hpp"
 #include "io/text_file.hpp"
 
 namespace textslam {
@@ -28,6 +30,14 @@ double percentile95(std::vector<double> values) {
 
 Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
+// Largest standard deviation of the normal's direction, radians: n = -theta / |theta|.
+double normal_sigma(const TextObject& text) {
+  const Vec3 n = textplane::plane_normal(text.theta);
+  const Eigen::Matrix3d J = (Eigen::Matrix3d::Identity() - n * n.transpose()) / text.theta.norm();
+  const Eigen::Matrix3d covariance = J * text.covariance * J.transpose();
+  return std::sqrt(std::max(0.0, textplane::symmetric_eigen<double, 3>(covariance).values[2]));
+}
+
 std::string text_map_json(const Map& map) {
   Json texts = Json::array();
   for (const TextObject& text : map.texts) {
@@ -42,7 +52,8 @@ std::string text_map_json(const Map& map) {
                      {"theta", to_json(text.theta)},
                      {"host", host.frame.timestamp},
                      {"observations", text.targets.size() + 1},
-                     {"zncc", text.zncc}});
+                     {"zncc", text.zncc},
+                     {"normal_sigma_deg", normal_sigma(text) * 180 / M_PI}});
   }
   return Json{{"texts", texts}}.dump(1) + "\n";
 }

@@ -3,8 +3,6 @@
 #ifndef TEXTSLAM_PARAMETERS_HPP
 #define TEXTSLAM_PARAMETERS_HPP
 
-#include <cstdint>
-
 namespace textslam {
 
 enum class Mode {
@@ -14,7 +12,6 @@ enum class Mode {
 
 struct Parameters {
   Mode mode = Mode::text;
-  std::uint64_t seed = 1;  ///< Of the random draws (plane hypotheses).
 
   // Images
   int pyramid_levels = 4;
@@ -38,7 +35,7 @@ struct Parameters {
 
   // Pose of a frame
   double point_sigma = 1.0;          ///< px: sigma_rep of the paper, for a corner on level 0.
-  double photometric_sigma = 0.5;    ///< Per pixel, in units of 1/sqrt(N): sigma_photo; see Weighting::variance.
+  double photometric_sigma = 1.0;    ///< Per pixel, in units of 1/sqrt(N): sigma_photo; see Weighting::variance.
   double outlier_chi2 = 5.991;       ///< 95 % of chi-square with 2 degrees of freedom.
   int min_inliers = 20;              ///< Points; fewer, without text to make up for them, count as lost.
   double min_inlier_share = 0.35;    ///< Of the tracked map points.
@@ -71,7 +68,6 @@ struct Parameters {
   double text_cull_zncc = 0.55;       ///< Below it, an observation counts against the object.
   double text_max_slant = 78;         ///< Degrees between viewing ray and normal.
   int text_patience = 25;             ///< Key frames a candidate may wait for its plane.
-  double text_rehost_area = 2;        ///< A key frame that shows a text this much larger becomes its host.
   int text_targets = 8;               ///< Key frames that a plane is refined against.
 
   // Bundle adjustment

@@ -1,7 +1,7 @@
 // System: monocular SLAM with points and planar text, one frame at a time.
 //
 // Frame -> (initialiser | tracker | recovery) -> key frame? -> points, text, local adjustment. Single-threaded and without
-// any source of chance but the parameters' seed: the same frames give the same bytes.
+// random draws: the same frames give the same bytes.
 #ifndef TEXTSLAM_SYSTEM_HPP
 #define TEXTSLAM_SYSTEM_HPP
 

@@ -161,9 +161,16 @@ bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::
 
 bool TextMapper::refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc) {
   std::vector<textplane::PlaneTarget> targets;
-  const SE3d& T_w_h = map_.keyframe(text.host).T_w_c;
-  for (const int id : keyframes)
-    targets.push_back({map_.keyframe(id).frame.image->view(), map_.keyframe(id).T_w_c.inverse() * T_w_h});
+  for (const int id : keyframes) {
+    const SE3d T_c_w = map_.keyframe(id).T_w_c.inverse();
+    TextObject guess;
+    guess.host = text.host;
+    guess.patch.quad = text.patch.quad;
+    guess.theta = theta;
+    Quad<double> quad;
+    const int shift = project_text(map_, guess, T_c_w, &quad) ? scale_shift(text, quad) : 0;
+    targets.push_back({map_.keyframe(id).frame.image->view(), map_.T_c_h(T_c_w, text.host), shift});
+  }
   textplane::PlaneWorkspace workspace;
   workspace.reserve(text.patch, static_cast<int>(targets.size()));
   textplane::PlaneOptions options;
@@ -188,8 +195,8 @@ void TextMapper::observe(TextObject& text, int keyframe) {
   if (!project_text(map_, text, T_c_w, &quad) || !textplane::inside_image(quad, map_.width, map_.height, 1.0)) return;
   if (std::abs(textplane::area(quad)) < parameters_.text_min_area / 2) return;
   const int level = text.patch.level_count() > 1 ? 1 : 0;
-  const auto input =
-      textplane::photometric_input(text.patch, level, map_.keyframe(keyframe).frame.image->view(), map_.camera);
+  const auto input = textplane::photometric_input(text.patch, level, map_.keyframe(keyframe).frame.image->view(),
+                                                  map_.camera, scale_shift(text, quad));
   textplane::PhotometricWorkspace workspace(input.patch.n);
   const auto cost = textplane::reference::evaluate(input, text.theta, map_.T_c_h(T_c_w, text.host),
                                                    textplane::PhotometricOptions{}, workspace);
@@ -200,31 +207,6 @@ void TextMapper::observe(TextObject& text, int keyframe) {
   } else if (cost.zncc < parameters_.text_cull_zncc) {
     ++text.failures;
   }
-}
-
-// Moves the object to key frame `keyframe` where that shows it much larger: a small host patch knows little of its plane.
-void TextMapper::rehost(TextObject& text, int keyframe) {
-  const SE3d T_t_h = map_.keyframe(keyframe).T_w_c.inverse() * map_.keyframe(text.host).T_w_c;
-  Quad<double> quad;
-  if (!project_text(map_, text, map_.keyframe(keyframe).T_w_c.inverse(), &quad)) return;
-  if (!textplane::inside_image(quad, map_.width, map_.height, parameters_.text_border)) return;
-  if (std::abs(textplane::area(quad)) < parameters_.text_rehost_area * std::abs(textplane::area(text.patch.quad))) return;
-  TextObject moved = text;
-  if (!textplane::is_ok(textplane::reanchor_plane(text.theta, T_t_h, &moved.theta))) return;
-  moved.patch = textplane::make_patch(map_.keyframe(keyframe).frame.image->view(), map_.camera, quad,
-                                      select_options(parameters_));
-  if (!textplane::is_ok(moved.patch.status)) return;
-  moved.host = keyframe;
-  moved.targets.clear();
-  for (const int id : text.targets)
-    if (id != keyframe) observe(moved, id);
-  observe(moved, text.host);
-  std::sort(moved.targets.begin(), moved.targets.end());
-  if (2 * moved.targets.size() < text.targets.size() ||
-      !refine(moved, spread(moved.targets, static_cast<std::size_t>(parameters_.text_targets)), moved.theta,
-              parameters_.text_min_zncc))
-    return;
-  text = std::move(moved);
 }
 
 void TextMapper::update(int id, const std::vector<Track>& tracks) {
@@ -247,7 +229,6 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
       refine(text, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)), text.theta,
              parameters_.text_cull_zncc);
     }
-    if (text.targets.size() > before) rehost(text, id);
     const int observations = static_cast<int>(text.targets.size()) + 1;
     if (text.state == TextState::tentative && observations >= parameters_.text_min_observations &&
         text.detections >= parameters_.text_min_detections)

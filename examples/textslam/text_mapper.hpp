@@ -32,7 +32,6 @@ class TextMapper {
   bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
   bool refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc);
   void observe(TextObject& text, int keyframe);
-  void rehost(TextObject& text, int keyframe);
 
   Map& map_;
   const Parameters& parameters_;

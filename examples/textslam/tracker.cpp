@@ -263,7 +263,7 @@ Tracker::Fit Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w) 
       const double whole = std::abs(textplane::area(quad));
       const double seen = textplane::area(textplane::clip_to_image(quad, map_.width, map_.height));
       if (whole < parameters_.text_min_area || seen < 0.5 * whole) continue;
-      texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1});
+      texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)});
     }
 
   Fit fit;

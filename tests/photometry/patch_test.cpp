@@ -87,4 +87,33 @@ TEST_F(PatchFromPixels, InputOfALevelHasThatLevelsCameras) {
   }
 }
 
+TEST_F(PatchFromPixels, ScaleShiftPairsLevelsOfOneScale) {
+  const tp::TextPatch patch = tp::patch_from_pixels(pyramid, camera, quad, pixels);
+  const tp::PhotometricInput larger = tp::photometric_input(patch, 0, pyramid, camera, 1);
+  EXPECT_EQ(larger.host_camera.fx, camera.fx);
+  EXPECT_EQ(larger.target_camera.fx, camera.fx / 2);
+  EXPECT_EQ(larger.target.width(), pyramid.level(1).width());
+  const tp::PhotometricInput smaller = tp::photometric_input(patch, 0, pyramid, camera, -1);
+  EXPECT_EQ(smaller.patch.n, patch.levels[1].view().n);
+  EXPECT_EQ(smaller.host_camera.fx, camera.fx / 2);
+  EXPECT_EQ(smaller.target_camera.fx, camera.fx);
+  for (const int shift : {-99, -2, 9, 99}) {
+    EXPECT_EQ(tp::photometric_input(patch, 0, pyramid, camera, shift).patch.x, nullptr);
+  }
+}
+
+TEST(ScaleShift, IsTheDifferenceOfScalesInOctaves) {
+  EXPECT_EQ(tp::scale_shift(100, 100), 0);
+  EXPECT_EQ(tp::scale_shift(100, 190), 0);
+  EXPECT_EQ(tp::scale_shift(100, 210), 1);
+  EXPECT_EQ(tp::scale_shift(400, 100), -1);
+  EXPECT_EQ(tp::scale_shift(100, 6400), 1);
+  EXPECT_EQ(tp::scale_shift(100, 6400, 3), 3);
+  EXPECT_EQ(tp::scale_shift(6400, 100, 2), -2);
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(tp::scale_shift(bad, 100), 0);
+    EXPECT_EQ(tp::scale_shift(100, bad), 0);
+  }
+}
+
 }  // namespace

@@ -42,6 +42,12 @@ struct TextPatch {
   Status status = Status::invalid_argument;  ///< Of its making.
 
   int level_count() const noexcept { return static_cast<int>(levels.size()); }
+  /// Pixels of the level that has most.
+  int max_pixels() const noexcept {
+    std::size_t most = 0;
+    for (const PatchLevel& level : levels) most = level.x.size() > most ? level.x.size() : most;
+    return static_cast<int>(most);
+  }
 };
 
 /// The patch of given pixels: pixels[l] holds positions in px of level l, integer or not, where the host is sampled

@@ -2,8 +2,10 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_TYPES_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_TYPES_HPP
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "textplane/core/camera.hpp"
@@ -46,18 +48,43 @@ struct BasicPhotometricInput {
 using PhotometricInput = BasicPhotometricInput<std::uint8_t>;
 using PhotometricInputF = BasicPhotometricInput<float>;
 
-/// The input of pyramid level `level`; `target_camera` is that of level 0. A level that the patch or the target lacks gives
-/// an input that every kernel answers with Status::invalid_argument.
-inline PhotometricInput photometric_input(const TextPatch& patch, int level, const PyramidView& target,
-                                          const Pinhole<double>& target_camera) noexcept {
-  PhotometricInput in;
-  if (level < 0 || level >= patch.level_count() || level >= target.levels || level >= kMaxPyramidLevels) return in;
-  const auto l = static_cast<std::size_t>(level);
-  in.patch = patch.levels[l].view();
-  in.host_camera = patch.camera.at_level(level);
-  in.target_camera = target_camera.at_level(level);
-  in.target = target.level[l];
+namespace detail {
+// photometric_input() for PyramidView and anything like it.
+template <class View>
+auto level_input(const TextPatch& patch, int level, const View& target, const Pinhole<double>& target_camera,
+                 int scale_shift) noexcept {
+  using Pixel = std::remove_const_t<typename std::decay_t<decltype(target.level[0])>::Pixel>;
+  BasicPhotometricInput<Pixel> in;
+  if (level < 0 || level >= kMaxPyramidLevels || scale_shift < -kMaxPyramidLevels || scale_shift > kMaxPyramidLevels)
+    return in;
+  const int host_level = scale_shift < 0 ? level - scale_shift : level;
+  const int target_level = scale_shift > 0 ? level + scale_shift : level;
+  if (host_level >= patch.level_count() || target_level >= target.levels || target_level >= kMaxPyramidLevels) return in;
+  in.patch = patch.levels[static_cast<std::size_t>(host_level)].view();
+  in.host_camera = patch.camera.at_level(host_level);
+  in.target_camera = target_camera.at_level(target_level);
+  in.target = target.level[static_cast<std::size_t>(target_level)];
   return in;
+}
+}  // namespace detail
+
+/// The input of pyramid level `level`; `target_camera` is that of level 0.
+///
+/// `scale_shift` s pairs levels of one scale where host and target see the object at different sizes: with s > 0 the target's
+/// level is `level` + s, with s < 0 the host's is `level` - s. Neither side is then sampled more coarsely than its pixels,
+/// which would alias. See scale_shift(). A level that patch or target lacks gives an input that every kernel answers with
+/// Status::invalid_argument.
+inline PhotometricInput photometric_input(const TextPatch& patch, int level, const PyramidView& target,
+                                          const Pinhole<double>& target_camera, int scale_shift = 0) noexcept {
+  return detail::level_input(patch, level, target, target_camera, scale_shift);
+}
+
+/// The shift of photometric_input() for an object of these areas (px^2, level 0) in host and target: the difference of their
+/// scales in octaves, rounded, at most `limit` either way. 0 for areas that are not positive and finite.
+inline int scale_shift(double host_area, double target_area, int limit = 1) noexcept {
+  if (!(host_area > 0) || !(target_area > 0) || !is_finite(host_area) || !is_finite(target_area)) return 0;
+  const double octaves = std::round(0.5 * std::log2(target_area / host_area));
+  return octaves > limit ? limit : octaves < -limit ? -limit : static_cast<int>(octaves);
 }
 
 /// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P), and

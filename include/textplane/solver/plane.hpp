@@ -24,6 +24,7 @@ template <class View>
 struct BasicPlaneTarget {
   View image;
   SE3d T_t_h;
+  int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;
 using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
@@ -78,7 +79,7 @@ class PlaneWorkspace {
  public:
   /// Makes room for a patch (every level) seen in `targets` images. The only member that allocates; never shrinks.
   void reserve(const TextPatch& patch, int targets) {
-    const int n = pixel_count(patch);
+    const int n = patch.max_pixels();
     photometric_.reserve(n);
     const std::size_t count = targets > 0 ? static_cast<std::size_t>(targets) : 0;
     if (visible_.size() < count * static_cast<std::size_t>(n)) visible_.resize(count * static_cast<std::size_t>(n));
@@ -87,7 +88,7 @@ class PlaneWorkspace {
 
   /// reserve() was called for at least this.
   bool fits(const TextPatch& patch, int targets) const noexcept {
-    const int n = pixel_count(patch);
+    const int n = patch.max_pixels();
     const auto count = static_cast<std::size_t>(targets);
     return n <= photometric_.capacity() && count <= counts_.size() &&
            count * static_cast<std::size_t>(n) <= visible_.size();
@@ -96,12 +97,6 @@ class PlaneWorkspace {
  private:
   template <class View>
   friend class detail::PlaneProblem;
-
-  static int pixel_count(const TextPatch& patch) noexcept {
-    std::size_t most = 0;
-    for (const PatchLevel& level : patch.levels) most = std::max(most, level.x.size());
-    return static_cast<int>(most);
-  }
 
   PhotometricWorkspace photometric_;
   std::vector<std::uint8_t> visible_;  // Visible sets of the last linearisation, target after target.
@@ -127,7 +122,7 @@ class PlaneProblem {
     visible_ = used_ = 0;
     zncc_ = 0;
     for (int i = 0; i < count_; ++i) {
-      const auto input = level_input(patch_, level_, targets_[i].image, camera_);
+      const auto input = level_input(patch_, level_, targets_[i].image, camera_, targets_[i].scale_shift);
       const NormalEquations<3> n =
           reference::linearise_plane(input, theta, targets_[i].T_t_h, options_.photometric, memory_.photometric_);
       int& visible = memory_.counts_[static_cast<std::size_t>(i)];
@@ -157,7 +152,7 @@ class PlaneProblem {
       const int visible = memory_.counts_[static_cast<std::size_t>(i)];
       if (visible == 0) continue;
       const PhotometricCost c =
-          reference::evaluate(level_input(patch_, level_, targets_[i].image, camera_), theta, targets_[i].T_t_h,
+          reference::evaluate(level_input(patch_, level_, targets_[i].image, camera_, targets_[i].scale_shift), theta, targets_[i].T_t_h,
                               options_.photometric, memory_.photometric_, visible_set(i));
       // A target that is lost as a whole costs what an uncorrelated patch would.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
@@ -178,8 +173,7 @@ class PlaneProblem {
 
  private:
   std::uint8_t* visible_set(int i) noexcept {
-    const std::size_t n = patch_.levels[static_cast<std::size_t>(level_)].x.size();
-    return memory_.visible_.data() + static_cast<std::size_t>(i) * n;
+    return memory_.visible_.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(patch_.max_pixels());
   }
 
   const TextPatch& patch_;

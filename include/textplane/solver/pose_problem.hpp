@@ -27,6 +27,7 @@ struct PoseTextTerm {
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< On top of lambda_w.
+  int scale_shift = 0;                              ///< Of photometric_input(): where the target sees it at another size.
 };
 
 /// A known 3D point and where it was seen.
@@ -109,12 +110,7 @@ class PoseWorkspace {
   template <class View>
   friend class detail::PoseProblem;
 
-  static int pixel_count(const PoseTextTerm& term) noexcept {
-    std::size_t most = 0;
-    if (term.patch)
-      for (const PatchLevel& level : term.patch->levels) most = std::max(most, level.x.size());
-    return static_cast<int>(most);
-  }
+  static int pixel_count(const PoseTextTerm& term) noexcept { return term.patch ? term.patch->max_pixels() : 0; }
 
   PhotometricWorkspace photometric_;
   std::vector<std::uint8_t> visible_;  // Visible sets of the last linearisation, text after text.
@@ -123,20 +119,6 @@ class PoseWorkspace {
 };
 
 namespace detail {
-
-// Input of one level for 8-bit and float targets alike; invalid, as photometric_input(), where a side lacks the level.
-template <class View>
-auto level_input(const TextPatch& patch, int level, const View& target, const Pinhole<double>& camera) noexcept {
-  using Pixel = std::remove_const_t<typename std::decay_t<decltype(target.level[0])>::Pixel>;
-  BasicPhotometricInput<Pixel> in;
-  if (level < 0 || level >= patch.level_count() || level >= target.levels || level >= kMaxPyramidLevels) return in;
-  const auto l = static_cast<std::size_t>(level);
-  in.patch = patch.levels[l].view();
-  in.host_camera = patch.camera.at_level(level);
-  in.target_camera = camera.at_level(level);
-  in.target = target.level[l];
-  return in;
-}
 
 /// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than
 /// 89.9 degrees off the optical axis).
@@ -182,7 +164,7 @@ class PoseProblem {
         if (trouble == Status::too_few) trouble = status;
         continue;
       }
-      offset += static_cast<std::size_t>(texts_[i].patch->levels[static_cast<std::size_t>(level_)].x.size());
+      offset += static_cast<std::size_t>(texts_[i].patch->max_pixels());
       visible_pixels_ += state.visible;
       ++active_texts_;
     }
@@ -205,7 +187,7 @@ class PoseProblem {
       if (state.visible == 0) continue;
       const PoseTextTerm& term = texts_[i];
       const PhotometricCost c =
-          reference::evaluate(level_input(*term.patch, level_, target_, camera_), term.theta, T_t_w * term.T_w_h,
+          reference::evaluate(level_input(*term.patch, level_, target_, camera_, term.scale_shift), term.theta, T_t_w * term.T_w_h,
                               options_.photometric, memory_.photometric_, memory_.visible_.data() + state.offset);
       // An object that is lost as a whole costs what two uncorrelated patches would.
       e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
@@ -242,7 +224,7 @@ class PoseProblem {
 
   Status add_text(const PoseTextTerm& term, const SE3d& T_t_w, PoseTextState& state, PoseSystem& system) noexcept {
     if (!term.patch || !(term.weight > 0) || !is_finite(term.weight)) return Status::invalid_argument;
-    const auto input = level_input(*term.patch, level_, target_, camera_);
+    const auto input = level_input(*term.patch, level_, target_, camera_, term.scale_shift);
     const NormalEquations<6> n =
         reference::linearise_pose(input, term.theta, T_t_w * term.T_w_h, options_.photometric, memory_.photometric_);
     if (!is_ok(n.status)) return n.status;

@@ -87,6 +87,7 @@ struct WindowTextObservation {
   int text = -1;
   int frame = -1;     ///< Target frame, other than the host.
   double weight = 1;  ///< Of this observation, on top of lambda_w.
+  int scale_shift = 0;  ///< Of photometric_input(): where the target sees the text at another size than its host.
 
   double zncc = 0;  ///< Out: at the final state; 0 if it could not be evaluated.
   int visible = 0;  ///< Out: visible pixels at the final state.

@@ -49,8 +49,7 @@ class WindowTerms {
       t.status = !all_finite(t.theta)                                              ? Status::non_finite
                  : !t.patch || !is_ok(t.patch->status) || !t.patch->camera.valid() ? Status::invalid_argument
                                                                                    : Status::ok;
-      if (t.status == Status::ok && o.text_level < t.patch->level_count())
-        longest = std::max(longest, at(t.patch->levels, o.text_level).view().n);
+      if (t.status == Status::ok) longest = std::max(longest, t.patch->max_pixels());
     }
     photometric_.reserve(longest);
     mask_begin_.assign(w.text_observations.size() + 1, 0);
@@ -64,9 +63,8 @@ class WindowTerms {
                   : !is_finite(ob.weight) ? Status::non_finite
                   : !(ob.weight > 0)      ? Status::invalid_argument
                                           : Status::ok;
-      const bool pixels = ob.status == Status::ok && o.text_level < t.patch->level_count();
       mask_begin_[k + 1] =
-          mask_begin_[k] + (pixels ? static_cast<std::size_t>(at(t.patch->levels, o.text_level).view().n) : 0);
+          mask_begin_[k] + (ob.status == Status::ok ? static_cast<std::size_t>(t.patch->max_pixels()) : 0);
     }
     mask_.resize(mask_begin_.back());
     text_.resize(w.text_observations.size());
@@ -132,7 +130,7 @@ class WindowTerms {
       const WindowText& t = at(w.texts, ob.text);
       const int visible = at(text_, k).visible;
       const PhotometricCost c = reference::evaluate(
-          photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera),
+          photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera, ob.scale_shift),
           at(y.landmark, count(w.points) + ob.text), relative_pose(t, ob, y), o.photometric, photometric_, mask(k));
       pixels += visible;
       lost += is_ok(c.status) ? c.lost : visible;
@@ -208,11 +206,12 @@ class WindowTerms {
     const WindowTextObservation& ob = at(w.text_observations, k);
     const WindowText& t = at(w.texts, ob.text);
     NormalEquations<9>& out = at(text_, k);
-    out = reference::linearise_pose_plane(
-        photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera),
-        at(x.landmark, count(w.points) + ob.text), relative_pose(t, ob, x), o.photometric, photometric_);
+    const PhotometricInput input =
+        photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera, ob.scale_shift);
+    out = reference::linearise_pose_plane(input, at(x.landmark, count(w.points) + ob.text), relative_pose(t, ob, x),
+                                          o.photometric, photometric_);
     if (is_ok(out.status))
-      std::copy_n(photometric_.visible(), at(mask_begin_, k + 1) - at(mask_begin_, k),
+      std::copy_n(photometric_.visible(), input.patch.n,
                   mask_.begin() + static_cast<std::ptrdiff_t>(at(mask_begin_, k)));
     return out.status;
   }
