@@ -65,8 +65,7 @@ void Canvas::rectangle(double x, double y, double half_width, double half_height
   });
 }
 
-void Canvas::ellipse(double x, double y, double radius_x, double radius_y, double angle, double value,
-                     double opacity) {
+void Canvas::ellipse(double x, double y, double radius_x, double radius_y, double angle, double value, double opacity) {
   const double c = std::cos(angle), s = std::sin(angle), r = std::max(radius_x, radius_y);
   fill(x - r, y - r, x + r, y + r, value, opacity, [=](double px, double py) {
     const double a = (c * (px - x) + s * (py - y)) / radius_x, b = (c * (py - y) - s * (px - x)) / radius_y;

@@ -18,9 +18,7 @@ class Canvas {
   double width() const noexcept { return width_; }
   double height() const noexcept { return height_; }
   /// Texels a metre across and down.
-  textplane::Vector2<double> density() const noexcept {
-    return {pixels_.width() / width_, pixels_.height() / height_};
-  }
+  textplane::Vector2<double> density() const noexcept { return {pixels_.width() / width_, pixels_.height() / height_}; }
   textplane::Image<float>& pixels() noexcept { return pixels_; }
   const textplane::Image<float>& pixels() const noexcept { return pixels_; }
 
@@ -47,7 +45,7 @@ class Canvas {
 /// Value noise in [-1, 1], smooth, features about one unit apart.
 double value_noise(double x, double y, std::uint64_t seed) noexcept;
 
-/// Octaves of value_noise, each of half the size and `gain` of the strength of the one before; within [-1, 1] in practice.
+/// Octaves of value_noise, each of half the size and `gain` of the strength of the one before; mostly within [-1, 1].
 double fractal_noise(double x, double y, std::uint64_t seed, int octaves, double gain = 0.5) noexcept;
 
 }  // namespace textslam

@@ -71,7 +71,8 @@ bool boxes_meet(const Quad<double>& a, const Quad<double>& b) {
 bool is_legible(const SignView& view) {
   const double height = std::min(side(view.quad, 0, 3), side(view.quad, 1, 2));
   const double width = std::min(side(view.quad, 0, 1), side(view.quad, 3, 2));
-  return view.visible >= kLeastVisible && view.cosine >= kLeastCosine && height >= kLeastHeight && width >= kLeastHeight;
+  return view.visible >= kLeastVisible && view.cosine >= kLeastCosine && height >= kLeastHeight &&
+         width >= kLeastHeight;
 }
 
 std::vector<Detection> detect(const std::vector<SignView>& views, const std::vector<Sign>& signs,
@@ -82,7 +83,8 @@ std::vector<Detection> detect(const std::vector<SignView>& views, const std::vec
     Detection d;
     const bool missed = random.chance(errors.missed);
     d.quad = jittered(view.quad, errors.corner_sigma, random);
-    d.text = read(signs[static_cast<std::size_t>(view.sign)].word, view.visible >= kWholeVisible, errors.words_right, random);
+    d.text = read(signs[static_cast<std::size_t>(view.sign)].word, view.visible >= kWholeVisible, errors.words_right,
+                  random);
     keep_inside(d.quad, camera);
     if (!missed) found.push_back(d);
   }
@@ -90,10 +92,12 @@ std::vector<Detection> detect(const std::vector<SignView>& views, const std::vec
     // Somewhere that is no sign; a picture full of signs gets its stray quad on top of one in the end.
     Quad<double> quad = stray_quad(camera, random);
     for (int attempt = 0; attempt < 50; ++attempt) {
-      const bool meets = std::any_of(views.begin(), views.end(), [&](const SignView& v) { return boxes_meet(quad, v.quad); });
+      const bool meets =
+          std::any_of(views.begin(), views.end(), [&](const SignView& v) { return boxes_meet(quad, v.quad); });
       if (!meets) break;
       quad = stray_quad(camera, random);
     }
+    keep_inside(quad, camera);
     Detection d;
     d.quad = quad;
     found.push_back(d);

@@ -12,16 +12,17 @@ namespace textslam {
 
 /// Errors of the detector and reader.
 struct DetectorErrors {
-  double corner_sigma = 1.5;      ///< px, each coordinate of each corner, normal and independent
-  double missed = 0.15;           ///< share of the legible signs
-  double false_per_frame = 0.1;   ///< chance of one quad where no text is (only where the scene has signs)
-  double words_right = 0.9;       ///< share of the words; half of the others come back unread, half with a wrong letter
+  double corner_sigma = 1.5;     ///< px, each coordinate of each corner, normal and independent
+  double missed = 0.15;          ///< share of the legible signs
+  double false_per_frame = 0.1;  ///< chance of one quad where no text is (only where the scene has signs)
+  double words_right = 0.9;      ///< share of the words; half of the others come back unread, half with a wrong letter
 };
 
 /// A sign that a detector can find: at least 60 % visible, at least 9 px high, not seen at more than 72 degrees.
 bool is_legible(const SignView& view);
 
-/// The detections of one frame, corners kept inside the image. Signs that reach out of view or are hidden in part stay unread.
+/// The detections of one frame, corners kept inside the image. Signs that reach out of view or are hidden in part stay
+/// unread.
 std::vector<Detection> detect(const std::vector<SignView>& views, const std::vector<Sign>& signs,
                               const CameraModel& camera, const DetectorErrors& errors, Random random);
 

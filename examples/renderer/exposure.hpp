@@ -22,10 +22,11 @@ struct Blur {
 };
 Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion, double middle, double exposure);
 
-/// Number of instants for a blur of that many pixels: four when slow, then more than one a pixel; a multiple of four.
+/// Number of instants for a blur of so many pixels: four when slow, then more than one a pixel; a multiple of four.
 int instants_for(double blur);
 
-/// Light (0 to 255) that the shutter collects: one sample of the grid at each instant, averaged. `caster` holds pixel_grid().
+/// Light (0 to 255) that the shutter collects: one sample of the grid at each instant, averaged. `caster` holds
+/// pixel_grid(). Throws std::invalid_argument for another grid or a number of instants that is no multiple of four.
 Image<double> expose(const Scene& scene, const RayCaster& caster, const Motion& motion, double middle, double exposure,
                      int instants);
 

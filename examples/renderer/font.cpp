@@ -69,7 +69,8 @@ Ink Font::draw(const std::string& word, double cap_height) const {
     }
     pen += static_cast<double>(scale) * advance;
     if (i + 1 < word.size()) {
-      pen += static_cast<double>(scale) * stbtt_GetCodepointKernAdvance(info, code, static_cast<unsigned char>(word[i + 1]));
+      pen += static_cast<double>(scale) *
+             stbtt_GetCodepointKernAdvance(info, code, static_cast<unsigned char>(word[i + 1]));
     }
   }
   if (glyphs.empty()) return {};
@@ -83,8 +84,9 @@ Ink Font::draw(const std::string& word, double cap_height) const {
       for (int x = 0; x < glyph.width; ++x) {
         // Kerned glyphs may share a texel.
         std::uint8_t& texel = ink(glyph.x - left + x, glyph.y - top + y);
-        texel = std::max(texel, bitmap[static_cast<std::size_t>(y) * static_cast<std::size_t>(glyph.width) +
-                                       static_cast<std::size_t>(x)]);
+        texel = std::max(
+            texel,
+            bitmap[static_cast<std::size_t>(y) * static_cast<std::size_t>(glyph.width) + static_cast<std::size_t>(x)]);
       }
     }
   }

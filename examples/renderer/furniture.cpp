@@ -15,9 +15,9 @@ constexpr double kPlateThickness = 0.012;  // m
 Walls walls_of(double x0, double x1, double y0, double y1, double height) {
   const Vector3<double> x = Vector3<double>::UnitX(), y = Vector3<double>::UnitY(), z = Vector3<double>::UnitZ();
   const double w = x1 - x0, d = y1 - y0;
-  return {{{x0, y1, height}, x, -z, w, height}, {{x0, y0, height}, y, -z, d, height},
+  return {{{x0, y1, height}, x, -z, w, height},  {{x0, y0, height}, y, -z, d, height},
           {{x1, y1, height}, -y, -z, d, height}, {{x1, y0, height}, -x, -z, w, height},
-          {{x0, y1, 0.0}, x, -y, w, d},         {{x0, y0, height}, x, y, w, d}};
+          {{x0, y1, 0.0}, x, -y, w, d},          {{x0, y0, height}, x, y, w, d}};
 }
 
 Rectangle add_box(Scene& scene, const Vector3<double>& foot, const Vector3<double>& size, double yaw,

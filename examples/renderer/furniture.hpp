@@ -20,8 +20,8 @@ Walls walls_of(double x0, double x1, double y0, double y1, double height);
 /// What a side of the given width and height (m) looks like.
 using Painter = std::function<Canvas(double, double)>;
 
-/// A box that stands with its foot's centre at `foot`: front and back `size` x wide, sides `size` y deep, turned by `yaw`
-/// (radians, counter-clockwise from above; at 0 the front faces -y). No bottom. Returns its front.
+/// A box that stands with its foot's centre at `foot`: size x wide, y deep, z high, turned by `yaw` (radians,
+/// counter-clockwise from above; at 0 the front faces -y). No bottom. Returns its front.
 Rectangle add_box(Scene& scene, const Vector3<double>& foot, const Vector3<double>& size, double yaw,
                   const Painter& front, const Painter& sides);
 

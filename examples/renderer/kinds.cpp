@@ -19,15 +19,21 @@ struct Kind {
 
 const Kind kKinds[] = {
     {"room",
-     [](const Context& c) { return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor()}; }},
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor()};
+     }},
     {"room-still",
      [](const Context& c) {
        return Shot{make_room(c.seed, {}), still_then_room_motion(c.seed, 40.0 / 30.0), 0.008, steady_sensor()};
      }},
     {"corridor",
-     [](const Context& c) { return Shot{make_corridor(c.seed), corridor_motion(c.seed), 0.006, steady_sensor()}; }},
+     [](const Context& c) {
+       return Shot{make_corridor(c.seed), corridor_motion(c.seed), 0.006, steady_sensor()};
+     }},
     {"rapid",
-     [](const Context& c) { return Shot{make_room(c.seed, {}), rapid_motion(c.seed), 1.0 / 60.0, steady_sensor()}; }},
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}), rapid_motion(c.seed), 1.0 / 60.0, steady_sensor()};
+     }},
     {"lights",
      [](const Context& c) {
        return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, changing_lights(c.seed, c.width, c.height)};

@@ -73,18 +73,19 @@ Canvas bricks(double width, double height, double base, std::uint64_t seed) {
   Canvas canvas(width, height, kWallDensity);
   canvas.apply([=](double x, double y, double) {
     // Crooked by a few millimetres, as bricks are.
-    const double xw = x + 0.003 * value_noise(9.0 * x, 9.0 * y, seed), yw = y + 0.003 * value_noise(7.0 * x, 7.0 * y, seed + 1);
+    const double xw = x + 0.003 * value_noise(9.0 * x, 9.0 * y, seed),
+                 yw = y + 0.003 * value_noise(7.0 * x, 7.0 * y, seed + 1);
     const double row = std::floor(yw / kHigh);
     const double shifted = xw / kLong + (std::fmod(row, 2.0) != 0.0 ? 0.5 : 0.0);
     const double column = std::floor(shifted);
-    const double from_joint = std::min({(shifted - column) * kLong, (1.0 - shifted + column) * kLong,
-                                        yw - row * kHigh, (row + 1.0) * kHigh - yw});
+    const double from_joint = std::min(
+        {(shifted - column) * kLong, (1.0 - shifted + column) * kLong, yw - row * kHigh, (row + 1.0) * kHigh - yw});
     const double rough = fractal_noise(40.0 * x, 40.0 * y, seed + 2, 3);
     const double mortar = base + 45.0 + 12.0 * rough;
     const std::uint64_t own = hash(seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(row)),
                                    static_cast<std::uint64_t>(static_cast<std::int64_t>(column)));
-    const double brick = base + 70.0 * (unit(own) - 0.6) + 14.0 * rough +
-                         16.0 * fractal_noise(6.0 * x, 6.0 * y, own, 2);
+    const double brick =
+        base + 70.0 * (unit(own) - 0.6) + 14.0 * rough + 16.0 * fractal_noise(6.0 * x, 6.0 * y, own, 2);
     const double a = std::clamp((from_joint - kJoint) / 0.003 + 0.5, 0.0, 1.0);
     return mortar + a * (brick - mortar);
   });
@@ -171,7 +172,8 @@ Canvas book_shelf(double width, double height, std::uint64_t seed) {
       const int bands = random.below(4);
       for (int b = 0; b < bands; ++b) {
         canvas.rectangle(middle, floor - random.uniform(0.1, 0.9) * tall, 0.5 * thick - 0.003,
-                         random.uniform(0.003, 0.02), lean, shade > 120.0 ? random.uniform(20.0, 80.0) : random.uniform(150.0, 235.0));
+                         random.uniform(0.003, 0.02), lean,
+                         shade > 120.0 ? random.uniform(20.0, 80.0) : random.uniform(150.0, 235.0));
       }
       x += thick + 0.001;
     }
@@ -210,8 +212,8 @@ Canvas crate(double width, double height, double base, std::uint64_t seed) {
                      random.chance(0.5) ? 225.0 : 45.0, 0.85);
   }
   for (int i = 0; i < 5; ++i) {
-    crack(canvas, random.uniform(0.0, width), random.uniform(0.0, height), random.uniform(0.05, 0.3), 0.005, base - 60.0,
-          random);
+    crack(canvas, random.uniform(0.0, width), random.uniform(0.0, height), random.uniform(0.05, 0.3), 0.005,
+          base - 60.0, random);
   }
   grain(canvas, 6.0, seed + 1);
   return canvas;

@@ -1,4 +1,4 @@
-// Materials: what walls, floors and furniture are made of, painted in metres. No letters anywhere: text is for signs alone.
+// Materials: what walls, floors and furniture are made of, painted in metres. No letters: text is for signs alone.
 #ifndef TEXTSLAM_RENDERER_MATERIALS_HPP
 #define TEXTSLAM_RENDERER_MATERIALS_HPP
 

@@ -47,7 +47,8 @@ Tremor::Tremor(std::uint64_t seed, double strength) {
   for (int axis = 0; axis < 6; ++axis) {
     const double amplitude = strength * (axis < 3 ? 0.0025 : 0.0022);
     for (int k = 0; k < kWaves; ++k) {
-      waves_.push_back({amplitude * random.uniform(0.6, 1.2), random.uniform(0.9, 2.9), random.uniform(0.0, 2.0 * kPi)});
+      waves_.push_back(
+          {amplitude * random.uniform(0.6, 1.2), random.uniform(0.9, 2.9), random.uniform(0.0, 2.0 * kPi)});
     }
   }
 }
@@ -112,7 +113,8 @@ Motion corridor_motion(std::uint64_t seed) {
     const double period = 17.2, w = 2.0 * kPi * t / period - 1.42;
     const double walk = std::asin(0.985 * std::sin(w)) / std::asin(0.985);
     Look look;
-    look.position = {0.28 * std::sin(0.9 * t + 0.5 + phase), 5.8 + 5.0 * walk, 1.5 + 0.025 * std::sin(2.0 * kPi * 1.7 * t)};
+    look.position = {0.28 * std::sin(0.9 * t + 0.5 + phase), 5.8 + 5.0 * walk,
+                     1.5 + 0.025 * std::sin(2.0 * kPi * 1.7 * t)};
     look.yaw = 0.4 * std::sin(1.35 * t + phase);
     look.pitch = -0.03 + 0.04 * std::sin(0.8 * t + 1.0);
     look.roll = 0.02 * std::sin(1.1 * t);

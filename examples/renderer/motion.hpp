@@ -36,7 +36,7 @@ class Tremor {
 /// 0 before `start`, 1 after start + duration, between them the quintic with zero speed and acceleration at both ends.
 double smooth_step(double t, double start, double duration);
 
-/// The loop of the room: an ellipse of 2.2 m by 1 m in eight seconds, looking at the middle of the far wall and past it.
+/// The loop of the room: an ellipse of 2.2 m by 1 m in eight seconds, looking at the far wall and the walls beside it.
 Motion room_motion(std::uint64_t seed);
 /// The same with `pause` seconds of standing still at its start.
 Motion still_then_room_motion(std::uint64_t seed, double pause);

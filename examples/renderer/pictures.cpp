@@ -27,7 +27,8 @@ void landscape(Canvas& canvas, Random& random) {
     });
   }
   for (int i = 0; i < 14; ++i) {
-    const double x = random.uniform(0.03, 0.97) * w, y = random.uniform(0.72, 0.97) * h, s = random.uniform(0.04, 0.1) * h;
+    const double x = random.uniform(0.03, 0.97) * w, y = random.uniform(0.72, 0.97) * h,
+                 s = random.uniform(0.04, 0.1) * h;
     const Vector2<double> tree[3] = {{x, y - 2.0 * s}, {x + 0.6 * s, y}, {x - 0.6 * s, y}};
     canvas.triangle(tree, random.uniform(15.0, 60.0));
   }
@@ -56,7 +57,8 @@ void shapes(Canvas& canvas, Random& random) {
 void blossoms(Canvas& canvas, Random& random) {
   const double w = canvas.width(), h = canvas.height(), size = std::min(w, h);
   const std::uint64_t seed = random.word();
-  canvas.apply([=](double x, double y, double) { return 70.0 + 40.0 * fractal_noise(7.0 * x / w, 7.0 * y / h, seed, 5, 0.6); });
+  canvas.apply(
+      [=](double x, double y, double) { return 70.0 + 40.0 * fractal_noise(7.0 * x / w, 7.0 * y / h, seed, 5, 0.6); });
   for (int i = 0; i < 22; ++i) {
     const double x = random.uniform(0.0, w), y = random.uniform(0.0, h), s = size * random.uniform(0.04, 0.1);
     const double shade = random.uniform(140.0, 250.0), turn = random.uniform(0.0, 1.2);

@@ -1,5 +1,5 @@
 // Random numbers of the renderer: a small stream and stateless hashes, so that every pixel of every frame has its own
-// number whatever thread computes it, and the same seed gives the same bytes everywhere.
+// number whatever thread computes it, and the same seed gives the same bytes.
 #ifndef TEXTSLAM_RENDERER_RANDOM_HPP
 #define TEXTSLAM_RENDERER_RANDOM_HPP
 

@@ -12,8 +12,8 @@ namespace textslam {
 
 namespace {
 
-constexpr int kTile = 16;         // px
-constexpr double kNear = 0.02;    // m, for the bounds of a rectangle that reaches behind the camera
+constexpr int kTile = 16;       // px
+constexpr double kNear = 0.02;  // m, for the bounds of a rectangle that reaches behind the camera
 constexpr double kDepthFloor = 1e-9;
 
 /// A rectangle in one camera. On the ray m~ = (m, 1): inverse depth rho = inverse . m~, and metres from the rectangle's
@@ -96,7 +96,8 @@ RayCaster::RayCaster(const CameraModel& camera, std::vector<Vector2<double>> off
             camera_.pinhole.unproject(Vector2<double>(x + offset[0], y + offset[1])).head<2>();
         Vector2<double> m;
         if (!textplane::is_ok(camera_.lens.undistort(distorted, &m))) {
-          throw std::invalid_argument("the lens cannot be inverted at pixel " + std::to_string(x) + "," + std::to_string(y));
+          throw std::invalid_argument("the lens cannot be inverted at pixel " + std::to_string(x) + "," +
+                                      std::to_string(y));
         }
         rays.push_back(m);
       }
@@ -108,7 +109,8 @@ RayCaster::RayCaster(const CameraModel& camera, std::vector<Vector2<double>> off
 Vector2<double> RayCaster::ray(int offset, int x, int y) const noexcept {
   const std::size_t o = static_cast<std::size_t>(offset);
   if (!rays_.empty()) {
-    return rays_[o][static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x)];
+    return rays_[o]
+                [static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x)];
   }
   return camera_.pinhole.unproject(Vector2<double>(x + offsets_[o][0], y + offsets_[o][1])).head<2>();
 }
@@ -134,7 +136,8 @@ void RayCaster::add(const Scene& scene, const SE3d& T_w_c, int offset, double fo
       }
       candidates.clear();
       for (const Facet& f : facets) {
-        if (f.min_x <= high[0] && f.max_x >= low[0] && f.min_y <= high[1] && f.max_y >= low[1]) candidates.push_back(&f);
+        if (f.min_x <= high[0] && f.max_x >= low[0] && f.min_y <= high[1] && f.max_y >= low[1])
+          candidates.push_back(&f);
       }
       n = 0;
       for (int y = y0; y < y1; ++y) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <mutex>
@@ -30,10 +31,11 @@ std::string stem_of(int frame) {
   return name;
 }
 
+/// Independent of the locale.
 std::string decimals(double value, int n) {
   char text[64];
-  std::snprintf(text, sizeof text, "%.*f", n, value);
-  return text;
+  const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, n);
+  return std::string(text, result.ptr);
 }
 
 CameraModel camera_of(const RenderOptions& options) {

@@ -1,6 +1,7 @@
 // The renderer: sequences in the formats that textslam reads, with exact truth, from a name and a seed.
 //
-// A kind is rendered into a folder: images.txt, images/NNNNNN.png, camera.yaml, groundtruth.txt, detections/NNNNNN.txt, and
+// A kind is rendered into a folder: images.txt, images/NNNNNN.png, camera.yaml, groundtruth.txt,
+// detections/NNNNNN.txt, and
 //   truth/signs.json          every sign's id, word, corners and normal in the world frame (m)
 //   truth/quads/NNNNNN.txt    the exact quads of the signs in view: x1,y1,...,x4,y4,text,sign,visible (raw px)
 //   truth/frames.txt          timestamp, exposure (s), median and longest blur (px), gain, bias (grey levels)
@@ -22,7 +23,7 @@ struct RenderOptions {
   std::string kind = "room";  ///< one of render_kinds()
   std::string output;         ///< the folder; made where it does not exist, files in it are replaced
   std::uint64_t seed = 1;
-  int frames = 240;             ///< at 30 a second
+  int frames = 240;               ///< at 30 a second
   int width = 640, height = 480;  ///< px; the field of view stays that of 525 px focal length at a width of 640
   RadialTangential<double> lens;  ///< none by default
   DetectorErrors detector;

@@ -34,13 +34,13 @@ void add_pictures(Scene& scene, const Walls& walls, std::uint64_t seed) {
     double s, t, width, height;
   };
   // Metres from the top left of each wall, as seen from inside.
-  const Place places[] = {{&walls.front, 1.45, 0.5, 0.42, 0.56},  {&walls.front, 2.62, 1.3, 0.5, 0.42},
-                          {&walls.front, 4.3, 1.55, 0.5, 0.66},   {&walls.front, 3.75, 0.42, 0.62, 0.42},
-                          {&walls.left, 2.55, 0.62, 0.5, 0.42},   {&walls.left, 2.6, 1.75, 0.55, 0.75},
-                          {&walls.left, 1.25, 1.3, 0.5, 0.7},     {&walls.left, 3.75, 1.7, 0.42, 0.56},
-                          {&walls.right, 1.45, 1.65, 0.6, 0.5},   {&walls.right, 1.5, 0.65, 0.5, 0.62},
-                          {&walls.right, 2.75, 0.7, 0.55, 0.4},   {&walls.right, 3.4, 1.4, 0.5, 0.7},
-                          {&walls.back, 1.2, 1.1, 0.8, 0.6},      {&walls.back, 3.4, 1.0, 0.6, 0.8}};
+  const Place places[] = {{&walls.front, 1.45, 0.5, 0.42, 0.56}, {&walls.front, 2.62, 1.3, 0.5, 0.42},
+                          {&walls.front, 4.3, 1.55, 0.5, 0.66},  {&walls.front, 3.75, 0.42, 0.62, 0.42},
+                          {&walls.left, 2.55, 0.62, 0.5, 0.42},  {&walls.left, 2.6, 1.75, 0.55, 0.75},
+                          {&walls.left, 1.25, 1.3, 0.5, 0.7},    {&walls.left, 3.75, 1.7, 0.42, 0.56},
+                          {&walls.right, 1.45, 1.65, 0.6, 0.5},  {&walls.right, 1.5, 0.65, 0.5, 0.62},
+                          {&walls.right, 2.75, 0.7, 0.55, 0.4},  {&walls.right, 3.4, 1.4, 0.5, 0.7},
+                          {&walls.back, 1.2, 1.1, 0.8, 0.6},     {&walls.back, 3.4, 1.0, 0.6, 0.8}};
   int k = static_cast<int>(seed % 4);
   for (const Place& p : places) {
     const Rectangle r = on(*p.wall, p.s, p.t, p.width, p.height, kPictureLift);

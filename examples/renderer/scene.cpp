@@ -20,7 +20,8 @@ double light_at(const std::vector<Vector3<double>>& lamps, const Vector3<double>
   for (const Vector3<double>& lamp : lamps) {
     const Vector3<double> to = lamp - p;
     const double d2 = to.squaredNorm();
-    light += kLampStrength / static_cast<double>(lamps.size()) * std::max(0.0, normal.dot(to)) / (std::sqrt(d2) * (d2 + 1.0));
+    light += kLampStrength / static_cast<double>(lamps.size()) * std::max(0.0, normal.dot(to)) /
+             (std::sqrt(d2) * (d2 + 1.0));
   }
   return light;
 }
@@ -89,11 +90,11 @@ void Scene::add_unlit(const Rectangle& rectangle, Image<std::uint8_t> texture) {
 }
 
 void Scene::add_sign(std::string word, const Rectangle& text) {
-  signs_.push_back({static_cast<int>(signs_.size()),
-                    std::move(word),
-                    {text.at(0.0, 0.0), text.at(text.width, 0.0), text.at(text.width, text.height),
-                     text.at(0.0, text.height)},
-                    text.normal()});
+  signs_.push_back(
+      {static_cast<int>(signs_.size()),
+       std::move(word),
+       {text.at(0.0, 0.0), text.at(text.width, 0.0), text.at(text.width, text.height), text.at(0.0, text.height)},
+       text.normal()});
 }
 
 Hit Scene::first_hit(const Vector3<double>& origin, const Vector3<double>& direction) const noexcept {

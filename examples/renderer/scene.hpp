@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "io/names.hpp"
 #include "renderer/canvas.hpp"
 #include "renderer/texture.hpp"
-#include "io/names.hpp"
 
 namespace textslam {
 
 /// A rectangle as its viewer sees it: `right` and `down` are orthogonal unit vectors along its sides, right x down
-/// points away from the viewer. From behind it is invisible.
+/// points away from the viewer. It is invisible from behind.
 struct Rectangle {
   Vector3<double> corner = Vector3<double>::Zero();  ///< top left, m
   Vector3<double> right = Vector3<double>::UnitX();
@@ -26,7 +26,7 @@ struct Rectangle {
   Vector3<double> normal() const { return down.cross(right); }
 };
 
-/// The rectangle around `centre` that a viewer in direction `towards` sees upright; `roll` turns it clockwise (radians).
+/// The rectangle around `centre` that a viewer in direction `towards` sees upright; `roll` turns it clockwise (rad).
 Rectangle facing(const Vector3<double>& centre, const Vector3<double>& towards, double width, double height,
                  double roll = 0.0);
 /// A rectangle on `wall`, centred at (s, t) metres from the wall's top left, lifted off it by `lift` metres.

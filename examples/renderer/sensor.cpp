@@ -35,10 +35,14 @@ SensorProgram changing_lights(std::uint64_t seed, int width, int height) {
     state.vignette = 0.4;
     state.noise = 2.5;
     state.shot = 0.02;
-    state.glare.push_back({{width * (0.5 + 0.4 * std::sin(0.9 * t + phase)), height * (0.35 + 0.25 * std::cos(0.7 * t))},
-                           0.06 * width, 75.0});
-    state.glare.push_back({{width * (0.5 + 0.45 * std::cos(0.6 * t + 2.0)), height * (0.6 + 0.3 * std::sin(1.1 * t + phase))},
-                           0.035 * width, 95.0});
+    state.glare.push_back(
+        {{width * (0.5 + 0.4 * std::sin(0.9 * t + phase)), height * (0.35 + 0.25 * std::cos(0.7 * t))},
+         0.06 * width,
+         75.0});
+    state.glare.push_back(
+        {{width * (0.5 + 0.45 * std::cos(0.6 * t + 2.0)), height * (0.6 + 0.3 * std::sin(1.1 * t + phase))},
+         0.035 * width,
+         95.0});
     return state;
   };
 }
@@ -56,7 +60,9 @@ Image<std::uint8_t> develop(const Image<double>& light, const SensorState& state
   }
   for (const Glare& glare : state.glare) {
     const double reach = kGlareReach * glare.radius;
-    const auto index = [](double v, int size) { return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(size))); };
+    const auto index = [](double v, int size) {
+      return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(size)));
+    };
     for (int y = index(glare.centre[1] - reach, height); y < index(glare.centre[1] + reach, height); ++y) {
       for (int x = index(glare.centre[0] - reach, width); x < index(glare.centre[0] + reach, width); ++x) {
         const double r2 = (Vector2<double>(x, y) - glare.centre).squaredNorm() / (glare.radius * glare.radius);

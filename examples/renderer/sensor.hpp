@@ -17,8 +17,8 @@ struct Glare {
   double strength;         ///< grey levels at its centre
 };
 
-/// The sensor at one instant: pixel = gain * falloff * light + bias + glare + noise, where falloff = 1 - vignette * r^2 and
-/// r is 1 in the corners; the noise has the variance noise^2 + shot * value.
+/// The sensor at one instant: pixel = gain * falloff * light + bias + glare + noise, falloff = 1 - vignette * r^2 with
+/// r = 1 in the corners; the noise has the variance noise^2 + shot * value.
 struct SensorState {
   double gain = 1.0, bias = 0.0;
   double vignette = 0.0;

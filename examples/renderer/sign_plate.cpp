@@ -12,12 +12,12 @@ namespace {
 constexpr double kDensity = 1000.0;  // texels per metre
 constexpr double kRim = 0.06;
 
-const char* const kWords[] = {"EXIT",    "LIBRARY", "OFFICE",  "PARKING", "COFFEE",  "MUSEUM",   "KITCHEN", "STATION",
-                              "GARDEN",  "TICKETS", "LIFT",    "DANGER",  "CAUTION", "PHARMACY", "BAKERY",  "HOTEL",
-                              "SCHOOL",  "THEATRE", "MARKET",  "POLICE",  "TOILETS", "STAIRS",   "ENTRANCE", "OPEN",
-                              "CLOSED",  "WELCOME", "WORKSHOP", "ARCHIVE", "STUDIO", "GALLERY",  "NOTICE",  "PRIVATE",
-                              "ROOM",    "TAXI",    "BUS",     "METRO",   "AIRPORT", "CINEMA",   "BOOKS",   "FLOWERS",
-                              "MUSIC",   "SPORTS",  "DENTIST", "DOCTOR",  "BANK",    "POST",     "CAFE",    "SILENCE"};
+const char* const kWords[] = {"EXIT",   "LIBRARY", "OFFICE",   "PARKING", "COFFEE",  "MUSEUM",   "KITCHEN",  "STATION",
+                              "GARDEN", "TICKETS", "LIFT",     "DANGER",  "CAUTION", "PHARMACY", "BAKERY",   "HOTEL",
+                              "SCHOOL", "THEATRE", "MARKET",   "POLICE",  "TOILETS", "STAIRS",   "ENTRANCE", "OPEN",
+                              "CLOSED", "WELCOME", "WORKSHOP", "ARCHIVE", "STUDIO",  "GALLERY",  "NOTICE",   "PRIVATE",
+                              "ROOM",   "TAXI",    "BUS",      "METRO",   "AIRPORT", "CINEMA",   "BOOKS",    "FLOWERS",
+                              "MUSIC",  "SPORTS",  "DENTIST",  "DOCTOR",  "BANK",    "POST",     "CAFE",     "SILENCE"};
 
 }  // namespace
 
@@ -63,7 +63,8 @@ SignPlate make_sign_plate(const std::string& word, double width, const std::vect
 
 std::vector<std::string> sign_words(int count, Random& random) {
   std::vector<std::string> words(std::begin(kWords), std::end(kWords));
-  if (count < 0 || count > static_cast<int>(words.size())) throw std::invalid_argument("too many signs for the list of words");
+  if (count < 0 || count > static_cast<int>(words.size()))
+    throw std::invalid_argument("too many signs for the list of words");
   for (int i = 0; i < count; ++i) {
     std::swap(words[static_cast<std::size_t>(i)],
               words[static_cast<std::size_t>(i + random.below(static_cast<int>(words.size()) - i))]);

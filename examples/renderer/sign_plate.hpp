@@ -19,8 +19,8 @@ struct SignPlate {
 };
 
 /// A plate `width` metres wide for the word; its height follows from the word. Dark on light or light on dark, with a
-/// border or without, in a font: all by the random numbers. The text box leaves a rim of 6 % of the text's height around
-/// the ink, as detectors' boxes do.
+/// border or without, in a font: all by the random numbers. The text box leaves a rim of 6 % of the text's height
+/// around the ink, as detectors' boxes do.
 SignPlate make_sign_plate(const std::string& word, double width, const std::vector<Font>& fonts, Random& random);
 
 /// `count` different English words in capitals, in an order given by the random numbers. At most 48.

@@ -10,7 +10,8 @@ namespace textslam {
 namespace {
 
 /// Whether the camera sees the place: inside the image, and the first thing on its ray.
-bool sees(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c, const SE3d& T_c_w, const Vector3<double>& p) {
+bool sees(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c, const SE3d& T_c_w,
+          const Vector3<double>& p) {
   Vector2<double> px;
   if (!project(camera, T_c_w, p, &px)) return false;
   if (px[0] < 0.0 || px[1] < 0.0 || px[0] > camera.width - 1 || px[1] > camera.height - 1) return false;
@@ -35,7 +36,8 @@ std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& came
     view.cosine = sign.normal.dot(to_eye) / to_eye.norm();
     if (!(view.cosine > 0.0)) continue;
     bool in_front = true;
-    for (std::size_t k = 0; k < 4; ++k) in_front = in_front && project(camera, T_c_w, sign.corner[k], &view.quad.corner[k]);
+    for (std::size_t k = 0; k < 4; ++k)
+      in_front = in_front && project(camera, T_c_w, sign.corner[k], &view.quad.corner[k]);
     if (!in_front) continue;
     int seen = 0;
     for (int j = 0; j < kRows; ++j) {

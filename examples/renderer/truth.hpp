@@ -1,4 +1,4 @@
-// Truth: where the signs' texts stand in the world and in each frame. Written beside the sequence for those who measure.
+// Truth: where the signs' texts stand in the world and in each frame, written for those who measure.
 #ifndef TEXTSLAM_RENDERER_TRUTH_HPP
 #define TEXTSLAM_RENDERER_TRUTH_HPP
 
@@ -21,10 +21,10 @@ struct SignView {
 /// The signs that face the camera at T_w_c, stand in front of it with all corners, and of which something is visible.
 std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c);
 
-/// truth/quads/<stem>.txt: `x1,y1,x2,y2,x3,y3,x4,y4,text,sign,visible` a line; the numbers survive the round trip exactly.
+/// truth/quads/<stem>.txt: `x1,y1,x2,y2,x3,y3,x4,y4,text,sign,visible` a line; the numbers survive the round trip.
 std::string format_truth_quads(const std::vector<SignView>& views, const std::vector<Sign>& signs);
 
-/// truth/signs.json: {"signs":[{"id":0,"text":"EXIT","corners":[[x,y,z],... 4],"normal":[x,y,z]},...]}, world frame, metres.
+/// truth/signs.json: {"signs":[{"id":0,"text":"EXIT","corners":[[x,y,z],... 4],"normal":[x,y,z]},...]}; world, metres.
 std::string format_signs(const std::vector<Sign>& signs);
 
 }  // namespace textslam
