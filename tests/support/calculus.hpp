@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
+#include <type_traits>
 
 #include "support/dual.hpp"
 #include "textplane/core/se3.hpp"
