@@ -226,7 +226,8 @@ std::string format_summary(const RunSummary& s) {
   }
   if (s.text.available) {
     row("signs mapped", "%d of %d visible, %d false", s.text.mapped, s.text.signs, s.text.false_texts);
-    row("angle error", "%.2f deg median, %.2f deg largest", s.text.median_angle, s.text.max_angle);
+    if (s.text.mapped > 0)
+      row("angle error", "%.2f deg median, %.2f deg largest", s.text.median_angle, s.text.max_angle);
   }
   row("time", "%.1f ms a frame (median)", s.median_ms);
   return out.str();
