@@ -78,6 +78,8 @@ struct Parameters {
 
   // Recovery
   int relocalise_candidates = 5;  ///< Key frames tried for a lost frame.
+  int young_map_keyframes = 5;    ///< A map of fewer that is lost soon was not a good one:
+  int young_map_patience = 15;    ///< after this many lost frames it is given up and a new one begun.
 };
 
 }  // namespace textslam

@@ -1,7 +1,6 @@
 #include "textslam/system.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "textslam/adjustment.hpp"
 #include "textslam/feature_tracks.hpp"
@@ -68,35 +67,33 @@ void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecor
   record.map_ms = now_ms() - start;
 }
 
+bool System::track(const Frame& frame, FrameRecord& record) {
+  const TrackReport report = tracker_->track(frame);
+  record.klt_ms = report.klt_ms;
+  record.pose_ms = report.pose_ms;
+  record.reobserve_ms = report.reobserve_ms;
+  record.points = report.inliers;
+  record.texts = report.texts;
+  if (!report.ok) return false;
+  for (const int id : report.visible) ++map_.point(id).visible;
+  for (const int id : report.found) ++map_.point(id).found;
+  return true;
+}
+
 void System::follow(const Frame& frame, FrameRecord& record) {
   const double start = now_ms();
-  if (lost_ ? !recover(frame, record) : false) {
+  const bool found = (lost_frames_ == 0 && track(frame, record)) || recover(frame, record);
+  record.track_ms = now_ms() - start;
+  if (!found) {
     record.state = FrameState::lost;
-    record.track_ms = now_ms() - start;
+    ++lost_frames_;
+    if (lost_frames_ >= parameters_.young_map_patience &&
+        static_cast<int>(map_.keyframes.size()) < parameters_.young_map_keyframes)
+      restart();
     return;
   }
-  if (!lost_) {
-    const TrackReport report = tracker_->track(frame);
-    record.klt_ms = report.klt_ms;
-    record.pose_ms = report.pose_ms;
-    record.reobserve_ms = report.reobserve_ms;
-    record.points = report.inliers;
-    record.texts = report.texts;
-    if (!report.ok) {
-      lost_ = true;
-      if (!recover(frame, record)) {
-        record.state = FrameState::lost;
-        record.track_ms = now_ms() - start;
-        return;
-      }
-    } else {
-      for (const int id : report.visible) ++map_.point(id).visible;
-      for (const int id : report.found) ++map_.point(id).found;
-    }
-  }
-  lost_ = false;
+  lost_frames_ = 0;
   set_pose(record, tracker_->pose());
-  record.track_ms = now_ms() - start;
 
   const double map_start = now_ms();
   if (parameters_.mode != Mode::points) text_mapper_.associate(frame, tracker_->pose(), tracker_->tracks());
@@ -104,16 +101,27 @@ void System::follow(const Frame& frame, FrameRecord& record) {
   record.map_ms = now_ms() - map_start;
 }
 
+void System::restart() {
+  for (FrameRecord& record : records_)
+    if (record.state == FrameState::tracked) {
+      record.state = FrameState::lost;
+      record.live = false;
+      record.keyframe = -1;
+    }
+  tracker_.reset();
+  map_.keyframes.clear();
+  map_.points.clear();
+  map_.texts.clear();
+  lost_frames_ = 0;
+}
+
 bool System::recover(const Frame& frame, FrameRecord& record) {
   Recovery found = relocalise(map_, parameters_, frame);
-  if (found.tracker) {
-    tracker_ = std::move(found.tracker);
-    lost_ = false;
-    record.points = found.report.inliers;
-    record.texts = found.report.texts;
-    return true;
-  }
-  return false;
+  if (!found.tracker) return false;
+  tracker_ = std::move(found.tracker);
+  record.points = found.report.inliers;
+  record.texts = found.report.texts;
+  return true;
 }
 
 bool System::keyframe_needed(const Frame& frame) const {

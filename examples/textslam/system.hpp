@@ -58,7 +58,9 @@ class System {
  private:
   void begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecord& record);
   void follow(const Frame& frame, FrameRecord& record);
+  bool track(const Frame& frame, FrameRecord& record);
   bool recover(const Frame& frame, FrameRecord& record);
+  void restart();
   void set_pose(FrameRecord& record, const SE3d& T_c_w);
   bool keyframe_needed(const Frame& frame) const;
   void add_keyframe(const Frame& frame, FrameRecord& record);
@@ -71,7 +73,7 @@ class System {
   std::vector<FrameRecord> records_;
   int last_keyframe_ = -1;        // id of the newest
   int last_keyframe_points_ = 0;  // tracked in it
-  bool lost_ = false;
+  int lost_frames_ = 0;           // in a row
 };
 
 }  // namespace textslam
