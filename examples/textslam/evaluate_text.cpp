@@ -7,18 +7,13 @@
 
 #include "io/input_error.hpp"
 #include "io/text_file.hpp"
+#include "textslam/statistics.hpp"
 
 namespace textslam {
 namespace {
 
 constexpr int kMinVisibleFrames = 10;  // that a sign must be seen whole to count
 constexpr double kWhole = 0.99;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 Vec3 centre_of(const std::array<Vec3, 4>& corners) { return (corners[0] + corners[1] + corners[2] + corners[3]) / 4; }
 

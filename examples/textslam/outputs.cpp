@@ -8,19 +8,12 @@
 
 #include "io/output_file.hpp"
 #include "textplane/geometry/plane.hpp"
-#include "io/text_file.hpp"
+#include "textslam/statistics.hpp"
 
 namespace textslam {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double percentile95(std::vector<double> values) {
   if (values.empty()) return 0;

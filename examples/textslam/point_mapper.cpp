@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "textplane/geometry/triangulate.hpp"
+#include "textslam/statistics.hpp"
 
 namespace textslam {
 
@@ -107,10 +108,7 @@ double median_depth(const Map& map, int id) {
   const SE3d T_c_w = keyframe.T_w_c.inverse();
   std::vector<double> depths;
   for (const int point : keyframe.points) depths.push_back((T_c_w * map.point(point).p_w).z());
-  if (depths.empty()) return 0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+  return median(std::move(depths));
 }
 
 }  // namespace textslam

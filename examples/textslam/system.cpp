@@ -6,6 +6,7 @@
 #include "textslam/feature_tracks.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/recovery.hpp"
+#include "textslam/statistics.hpp"
 
 namespace textslam {
 
@@ -136,9 +137,7 @@ bool System::keyframe_needed(const Frame& frame) const {
       flow.push_back((observations.back().px - track.px.cast<double>()).norm());
   }
   if (flow.size() < 20 || points < parameters_.keyframe_min_share * last_keyframe_points_) return true;
-  const auto middle = flow.begin() + static_cast<std::ptrdiff_t>(flow.size() / 2);
-  std::nth_element(flow.begin(), middle, flow.end());
-  return *middle > parameters_.keyframe_flow;
+  return median(std::move(flow)) > parameters_.keyframe_flow;
 }
 
 void System::add_keyframe(const Frame& frame, FrameRecord& record) {

@@ -10,6 +10,7 @@
 #include "textplane/photometry/residual.hpp"
 #include "textplane/solver/plane.hpp"
 #include "textslam/point_mapper.hpp"
+#include "textslam/statistics.hpp"
 
 namespace textslam {
 namespace {
@@ -36,13 +37,6 @@ double overlap(const Quad<double>& a, const Quad<double>& b) {
   const double inter = std::abs(textplane::area(textplane::intersection(a, b)));
   const double smaller = std::min(std::abs(textplane::area(a)), std::abs(textplane::area(b)));
   return smaller > 0 ? inter / smaller : 0;
-}
-
-template <class V>
-double median(V values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/se3.hpp"
+#include "textplane/geometry/plane_fit.hpp"
+#include "textslam/statistics.hpp"
 
 namespace textslam {
 namespace {
@@ -22,13 +24,6 @@ struct Hypothesis {
   Mat5 information = Mat5::Zero();
   int in_front = 0;
 };
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 double huber_weight(double r) { return std::abs(r) <= kHuberPx ? 1 : kHuberPx / std::abs(r); }
 double huber_cost(double r) { return std::abs(r) <= kHuberPx ? r * r : kHuberPx * (2 * std::abs(r) - kHuberPx); }
@@ -135,6 +130,25 @@ int count_in_front(const Hypothesis& h, const std::vector<Vec3>& a, const std::v
   return n;
 }
 
+// The other motion that moves a plane's points the same way. With the plane fitted to the matches, H = R (I + a theta^T),
+// a = R^T t, and H^T H = I + theta b^T + b theta^T with b = a + |a|^2 theta / 2: theta and b may change places.
+bool planar_twin(const Hypothesis& h, const std::vector<Vec3>& a, const std::vector<Vec3>& b, Hypothesis* twin) {
+  const auto plane = textplane::plane_from_matches(a, b, SE3d{h.R, h.t});
+  // A wrong motion often has part of its plane behind the camera; the twin is in front all the same.
+  if (!textplane::is_ok(plane.status) && plane.status != textplane::Status::behind_camera) return false;
+  const Vec3 theta = plane.value, motion = h.R.transpose() * h.t;
+  const Vec3 swapped = motion + 0.5 * motion.squaredNorm() * theta;
+  const double s = motion.squaredNorm() * theta.squaredNorm() / swapped.squaredNorm();
+  const Vec3 other = theta - 0.5 * s * swapped;
+  const double det = 1 + other.dot(swapped);
+  if (!(other.norm() > 1e-9) || !(std::abs(det) > 1e-9)) return false;
+  const Eigen::Matrix3d H = h.R + h.t * theta.transpose();
+  const SE3d T = textplane::renormalised(SE3d{H - H * other * swapped.transpose() / det, Vec3::Zero()});
+  twin->R = T.R;
+  twin->t = (T.R * other).normalized();
+  return twin->R.allFinite() && twin->t.allFinite();
+}
+
 }  // namespace
 
 TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal) {
@@ -142,29 +156,36 @@ TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b
   if (a.size() < 12 || a.size() != b.size()) return best;
   const Eigen::Matrix3d R0 = rotation_only(a, b, focal);
 
-  // A half-sphere of directions: t and -t have the same epipolar lines.
   std::vector<Hypothesis> found;
+  const auto search_from = [&](Hypothesis h) {
+    minimise_epipolar(a, b, focal, 25, h);
+    Hypothesis flipped = h;
+    flipped.t = -h.t;
+    h.in_front = count_in_front(h, a, b);
+    flipped.in_front = count_in_front(flipped, a, b);
+    const Hypothesis& kept = flipped.in_front > h.in_front ? flipped : h;
+    for (const Hypothesis& other : found)
+      if (kept.t.dot(other.t) > std::cos(0.1) && textplane::so3_log<double>(kept.R * other.R.transpose()).norm() < 0.02)
+        return;
+    found.push_back(kept);
+  };
+  // A half-sphere of directions: t and -t have the same epipolar lines.
   for (int polar = 0; polar < 4; ++polar) {
-    const int around = polar == 0 ? 1 : 6;
+    const int around = polar == 0 ? 1 : polar == 3 ? 3 : 6;
     for (int k = 0; k < around; ++k) {
       const double inclination = polar * 30 * M_PI / 180, azimuth = (k + 0.5 * (polar % 2)) * M_PI / 3;
-      if (polar == 3 && k >= 3) break;
       Hypothesis h;
       h.R = R0;
       h.t = Vec3(std::sin(inclination) * std::cos(azimuth), std::sin(inclination) * std::sin(azimuth),
                  std::cos(inclination));
-      minimise_epipolar(a, b, focal, 25, h);
-      Hypothesis flipped = h;
-      flipped.t = -h.t;
-      h.in_front = count_in_front(h, a, b);
-      flipped.in_front = count_in_front(flipped, a, b);
-      const Hypothesis& kept = flipped.in_front > h.in_front ? flipped : h;
-      bool known = false;
-      for (const Hypothesis& other : found)
-        known = known || (kept.t.dot(other.t) > std::cos(0.1) &&
-                          textplane::so3_log<double>(kept.R * other.R.transpose()).norm() < 0.02);
-      if (!known) found.push_back(kept);
+      search_from(h);
     }
+  }
+  // On a plane one of two solutions may lie too far from where the search starts; it is computed from the other.
+  const std::size_t searched = found.size();
+  for (std::size_t i = 0; i < searched; ++i) {
+    Hypothesis twin;
+    if (planar_twin(found[i], a, b, &twin)) search_from(twin);
   }
   std::sort(found.begin(), found.end(), [](const Hypothesis& x, const Hypothesis& y) { return x.cost < y.cost; });
   const int enough = static_cast<int>(0.75 * static_cast<double>(a.size()));
