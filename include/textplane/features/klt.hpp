@@ -2,7 +2,7 @@
 // backwards.
 //
 // Lucas and Kanade 1981 and Tomasi and Kanade 1991 with the normalised inverse-compositional step of align.hpp on every
-// level; pyramid levels as in DESIGN section 2: level l pixel = (x + 0.5) / 2^l - 0.5.
+// level; pyramid levels as in docs/conventions.md: level l pixel = (x + 0.5) / 2^l - 0.5.
 #ifndef TEXTPLANE_FEATURES_KLT_HPP
 #define TEXTPLANE_FEATURES_KLT_HPP
 

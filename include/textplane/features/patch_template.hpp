@@ -1,6 +1,6 @@
 // PatchTemplate: a small patch, zero mean and unit norm, with the Jacobian of the normalised intensities.
 //
-// T~ = (T - mean) / s over the N samples, s = ||T - mean|| (DESIGN section 3). For a translation the gradient
+// T~ = (T - mean) / s over the N samples, s = ||T - mean|| (docs/equations.md). For a translation the gradient
 // of the normalised patch is J~ = (1/s) (I - 1 1^T/N - T~ T~^T) grad T. J~ is orthogonal to 1 and to T~, so in the
 // inverse-compositional step sum J~ (I~ - T~) = (1/s_I) sum J~ I: neither gain nor bias of the target enters.
 #ifndef TEXTPLANE_FEATURES_PATCH_TEMPLATE_HPP

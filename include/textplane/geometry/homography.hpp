@@ -1,7 +1,7 @@
 // The homography that a plane induces between two views, warped points, and their derivatives by pose and plane.
 //
 // H = R + t theta^T maps host to target: q = H m~ = R m~ + rho t with rho = theta^T m~, m' = q_xy / q_z (paper, eq. 4;
-// DESIGN section 3). H keeps its scale: q_z / rho is the depth in the target, so a sign test tells front from behind,
+// docs/equations.md). H keeps its scale: q_z / rho is the depth in the target, so a sign test tells front from behind,
 // and H_c_b H_b_a = H_c_a exactly when theta_b is theta_a re-anchored.
 #ifndef TEXTPLANE_GEOMETRY_HOMOGRAPHY_HPP
 #define TEXTPLANE_GEOMETRY_HOMOGRAPHY_HPP

@@ -2,7 +2,7 @@
 // of theta to measurements are in plane_fit.hpp.
 //
 // A plane n^T p + d = 0 of the host camera frame is theta = -n / d, so theta^T p = 1 on the plane and the inverse depth
-// of the normalised point m~ = (u, v, 1) is rho = theta^T m~ (paper, eq. 1 to 3; DESIGN sections 2 and 3). theta has
+// of the normalised point m~ = (u, v, 1) is rho = theta^T m~ (paper, eq. 1 to 3; docs/conventions.md, docs/equations.md). theta has
 // the unit of an inverse length; theta = 0 is the plane at infinity. The code published with the paper stores -theta.
 #ifndef TEXTPLANE_GEOMETRY_PLANE_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_HPP

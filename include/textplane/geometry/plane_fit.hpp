@@ -98,7 +98,7 @@ PlaneFit<S> failed_plane(Status status) noexcept {
 
 }  // namespace detail
 
-/// theta from n >= 3 inverse depths: weighted least squares of m~_i^T theta = rho_i (DESIGN section 3).
+/// theta from n >= 3 inverse depths: weighted least squares of m~_i^T theta = rho_i (docs/equations.md).
 ///
 /// m: homogeneous normalised points (third entry 1); rho: their inverse depths; weight: 1 / variance of each rho, or
 /// null for ones; a weight of 0 leaves its row out. Degrees of freedom of sigma: n - 3. Status: too_few (n < 3, rank
@@ -146,7 +146,7 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
   return fit;
 }
 
-/// theta from n >= 3 matches between two views of known relative pose (paper, eq. 5; DESIGN section 3).
+/// theta from n >= 3 matches between two views of known relative pose (paper, eq. 5; docs/equations.md).
 ///
 /// The linear system [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i gives the start; up to three Gauss-Newton steps on the
 /// target's reprojection error make it the maximum-likelihood estimate for isotropic noise on the target points.

@@ -1,6 +1,6 @@
 // The photometric residual of a planar text object and its normal equations: the public double reference.
 //
-// Residual of pixel i (DESIGN section 3; the paper's E_text): r_i = I~_host(x_i) - I~_target(K pi(H m~_i)), with
+// Residual of pixel i (docs/equations.md; the paper's E_text): r_i = I~_host(x_i) - I~_target(K pi(H m~_i)), with
 // H = R + t theta^T of T_t_h and I~ = (I - mean) / ||I - mean|| over the visible pixels alone, host side included. So r does
 // not change with gain and bias of either image. E = sum r^2 is in [0, 4] and ZNCC = 1 - E / 2.
 //

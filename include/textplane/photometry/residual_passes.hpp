@@ -1,4 +1,4 @@
-// The passes over the pixels that the double reference kernels are made of (DESIGN section 3):
+// The passes over the pixels that the double reference kernels are made of (docs/equations.md):
 //
 //   collect      warp, sample, intensity derivatives; keeps the visible pixels only, closed up
 //   normalise    mean and norm of both sides, then residuals and normalised target intensities in place

@@ -1,7 +1,7 @@
 // lambda_w: how much a text object's photometric cost counts against reprojection errors in one joint cost.
 //
 // Points contribute sum rho(|e|^2 / sigma^2) with e in px, a text observation lambda_w * sum rho(r^2) with r the
-// difference of two unit-norm patches, of order 1/sqrt(N) (DESIGN section 3).
+// difference of two unit-norm patches, of order 1/sqrt(N) (docs/equations.md).
 #ifndef TEXTPLANE_SOLVER_WEIGHTING_HPP
 #define TEXTPLANE_SOLVER_WEIGHTING_HPP
 

@@ -12,7 +12,7 @@
 // the compiler may keep them as weak symbols outside of our ABI namespace: include this header in translation units of
 // one instruction set only.
 //
-// A text term is judged on the visible set of its linearisation, lost pixels charged (DESIGN section 3). An observation
+// A text term is judged on the visible set of its linearisation, lost pixels charged (docs/equations.md). An observation
 // that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted state drops
 // out with its status.
 #ifndef TEXTPLANE_SOLVER_WINDOW_HPP
