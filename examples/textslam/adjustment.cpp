@@ -103,7 +103,8 @@ class Adjustment {
       observation.text = static_cast<int>(texts_.size());
       observation.frame = slot_of_[static_cast<std::size_t>(id)];
       Quad<double> quad;
-      if (project_text(map_, text, map_.keyframe(id).T_w_c.inverse(), &quad)) observation.scale_shift = scale_shift(text, quad);
+      if (project_text(map_, text, map_.keyframe(id).T_w_c.inverse(), &quad))
+        observation.scale_shift = scale_shift(text, quad);
       window_.text_observations.push_back(observation);
     }
     textplane::WindowText window_text;
@@ -203,9 +204,9 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
     adjustment.solve(iterations, 0, far);
     adjustment.write_back();
     if (adjustment.remove_outliers() == 0) break;
-    selection.points.erase(std::remove_if(selection.points.begin(), selection.points.end(),
-                                          [&](int id) { return map.point(id).bad; }),
-                           selection.points.end());
+    selection.points.erase(
+        std::remove_if(selection.points.begin(), selection.points.end(), [&](int id) { return map.point(id).bad; }),
+        selection.points.end());
   }
 }
 

@@ -77,15 +77,15 @@ TextEvaluation evaluate_text(const Map& map, const std::vector<TrueSign>& signs,
     std::array<Vec3, 4> corners = world_corners(map, text);
     for (Vec3& corner : corners) corner = alignment * corner;
     const Vec3 centre = centre_of(corners);
-    const Vec3 normal =
-        alignment.R * (map.keyframe(text.host).T_w_c.R * textplane::plane_normal(text.theta));
+    const Vec3 normal = alignment.R * (map.keyframe(text.host).T_w_c.R * textplane::plane_normal(text.theta));
     SignMatch match;
     match.text = text.id;
     double nearest = 0;
     for (const TrueSign& sign : signs) {
       const double distance = (centre - centre_of(sign.corners)).norm();
       // The text stands for the sign when its centre falls within the sign.
-      if (distance > 0.5 * (sign.corners[1] - sign.corners[0]).norm() || (match.sign >= 0 && distance >= nearest)) continue;
+      if (distance > 0.5 * (sign.corners[1] - sign.corners[0]).norm() || (match.sign >= 0 && distance >= nearest))
+        continue;
       nearest = distance;
       match.sign = sign.id;
       match.centre = distance;

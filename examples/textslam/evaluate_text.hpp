@@ -22,8 +22,8 @@ struct TrueSign {
 };
 
 struct SignMatch {
-  int text = -1;  ///< Id in the text map.
-  int sign = -1;  ///< Id of the true sign; -1: there is none where the text stands.
+  int text = -1;      ///< Id in the text map.
+  int sign = -1;      ///< Id of the true sign; -1: there is none where the text stands.
   double angle = 0;   ///< Degrees between the normals.
   double centre = 0;  ///< Distance of the centres, in units of the truth.
   bool word = false;  ///< The word is right.

@@ -68,15 +68,19 @@ void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double
     for (const Track& track : tracks) occupied.push_back(track.px);
     std::vector<textplane::Corner> in_quad;
     for (const textplane::Corner& corner : corners)
-      if (inside({corner.x, corner.y}) && textplane::contains(quad, Vec2(corner.x, corner.y))) in_quad.push_back(corner);
-    textplane::select_spread(in_quad, image.width(), image.height(), kTextCell, parameters.text_corners, occupied, in_quad);
+      if (inside({corner.x, corner.y}) && textplane::contains(quad, Vec2(corner.x, corner.y)))
+        in_quad.push_back(corner);
+    textplane::select_spread(in_quad, image.width(), image.height(), kTextCell, parameters.text_corners, occupied,
+                             in_quad);
     for (const textplane::Corner& corner : in_quad) add({corner.x, corner.y});
   }
 
   std::vector<Vec2f> occupied;
   for (const Track& track : tracks) occupied.push_back(track.px);
   corners.erase(std::remove_if(corners.begin(), corners.end(),
-                               [&](const textplane::Corner& c) { return !inside({c.x, c.y}); }),
+                               [&](const textplane::Corner& c) {
+                                 return !inside({c.x, c.y});
+                               }),
                 corners.end());
   textplane::select_spread(corners, image.width(), image.height(), parameters.corner_cell,
                            parameters.max_tracks - static_cast<int>(tracks.size()), occupied, corners);

@@ -77,9 +77,9 @@ bool Initialiser::build(const Frame& frame, Map& map, std::vector<Track>* tracks
   }
   for (KeyFrame& keyframe : map.keyframes) keyframe.T_w_c.t /= depth;
   for (MapPoint& point : map.points) point.p_w /= depth;
-  kept.erase(std::remove_if(kept.begin(), kept.end(),
-                            [&](const Track& t) { return t.point >= 0 && map.point(t.point).bad; }),
-             kept.end());
+  kept.erase(
+      std::remove_if(kept.begin(), kept.end(), [&](const Track& t) { return t.point >= 0 && map.point(t.point).bad; }),
+      kept.end());
   *tracks = std::move(kept);
   tracks_.clear();
   return true;

@@ -20,21 +20,31 @@ int execute(int argc, char** argv) {
   bool only_render = false;
 
   CLI::App app{"SLAM with points and planar text: a sequence of images becomes a trajectory and a 3D text map."};
-  app.add_option("SEQUENCE", options.sequence, "Folder with images.txt (or rgb.txt), camera.yaml, optionally detections/ and groundtruth.txt");
+  app.add_option("SEQUENCE", options.sequence,
+                 "Folder with images.txt (or rgb.txt), camera.yaml, optionally detections/ and groundtruth.txt");
   app.add_option("--render", render.kind, "Render a sequence of this kind into OUTPUT/sequence and run on it")
       ->check(CLI::IsMember(textslam::render_kinds()));
   app.add_option("--output", options.output, "Folder for the results")->required();
-  app.add_option("--mode", mode, "text: points and text; points: points alone")->check(CLI::IsMember({"text", "points"}))->capture_default_str();
+  app.add_option("--mode", mode, "text: points and text; points: points alone")
+      ->check(CLI::IsMember({"text", "points"}))
+      ->capture_default_str();
   app.add_option("--detector", options.detector, "files: the sequence's detections; classical: built in")
-      ->check(CLI::IsMember({"files", "classical"}))->capture_default_str();
-  app.add_option("--first", options.first, "Index of the first frame")->check(CLI::NonNegativeNumber)->capture_default_str();
+      ->check(CLI::IsMember({"files", "classical"}))
+      ->capture_default_str();
+  app.add_option("--first", options.first, "Index of the first frame")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--last", options.last, "Index of the last frame")->check(CLI::NonNegativeNumber);
-  app.add_option("--seed", render.seed, "Of the rendered sequence; the system itself draws nothing at random")->capture_default_str();
-  app.add_option("--frames", render.frames, "Number of rendered frames")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--seed", render.seed, "Of the rendered sequence; the system itself draws nothing at random")
+      ->capture_default_str();
+  app.add_option("--frames", render.frames, "Number of rendered frames")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_flag("--render-only", only_render, "Render without running on it");
   try {
     app.parse(argc, argv);
-    if (options.sequence.empty() == render.kind.empty()) throw CLI::ValidationError("give either SEQUENCE or --render KIND");
+    if (options.sequence.empty() == render.kind.empty())
+      throw CLI::ValidationError("give either SEQUENCE or --render KIND");
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {

@@ -129,10 +129,14 @@ std::string metrics_json(const RunSummary& s) {
   if (s.text.available) {
     Json matches = Json::array();
     for (const SignMatch& m : s.text.matches)
-      matches.push_back({{"text", m.text}, {"sign", m.sign}, {"angle_deg", m.angle}, {"centre", m.centre}, {"word_right", m.word}});
-    out["text"] = {{"signs_visible", s.text.signs},     {"signs_mapped", s.text.mapped},
-                   {"false_texts", s.text.false_texts}, {"angle_median_deg", s.text.median_angle},
-                   {"angle_max_deg", s.text.max_angle}, {"centre_median", s.text.median_centre},
+      matches.push_back(
+          {{"text", m.text}, {"sign", m.sign}, {"angle_deg", m.angle}, {"centre", m.centre}, {"word_right", m.word}});
+    out["text"] = {{"signs_visible", s.text.signs},
+                   {"signs_mapped", s.text.mapped},
+                   {"false_texts", s.text.false_texts},
+                   {"angle_median_deg", s.text.median_angle},
+                   {"angle_max_deg", s.text.max_angle},
+                   {"centre_median", s.text.median_centre},
                    {"matches", matches}};
   }
   return out.dump(1) + "\n";

@@ -34,47 +34,47 @@ struct Parameters {
   int init_patience = 60;            ///< Frames after which the better of two ambiguous solutions is taken.
 
   // Pose of a frame
-  double point_sigma = 1.0;          ///< px: sigma_rep of the paper, for a corner on level 0.
-  double photometric_sigma = 1.0;    ///< Per pixel, in units of 1/sqrt(N): sigma_photo; see Weighting::variance.
-  double outlier_chi2 = 5.991;       ///< 95 % of chi-square with 2 degrees of freedom.
-  int min_inliers = 20;              ///< Points; fewer, without text to make up for them, count as lost.
-  double min_inlier_share = 0.35;    ///< Of the tracked map points.
-  double relocation_search = 8;      ///< px: how far a map point may be found from its prediction.
-  float min_template_zncc = 0.75F;   ///< Between a point's key-frame patch and the image.
-  int max_reobserved = 300;          ///< Map points searched for in a frame.
+  double point_sigma = 1.0;         ///< px: sigma_rep of the paper, for a corner on level 0.
+  double photometric_sigma = 1.0;   ///< Per pixel, in units of 1/sqrt(N): sigma_photo; see Weighting::variance.
+  double outlier_chi2 = 5.991;      ///< 95 % of chi-square with 2 degrees of freedom.
+  int min_inliers = 20;             ///< Points; fewer, without text to make up for them, count as lost.
+  double min_inlier_share = 0.35;   ///< Of the tracked map points.
+  double relocation_search = 8;     ///< px: how far a map point may be found from its prediction.
+  float min_template_zncc = 0.75F;  ///< Between a point's key-frame patch and the image.
+  int max_reobserved = 300;         ///< Map points searched for in a frame.
 
   // Key frames
-  int keyframe_min_gap = 3;            ///< Frames.
-  double keyframe_flow = 25;           ///< px: median motion of the points since the last key frame.
-  double keyframe_min_share = 0.7;     ///< Of the last key frame's points still tracked.
+  int keyframe_min_gap = 3;         ///< Frames.
+  double keyframe_flow = 25;        ///< px: median motion of the points since the last key frame.
+  double keyframe_min_share = 0.7;  ///< Of the last key frame's points still tracked.
 
   // Points
-  double min_parallax = 1.0;        ///< Degrees, for triangulation.
-  double max_reprojection = 2.0;    ///< px, of a new point in each of its key frames.
-  double min_found_share = 0.25;    ///< A point found in fewer of the frames that should see it is dropped.
+  double min_parallax = 1.0;      ///< Degrees, for triangulation.
+  double max_reprojection = 2.0;  ///< px, of a new point in each of its key frames.
+  double min_found_share = 0.25;  ///< A point found in fewer of the frames that should see it is dropped.
 
   // Text
-  int text_min_observations = 5;      ///< The paper's n_min.
-  int text_min_detections = 3;        ///< Frames in which the detector saw it.
-  int text_min_pixels = 15;           ///< The paper's minimum of FAST points on a text.
-  int text_max_pixels = 250;          ///< A level.
-  int text_corners = 24;              ///< Corners tracked on a new text.
-  int text_levels = 3;                ///< Pyramid levels of a patch.
-  double text_border = 4;             ///< px that a new quad keeps from the image border.
-  double text_overlap = 0.1;          ///< Share of a new quad that may lie on a known text.
-  double text_min_area = 200;         ///< px^2.
-  double text_min_parallax = 1.0;     ///< Degrees, median over its corners, before theta is solved for.
-  double text_min_zncc = 0.75;        ///< Of an observation that counts.
-  double text_cull_zncc = 0.55;       ///< Below it, an observation counts against the object.
-  double text_max_slant = 78;         ///< Degrees between viewing ray and normal.
-  int text_patience = 25;             ///< Key frames a candidate may wait for its plane.
-  int text_targets = 8;               ///< Key frames that a plane is refined against.
+  int text_min_observations = 5;   ///< The paper's n_min.
+  int text_min_detections = 3;     ///< Frames in which the detector saw it.
+  int text_min_pixels = 15;        ///< The paper's minimum of FAST points on a text.
+  int text_max_pixels = 250;       ///< A level.
+  int text_corners = 24;           ///< Corners tracked on a new text.
+  int text_levels = 3;             ///< Pyramid levels of a patch.
+  double text_border = 4;          ///< px that a new quad keeps from the image border.
+  double text_overlap = 0.1;       ///< Share of a new quad that may lie on a known text.
+  double text_min_area = 200;      ///< px^2.
+  double text_min_parallax = 1.0;  ///< Degrees, median over its corners, before theta is solved for.
+  double text_min_zncc = 0.65;     ///< Of an observation that counts.
+  double text_cull_zncc = 0.55;    ///< Below it, an observation counts against the object.
+  double text_max_slant = 78;      ///< Degrees between viewing ray and normal.
+  int text_patience = 25;          ///< Key frames a candidate may wait for its plane.
+  int text_targets = 8;            ///< Key frames that a plane is refined against.
 
   // Bundle adjustment
-  int window_frames = 8;        ///< Free key frames of the local adjustment.
-  int window_fixed = 12;        ///< Fixed key frames around them.
+  int window_frames = 8;  ///< Free key frames of the local adjustment.
+  int window_fixed = 12;  ///< Fixed key frames around them.
   int window_iterations = 8;
-  int final_iterations = 30;    ///< Of the adjustment over all key frames at the end.
+  int final_iterations = 30;  ///< Of the adjustment over all key frames at the end.
 
   // Recovery
   int relocalise_candidates = 5;  ///< Key frames tried for a lost frame.

@@ -73,7 +73,8 @@ int triangulate_tracks(Map& map, const Parameters& parameters, std::vector<Track
     }
     if (!consistent) {
       // The track slid from one thing to another: it starts anew from here.
-      if (track.observations.size() > 3) track.observations.erase(track.observations.begin(), track.observations.end() - 1);
+      if (track.observations.size() > 3)
+        track.observations.erase(track.observations.begin(), track.observations.end() - 1);
       continue;
     }
     track.point = static_cast<int>(map.points.size());

@@ -8,7 +8,8 @@
 
 namespace textslam {
 
-Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) == 1), start_ms_(now_ms()) {}
+Progress::Progress(std::string what)
+    : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) == 1), start_ms_(now_ms()) {}
 
 Progress::~Progress() {
   if (terminal_ && last_ms_ > 0) std::fputc('\n', stderr);

@@ -13,8 +13,7 @@ Recovery relocalise(const Map& map, const Parameters& parameters, const Frame& f
   };
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
-    const RotationPrior prior =
-        align_rotation(map.keyframes[i].frame, frame, map.camera, Eigen::Matrix3d::Identity());
+    const RotationPrior prior = align_rotation(map.keyframes[i].frame, frame, map.camera, Eigen::Matrix3d::Identity());
     if (prior.zncc > 0.3) candidates.push_back({static_cast<int>(i), prior.zncc});
   }
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -63,8 +63,8 @@ RunResult run(const RunOptions& options) {
   const int last = options.last < 0 ? count - 1 : options.last;
   if (options.first < 0 || options.first > last || last >= count)
     throw InputError(sequence.images_file, 0,
-                     "frames " + std::to_string(options.first) + " to " + std::to_string(last) + " asked for, but it has 0 to " +
-                         std::to_string(count - 1));
+                     "frames " + std::to_string(options.first) + " to " + std::to_string(last) +
+                         " asked for, but it has 0 to " + std::to_string(count - 1));
   create_output_folder(options.output);
 
   RunResult result;
@@ -77,9 +77,12 @@ RunResult run(const RunOptions& options) {
       double detect_ms = 0;
       const Frame frame = source.load(index, &detect_ms);
       const FrameRecord& record = system.process(frame, detect_ms);
-      const char* state = record.state == FrameState::tracked ? "tracked" : record.state == FrameState::lost ? "lost" : "waiting";
+      const char* state = record.state == FrameState::tracked ? "tracked"
+                          : record.state == FrameState::lost  ? "lost"
+                                                              : "waiting";
       progress.show(static_cast<std::size_t>(index + 1), static_cast<std::size_t>(total),
-                    std::string(state) + ", " + std::to_string(record.points) + " points, " + std::to_string(record.texts) + " texts");
+                    std::string(state) + ", " + std::to_string(record.points) + " points, " +
+                        std::to_string(record.texts) + " texts");
     }
   });
   system.finish();

@@ -12,8 +12,8 @@ namespace textslam {
 struct RunOptions {
   std::string sequence, output;
   std::string detector = "files";
-  int first = 0;   ///< Index of the first frame.
-  int last = -1;   ///< Index of the last frame; -1: the sequence's last.
+  int first = 0;  ///< Index of the first frame.
+  int last = -1;  ///< Index of the last frame; -1: the sequence's last.
   Parameters parameters;
 };
 

@@ -18,7 +18,7 @@
 namespace textslam {
 
 enum class FrameState {
-  waiting,   ///< No map yet.
+  waiting,  ///< No map yet.
   tracked,
   lost,
 };
@@ -27,10 +27,10 @@ enum class FrameState {
 struct FrameRecord {
   double timestamp = 0;
   FrameState state = FrameState::waiting;
-  int keyframe = -1;       ///< The key frame that the pose is relative to.
-  SE3d T_k_c;              ///< Camera to that key frame.
-  SE3d T_w_c_live;         ///< Camera to world as known when the frame was processed; tracked frames alone.
-  bool live = false;       ///< Tracked when it came, not filled in afterwards.
+  int keyframe = -1;  ///< The key frame that the pose is relative to.
+  SE3d T_k_c;         ///< Camera to that key frame.
+  SE3d T_w_c_live;    ///< Camera to world as known when the frame was processed; tracked frames alone.
+  bool live = false;  ///< Tracked when it came, not filled in afterwards.
   int points = 0, texts = 0;
   double detect_ms = 0, track_ms = 0, klt_ms = 0, pose_ms = 0, reobserve_ms = 0, map_ms = 0, adjust_ms = 0;
 };

@@ -10,7 +10,9 @@ namespace {
 class FileDetector final : public TextDetector {
  public:
   explicit FileDetector(const Sequence& sequence) : sequence_(sequence) {}
-  std::vector<Detection> detect(const FrameRef& frame, ImageView8) override { return read_detections(sequence_, frame); }
+  std::vector<Detection> detect(const FrameRef& frame, ImageView8) override {
+    return read_detections(sequence_, frame);
+  }
 
  private:
   const Sequence& sequence_;

@@ -150,7 +150,8 @@ bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::
     target.resize(kept);
     if (kept < 6) return false;
   }
-  return theta->allFinite() && textplane::inverse_depth(*theta, map_.camera.unproject(textplane::centroid(text.patch.quad))) > 0;
+  return theta->allFinite() &&
+         textplane::inverse_depth(*theta, map_.camera.unproject(textplane::centroid(text.patch.quad))) > 0;
 }
 
 bool TextMapper::refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc) {

@@ -13,10 +13,10 @@
 namespace textslam {
 namespace {
 
-constexpr double kPriorZncc = 0.4;     // below it two whole images say nothing about each other
-constexpr int kTemplateHalf = 5;       // px: half width of a re-observed patch
+constexpr double kPriorZncc = 0.4;      // below it two whole images say nothing about each other
+constexpr int kTemplateHalf = 5;        // px: half width of a re-observed patch
 constexpr double kMinViewCosine = 0.6;  // between the rays of a point's host and of the frame
-constexpr double kMaxDrift = 1.5;      // px that a tracked corner may be moved back onto its host's patch
+constexpr double kMaxDrift = 1.5;       // px that a tracked corner may be moved back onto its host's patch
 
 // How a fronto-parallel patch at p_w of the host's view shows in the target: px displacement of the host per px of target.
 bool affine_to_host(const Pinhole<double>& camera, const SE3d& T_t_h, const Vec2& host_px, double host_depth,
@@ -62,8 +62,8 @@ bool find_patch(const Frame& host, const Vec2& host_px, const Eigen::Matrix2f& A
   for (int level = coarsest; level >= 0; --level) {
     const int host_level = std::min(level + shift, host.image->levels() - 1);
     const float scale = std::ldexp(1.0F, level - host_level);
-    const auto status = textplane::extract_template(host.image->level(host_level), to_level(host_px.cast<float>(), host_level),
-                                                    scale * A, kTemplateHalf, &patch);
+    const auto status = textplane::extract_template(
+        host.image->level(host_level), to_level(host_px.cast<float>(), host_level), scale * A, kTemplateHalf, &patch);
     if (!textplane::is_ok(status)) {
       if (level > 0) continue;
       return false;
@@ -182,7 +182,8 @@ void Tracker::reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* repo
     candidate.point = static_cast<int>(id);
     candidate.predicted = map_.camera.project(p);
     const Vec2& px = candidate.predicted;
-    if (!(px.x() >= border && px.y() >= border && px.x() < map_.width - border && px.y() < map_.height - border)) continue;
+    if (!(px.x() >= border && px.y() >= border && px.x() < map_.width - border && px.y() < map_.height - border))
+      continue;
 
     // The key frame that saw the point most nearly from here.
     double best = kMinViewCosine;

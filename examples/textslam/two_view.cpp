@@ -51,8 +51,8 @@ Eigen::Matrix3d rotation_only(const std::vector<Vec3>& a, const std::vector<Vec3
 }
 
 // Sampson distance in px of a match; its derivative with the denominator held, if asked.
-double sampson(const Hypothesis& h, const Vec3& a, const Vec3& b, double focal, const Eigen::Matrix<double, 3, 2>* basis,
-               Vec5* J) {
+double sampson(const Hypothesis& h, const Vec3& a, const Vec3& b, double focal,
+               const Eigen::Matrix<double, 3, 2>* basis, Vec5* J) {
   const Vec3 q = h.R * a, line_b = h.t.cross(q), line_a = h.R.transpose() * b.cross(h.t);
   const double norm = std::sqrt(line_b.head<2>().squaredNorm() + line_a.head<2>().squaredNorm());
   if (!(norm > 1e-12)) {

@@ -14,14 +14,14 @@
 namespace textslam {
 
 struct TwoView {
-  bool ok = false;                ///< A solution with most points in front of both cameras was found.
-  SE3d T_b_a;                     ///< |t| = 1.
-  std::vector<char> inlier;       ///< Per match: epipolar distance below 2 px, in front of both.
+  bool ok = false;           ///< A solution with most points in front of both cameras was found.
+  SE3d T_b_a;                ///< |t| = 1.
+  std::vector<char> inlier;  ///< Per match: epipolar distance below 2 px, in front of both.
   int inliers = 0;
-  double rms = 0;                 ///< px, of the inliers.
-  double parallax = 0;            ///< Degrees, median of the inliers.
-  double direction_sigma = 0;     ///< Radians: largest standard deviation of the direction of translation.
-  double ambiguity = 1e9;         ///< Cost of the next distinct solution over this one's.
+  double rms = 0;              ///< px, of the inliers.
+  double parallax = 0;         ///< Degrees, median of the inliers.
+  double direction_sigma = 0;  ///< Radians: largest standard deviation of the direction of translation.
+  double ambiguity = 1e9;      ///< Cost of the next distinct solution over this one's.
 };
 
 /// `a`, `b`: normalised homogeneous points of the matches; `focal`: px, the unit of the distances reported.

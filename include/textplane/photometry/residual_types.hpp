@@ -59,7 +59,8 @@ auto level_input(const TextPatch& patch, int level, const View& target, const Pi
     return in;
   const int host_level = scale_shift < 0 ? level - scale_shift : level;
   const int target_level = scale_shift > 0 ? level + scale_shift : level;
-  if (host_level >= patch.level_count() || target_level >= target.levels || target_level >= kMaxPyramidLevels) return in;
+  if (host_level >= patch.level_count() || target_level >= target.levels || target_level >= kMaxPyramidLevels)
+    return in;
   in.patch = patch.levels[static_cast<std::size_t>(host_level)].view();
   in.host_camera = patch.camera.at_level(host_level);
   in.target_camera = target_camera.at_level(target_level);

@@ -27,7 +27,7 @@ struct PoseTextTerm {
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< On top of lambda_w.
-  int scale_shift = 0;                              ///< Of photometric_input(): where the target sees it at another size.
+  int scale_shift = 0;  ///< Of photometric_input(): where the target sees it at another size.
 };
 
 /// A known 3D point and where it was seen.
@@ -186,9 +186,9 @@ class PoseProblem {
       const PoseTextState& state = text(i);
       if (state.visible == 0) continue;
       const PoseTextTerm& term = texts_[i];
-      const PhotometricCost c =
-          reference::evaluate(level_input(*term.patch, level_, target_, camera_, term.scale_shift), term.theta, T_t_w * term.T_w_h,
-                              options_.photometric, memory_.photometric_, memory_.visible_.data() + state.offset);
+      const PhotometricCost c = reference::evaluate(
+          level_input(*term.patch, level_, target_, camera_, term.scale_shift), term.theta, T_t_w * term.T_w_h,
+          options_.photometric, memory_.photometric_, memory_.visible_.data() + state.offset);
       // An object that is lost as a whole costs what two uncorrelated patches would.
       e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost_pixels += is_ok(c.status) ? c.lost : state.visible;
