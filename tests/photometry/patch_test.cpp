@@ -110,7 +110,8 @@ TEST(ScaleShift, IsTheDifferenceOfScalesInOctaves) {
   EXPECT_EQ(tp::scale_shift(100, 6400), 1);
   EXPECT_EQ(tp::scale_shift(100, 6400, 3), 3);
   EXPECT_EQ(tp::scale_shift(6400, 100, 2), -2);
-  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(tp::scale_shift(bad, 100), 0);
     EXPECT_EQ(tp::scale_shift(100, bad), 0);
   }

@@ -255,7 +255,8 @@ TEST(VisibleSet, NonFiniteTargetPixelsDoNotCount) {
   const tp::Vector2<double> hit = scene.project(scene.x[0], scene.y[0]);
   const int hx = static_cast<int>(hit[0]), hy = static_cast<int>(hit[1]);
   const auto touches = [&](int i) {
-    const tp::Vector2<double> at = scene.project(scene.x[static_cast<std::size_t>(i)], scene.y[static_cast<std::size_t>(i)]);
+    const tp::Vector2<double> at =
+        scene.project(scene.x[static_cast<std::size_t>(i)], scene.y[static_cast<std::size_t>(i)]);
     const int dx = hx - static_cast<int>(at[0]), dy = hy - static_cast<int>(at[1]);
     return (dx == 0 || dx == 1) && (dy == 0 || dy == 1);
   };
@@ -300,8 +301,7 @@ TEST(EvaluateOnSet, ChargesTheLostAndIgnoresTheRest) {
     trial.target = {scene.image.data(), width, scene.image.height(), scene.kWidth};
     linearise(scene, scene.input(), options);
     const std::vector<std::uint8_t> visible(scene.workspace.visible(), scene.workspace.visible() + scene.n());
-    const auto cost =
-        tp::reference::evaluate(trial, scene.theta, scene.T_t_h, options, scene.workspace, on_set.data());
+    const auto cost = tp::reference::evaluate(trial, scene.theta, scene.T_t_h, options, scene.workspace, on_set.data());
 
     const auto stays = [&](int i) {
       return on_set[static_cast<std::size_t>(i)] && columns[static_cast<std::size_t>(i)] <= width - 1;

@@ -67,15 +67,15 @@ Rows<P> by_differences(const Scene<T>& scene, const Step& step, const std::uint8
     };
     const auto far_plus = at(2 * h), plus = at(h), minus = at(-h), far_minus = at(-2 * h);
     for (std::size_t i = 0; i < plus.size(); ++i)
-      J(static_cast<Eigen::Index>(i), j) =
-          (8 * (plus[i] - minus[i]) - (far_plus[i] - far_minus[i])) / (12 * h);
+      J(static_cast<Eigen::Index>(i), j) = (8 * (plus[i] - minus[i]) - (far_plus[i] - far_minus[i])) / (12 * h);
   }
   return J;
 }
 
 // The same by a dual number.
 template <int P, class T, class Step>
-Rows<P> by_dual(const Scene<T>& scene, const Step& step, const std::uint8_t* visible, const tp::IntensityStats* frozen) {
+Rows<P> by_dual(const Scene<T>& scene, const Step& step, const std::uint8_t* visible,
+                const tp::IntensityStats* frozen) {
   Eigen::Matrix<Dual<P>, P, 1> p;
   for (int j = 0; j < P; ++j) p[j] = Dual<P>(0.0, j);
   const auto r = residuals_at<Dual<P>>(scene, step(p), visible, frozen);
@@ -185,7 +185,8 @@ TYPED_TEST(ResidualJacobian, HostTargetAndPlaneFromBothSides) {
         const auto step = [&](const auto& p) {
           return step15<typename std::decay_t<decltype(p)>::Scalar>(scene, p, side);
         };
-        const auto r = residuals_at<double>(scene, {scene.theta, scene.T_w_t.inverse() * scene.T_w_h}, visible.data(), nullptr);
+        const auto r =
+            residuals_at<double>(scene, {scene.theta, scene.T_w_t.inverse() * scene.T_w_h}, visible.data(), nullptr);
         Eigen::Matrix<double, 15, 15> H;
         Eigen::Matrix<double, 15, 1> b;
         explicit_sums(by_differences<15>(scene, step, visible.data(), frozen), r, options.robust.delta, &H, &b);
@@ -200,7 +201,8 @@ TYPED_TEST(ResidualJacobian, HostTargetAndPlaneFromBothSides) {
 template <int P, class T>
 tp::NormalEquations<P> linearise(Scene<T>& scene, const tp::PhotometricOptions& options) {
   const auto input = scene.input();
-  if constexpr (P == 3) return tp::reference::linearise_plane(input, scene.theta, scene.T_t_h, options, scene.workspace);
+  if constexpr (P == 3)
+    return tp::reference::linearise_plane(input, scene.theta, scene.T_t_h, options, scene.workspace);
   if constexpr (P == 6) return tp::reference::linearise_pose(input, scene.theta, scene.T_t_h, options, scene.workspace);
   if constexpr (P == 9)
     return tp::reference::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, scene.workspace);

@@ -41,8 +41,7 @@ void expect_status(const tp::BasicPhotometricInput<T>& input, const tp::Vector3<
 
   const auto n = static_cast<std::size_t>(std::max(input.patch.n, 0));
   std::vector<double> r(n + 1, 7), J(n * 9 + 1, 7);
-  const auto summary =
-      tp::reference::residuals<9>(input, theta, T_t_h, options, workspace, r.data(), J.data());
+  const auto summary = tp::reference::residuals<9>(input, theta, T_t_h, options, workspace, r.data(), J.data());
   EXPECT_EQ(summary.status, expected) << tp::to_string(summary.status);
   for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(r[i], 0);
   for (std::size_t i = 0; i < n * 9; ++i) EXPECT_EQ(J[i], 0);
@@ -174,7 +173,8 @@ TEST_F(ResidualStatus, OverflowOfTheSumsIsNonFinite) {
 }
 
 TEST_F(ResidualStatus, BadCameras) {
-  for (double* value : {&input.host_camera.fx, &input.host_camera.fy, &input.target_camera.fx, &input.target_camera.fy}) {
+  for (double* value :
+       {&input.host_camera.fx, &input.host_camera.fy, &input.target_camera.fx, &input.target_camera.fy}) {
     const double before = *value;
     for (const double bad : {0.0, -200.0}) {
       *value = bad;
@@ -250,8 +250,9 @@ TEST_F(ResidualStatus, BadOptions) {
 }
 
 TEST_F(ResidualStatus, ResidualsWithoutRoomForThem) {
-  EXPECT_EQ(tp::reference::residuals<3>(input, scene.theta, scene.T_t_h, options, scene.workspace, nullptr, nullptr).status,
-            Status::invalid_argument);
+  EXPECT_EQ(
+      tp::reference::residuals<3>(input, scene.theta, scene.T_t_h, options, scene.workspace, nullptr, nullptr).status,
+      Status::invalid_argument);
 }
 
 TEST_F(ResidualStatus, TemplatedResidualRefusesWhatItsSetCannotSee) {

@@ -101,8 +101,8 @@ struct Scene {
 /// Everything that must be zero in a result that may not be used.
 template <int P>
 bool all_zero(const tp::NormalEquations<P>& e) {
-  return e.H.isZero(0) && e.b.isZero(0) && e.cost == 0 && e.error == 0 && e.zncc == 0 && e.visible == 0 && e.mean == 0 &&
-         e.s == 0;
+  return e.H.isZero(0) && e.b.isZero(0) && e.cost == 0 && e.error == 0 && e.zncc == 0 && e.visible == 0 &&
+         e.mean == 0 && e.s == 0;
 }
 
 }  // namespace textplane_test

@@ -20,7 +20,8 @@ TEST(TextWeight, PaperIsThePrintedRatio) {
 TEST(TextWeight, VarianceMakesPixelsAndPointsComparable) {
   for (const int n : {15, 300}) {
     const double sigma_rep = 1.5, sigma_photo = 0.3, r = sigma_photo / std::sqrt(n);
-    EXPECT_NEAR(text_weight(Weighting::variance, sigma_rep, sigma_photo, n) * n * r * r, n * sigma_rep * sigma_rep, 1e-12 * n);
+    EXPECT_NEAR(text_weight(Weighting::variance, sigma_rep, sigma_photo, n) * n * r * r, n * sigma_rep * sigma_rep,
+                1e-12 * n);
   }
 }
 

@@ -69,7 +69,15 @@ struct NumTraits<textplane_test::Dual<N>> : NumTraits<double> {
   using NonInteger = textplane_test::Dual<N>;
   using Nested = textplane_test::Dual<N>;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 3, MulCost = 3 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 3,
+    MulCost = 3
+  };
 };
 template <int N, typename BinaryOp>
 struct ScalarBinaryOpTraits<textplane_test::Dual<N>, double, BinaryOp> {

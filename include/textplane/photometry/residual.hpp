@@ -62,8 +62,9 @@ namespace reference {
 
 /// Normal equations for the pose, parameters (v, omega).
 template <class T>
-NormalEquations<6> linearise_pose(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
-                                  const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
+NormalEquations<6> linearise_pose(const BasicPhotometricInput<T>& input, const Vector3<double>& theta,
+                                  const SE3d& T_t_h, const PhotometricOptions& options,
+                                  PhotometricWorkspace& workspace) noexcept {
   return detail::linearise<6>(input, theta, T_t_h, options, workspace);
 }
 

@@ -85,8 +85,8 @@ struct WindowText {
 
 struct WindowTextObservation {
   int text = -1;
-  int frame = -1;     ///< Target frame, other than the host.
-  double weight = 1;  ///< Of this observation, on top of lambda_w.
+  int frame = -1;       ///< Target frame, other than the host.
+  double weight = 1;    ///< Of this observation, on top of lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the text at another size than its host.
 
   double zncc = 0;  ///< Out: at the final state; 0 if it could not be evaluated.
