@@ -26,7 +26,7 @@ SensorProgram changing_lights(std::uint64_t seed, int width, int height) {
   return [=](double t) {
     SensorState state;
     // Auto exposure hunting, two lamps that go out and on again, and the beat of 100 Hz light with the frame rate.
-    const double swing = 1.0 + 0.28 * std::sin(kTwoPi * t / 3.1 + phase) + 0.1 * std::sin(kTwoPi * t / 0.83);
+    const double swing = 0.82 + 0.23 * std::sin(kTwoPi * t / 3.1 + phase) + 0.08 * std::sin(kTwoPi * t / 0.83);
     const double s = std::fmod(t, 8.0);
     const double dimmed = 1.0 - 0.42 * (smooth_step(s, 2.4, 0.1) - smooth_step(s, 4.1, 0.1));
     const double flicker = 1.0 + (s > 5.0 && s < 7.0 ? 0.13 * std::sin(kTwoPi * 100.0 * t + phase) : 0.0);
@@ -38,11 +38,11 @@ SensorProgram changing_lights(std::uint64_t seed, int width, int height) {
     state.glare.push_back(
         {{width * (0.5 + 0.4 * std::sin(0.9 * t + phase)), height * (0.35 + 0.25 * std::cos(0.7 * t))},
          0.06 * width,
-         75.0});
+         55.0});
     state.glare.push_back(
         {{width * (0.5 + 0.45 * std::cos(0.6 * t + 2.0)), height * (0.6 + 0.3 * std::sin(1.1 * t + phase))},
          0.035 * width,
-         95.0});
+         70.0});
     return state;
   };
 }

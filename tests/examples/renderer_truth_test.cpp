@@ -211,14 +211,14 @@ TEST(RendererSequence, TheSameSeedGivesTheSameBytesOnAnyNumberOfThreads) {
 
 TEST(RendererSequence, WithoutTextThereAreNoDetections) {
   const TemporaryFolder folder;
-  const RenderOptions options = small("notext", folder.path("a"), 20);
+  const RenderOptions options = small("notext", folder.path("a"), 6);
   render_sequence(options);
   const Sequence sequence = read_sequence(options.output);
   for (const FrameRef& frame : sequence.frames) {
     EXPECT_TRUE(read_detections(sequence, frame).empty());
     EXPECT_TRUE(read_truth_quads(options.output + "/truth/quads/" + frame.stem + ".txt").empty());
   }
-  EXPECT_EQ(load_frame(sequence, 19).width(), 160);
+  EXPECT_EQ(load_frame(sequence, 5).width(), 160);
 }
 
 TEST(RendererSequence, RefusesWhatItCannotRender) {
