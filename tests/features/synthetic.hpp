@@ -55,8 +55,10 @@ class TexturedPlane {
       const bool stroke = random.uniform(0, 1) < 0.7;
       const double length = stroke ? random.uniform(10, 40) : random.uniform(10, 60);
       const double thick = stroke ? random.uniform(4, 9) : random.uniform(10, 40);
-      bar(random.uniform(0, size), random.uniform(0, size), random.uniform(0, 3.1416), length, thick,
-          static_cast<float>(random.uniform(20, 235)));
+      // One draw a statement: the order of arguments' evaluation, and so the picture, would be the compiler's choice.
+      const auto tone = static_cast<float>(random.uniform(20, 235));
+      const double angle = random.uniform(0, 3.1416), y = random.uniform(0, size), x = random.uniform(0, size);
+      bar(x, y, angle, length, thick, tone);
     }
     smooth();
     smooth();
