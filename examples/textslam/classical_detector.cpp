@@ -18,6 +18,7 @@ std::vector<Detection> ClassicalDetector::detect(const FrameRef&, ImageView8 raw
     for (const std::vector<int>& line : lines_) {
       TextQuad found = fit_quad(letters_, line, parameters_);
       if (!(found.score > 0)) continue;
+      found.score *= std::pow(parameters_.level_penalty, level);
       for (auto& c : found.quad.corner) c = ((c.array() + 0.5) * std::ldexp(1.0, level) - 0.5).matrix();
       quads_.push_back(found);
     }

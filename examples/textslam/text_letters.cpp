@@ -144,7 +144,8 @@ bool measure_tones(const Piece& piece, const ImageView8& image, const ClassicalP
 }
 
 /// Stroke width from the distance of each pixel to the paper (chamfer 3-4); false where it varies too much.
-bool measure_stroke(const Piece& piece, const ClassicalParameters& parameters, std::vector<int>& distance, Letter& letter) {
+bool measure_stroke(const Piece& piece, const ClassicalParameters& parameters, std::vector<int>& distance,
+                    Letter& letter) {
   const int stride = piece.width() + 2, rows = piece.height() + 2, far = 1 << 20;
   distance.assign(at(stride * rows), 0);
   for (int i = 0; i < piece.count; ++i) {

@@ -13,20 +13,20 @@ namespace textslam {
 /// A stretch of equal ink in one row, x0 to x1 inclusive.
 struct InkRun {
   int y, x0, x1;
-  int parent;       ///< union-find over runs; a root is the first run of its piece
-  int joints;       ///< of a root: pairs of runs of its piece that touch
+  int parent;  ///< union-find over runs; a root is the first run of its piece
+  int joints;  ///< of a root: pairs of runs of its piece that touch
   std::uint8_t ink;
 };
 
 /// A piece of ink that may be a letter. Lengths in px of the image it was found in; tones in grey levels.
 struct Letter {
-  std::vector<Vector2<double>> outline;  ///< convex hull of its pixels' squares, clockwise on the screen
+  std::vector<Vector2<double>> outline;              ///< convex hull of its pixels' squares, clockwise on the screen
   Vector2<double> centre = Vector2<double>::Zero();  ///< of the bounding box
-  double size = 0;    ///< the longer side of the bounding box
-  double area = 0;    ///< px^2
-  double stroke = 0;  ///< width of the stroke
-  double ink = 0, paper = 0;  ///< mean tone of the letter, and of what is beside it
-  bool light = false;         ///< lighter than its paper
+  double size = 0;                                   ///< the longer side of the bounding box
+  double area = 0;                                   ///< px^2
+  double stroke = 0;                                 ///< width of the stroke
+  double ink = 0, paper = 0;                         ///< mean tone of the letter, and of what is beside it
+  bool light = false;                                ///< lighter than its paper
 
   double contrast() const { return light ? ink - paper : paper - ink; }
 };

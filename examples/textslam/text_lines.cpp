@@ -21,7 +21,9 @@ double pair_cost(const Letter& a, const Letter& b, const ClassicalParameters& pa
   const Direction offset = b.centre - a.centre;
   const double larger = std::max(a.size, b.size), distance = offset.norm();
   if (distance > (1.0 + parameters.max_gap) * larger + 1.0) return kNo;
-  if (offset[0] <= 0 || std::abs(offset[1]) > std::tan(radians(parameters.max_angle)) * offset[0]) return kNo;
+  // Centres of bounding boxes scatter about the line, the more the steeper it is; fit_quad() tests the line itself.
+  const double steepest = radians(std::min(parameters.max_angle + 0.5 * parameters.max_turn, 89.0));
+  if (offset[0] <= 0 || std::abs(offset[1]) > std::tan(steepest) * offset[0]) return kNo;
   if (ratio(a.stroke, b.stroke) > parameters.max_stroke_ratio) return kNo;
   const double contrast = std::min(a.contrast(), b.contrast());
   const double tones = std::max(std::abs(a.ink - b.ink), std::abs(a.paper - b.paper)) / contrast;

@@ -18,9 +18,9 @@ struct LetterPair {
 /// Memory that find_lines() keeps from call to call.
 struct LineScratch {
   std::vector<int> by_x;
-  std::vector<LetterPair> pairs;         ///< by a, then by cost
-  std::vector<int> first_pair;           ///< of each letter
-  std::vector<LetterPair> reverse;       ///< the same pairs by b
+  std::vector<LetterPair> pairs;    ///< by a, then by cost
+  std::vector<int> first_pair;      ///< of each letter
+  std::vector<LetterPair> reverse;  ///< the same pairs by b
   std::vector<int> first_reverse;
   std::vector<int> seeds;
   std::vector<char> used;

@@ -203,7 +203,8 @@ Point corner(const Rule& rule, double side, double lean) {
 
 }  // namespace
 
-TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& line, const ClassicalParameters& parameters) {
+TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& line,
+                  const ClassicalParameters& parameters) {
   TextQuad result;
   if (line.size() < 2) return result;
   Point along = letters[at(line.back())].centre - letters[at(line.front())].centre;
@@ -213,6 +214,9 @@ TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& li
   const double slope = layout.top.residual < layout.bottom.residual ? layout.top.slope : layout.bottom.slope;
   layout = lay_out(letters, line, Point(layout.along + slope * layout.across).normalized());
 
+  // A degree of grace, so that a line at the limit is not decided by noise.
+  if (std::abs(std::atan2(layout.along[1], layout.along[0])) > (parameters.max_angle + 1.0) * 0.017453292519943295)
+    return result;
   const double residual = std::min(layout.top.residual, layout.bottom.residual) / layout.height;
   if (residual > parameters.max_residual || is_pattern(layout, parameters)) return result;
   const double spread = tone_spread(letters, line);
@@ -231,7 +235,8 @@ TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& li
   const Rule upper{layout.top.slope, frame.top, 0}, lower{layout.bottom.slope, frame.bottom, 0};
   const std::array<Point, 4> corners{corner(upper, frame.left, lean), corner(upper, frame.right, lean),
                                      corner(lower, frame.right, lean), corner(lower, frame.left, lean)};
-  for (std::size_t k = 0; k < 4; ++k) result.quad.corner[k] = corners[k][0] * layout.along + corners[k][1] * layout.across;
+  for (std::size_t k = 0; k < 4; ++k)
+    result.quad.corner[k] = corners[k][0] * layout.along + corners[k][1] * layout.across;
   if (!textplane::is_convex(result.quad) || !(textplane::area(result.quad) > 0)) return result;
   const double score = score_of(layout, residual, taper, lean, spread);
   result.score = score >= parameters.min_score ? score : 0.0;
