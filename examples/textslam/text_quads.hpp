@@ -14,13 +14,15 @@ struct TextQuad {
   double score = 0;   ///< in (0, 1]; 0 where the line is not text
 };
 
-/// The quad around a line: top and bottom are lines through the letters' tops and bottoms (the text may taper), the sides
-/// lean with the letters. Its score says how much the letters look like print: many of them, on common lines, of even
-/// tones; it is 0 below min_score, and where a pattern (books, railings, tiles, leaves) explains them as well.
+/// The quad around a line: top and bottom are lines through the letters' tops and bottoms (the text may taper), the
+/// sides lean with the letters. Its score says how much the letters look like print: many of them, on common lines,
+/// of even tones; it is 0 below min_score, and where a pattern (books, railings, tiles, leaves) explains them as
+/// well.
 TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& line,
                   const ClassicalParameters& parameters);
 
-/// Drops each quad that shares more than max_shared_area of the smaller of the two with one of a better score. Best first.
+/// Drops each quad that shares more than max_shared_area of the smaller of the two with one of a better score. Best
+/// first.
 void suppress_overlaps(std::vector<TextQuad>& quads, const ClassicalParameters& parameters);
 
 }  // namespace textslam

@@ -261,8 +261,8 @@ std::vector<TrueSign> read_truth(const std::string& path) {
 }
 
 TEST(ClassicalDetector, FindsTheSignsOfClearRooms) {
-  // One frame each of several rooms: neighbouring frames of one room show the same signs and would count them again. None
-  // of these seeds was looked at when the parameters were chosen.
+  // One frame each of several rooms: neighbouring frames of one room show the same signs and would count them again.
+  // None of these seeds was looked at when the parameters were chosen.
   constexpr double kOverlap = 0.5, kSmallestHeight = 10.0;
   int signs = 0, found = 0, true_boxes = 0, false_boxes = 0;
   for (const std::uint64_t seed : {11u, 12u, 13u, 14u}) {
