@@ -15,24 +15,43 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// n host pixels of one pyramid level, as arrays that somebody else owns: positions in px of that level, intensities there,
-/// and optionally a byte each that is zero for pixels to be left out (null: all count).
+/// and optionally a byte each that is zero for pixels to be left out (null: all count). gx, gy: the host image's gradient
+/// there, in intensity units a px, which template_jacobian and esm need (null: these policies are not possible).
 struct PatchView {
   const float* x = nullptr;
   const float* y = nullptr;
   const float* intensity = nullptr;
   const std::uint8_t* mask = nullptr;
   int n = 0;
+  const float* gx = nullptr;
+  const float* gy = nullptr;
 };
 
-/// The host pixels of one pyramid level. The three arrays have one length.
+/// The host pixels of one pyramid level. x, y and intensity have one length, gx and gy that length too or none.
 struct PatchLevel {
-  std::vector<float> x, y, intensity;
+  std::vector<float> x, y, intensity, gx, gy;
 
   /// Valid until the vectors change.
   PatchView view() const noexcept {
-    return {x.data(), y.data(), intensity.data(), nullptr, static_cast<int>(x.size())};
+    const bool gradients = gx.size() == x.size() && gy.size() == x.size();
+    return {x.data(), y.data(), intensity.data(), nullptr, static_cast<int>(x.size()), gradients ? gx.data() : nullptr,
+            gradients ? gy.data() : nullptr};
   }
 };
+
+/// Gradient of the host at one of its pixels (x, y): the symmetric difference of the bilinear interpolant over one px, one
+/// side of it at the image's border. Unlike the interpolant's own gradient it favours no side at integer positions.
+/// The image must contain (x, y); zero along an axis of one pixel.
+inline void host_gradient(const ImageView8& image, float x, float y, float* gx, float* gy) noexcept {
+  const float left = std::max(x - 0.5F, 0.0F), right = std::min(x + 0.5F, static_cast<float>(image.width() - 1));
+  const float up = std::max(y - 0.5F, 0.0F), down = std::min(y + 0.5F, static_cast<float>(image.height() - 1));
+  float a = 0, b = 0;
+  *gx = sample_bilinear(image, right, y, &b) && sample_bilinear(image, left, y, &a) && right > left
+            ? (b - a) / (right - left)
+            : 0.0F;
+  *gy = sample_bilinear(image, x, down, &b) && sample_bilinear(image, x, up, &a) && down > up ? (b - a) / (down - up)
+                                                                                              : 0.0F;
+}
 
 /// The host side of a text object. It holds all that a target image is compared with: the host image may go.
 struct TextPatch {
@@ -51,7 +70,8 @@ struct TextPatch {
 };
 
 /// The patch of given pixels: pixels[l] holds positions in px of level l, integer or not, where the host is sampled
-/// bilinearly. Positions outside the image and NaN are dropped. Levels beyond those of `host` are ignored.
+/// bilinearly, its gradient by host_gradient(). Positions outside the image and NaN are dropped. Levels beyond those of
+/// `host` are ignored.
 ///
 /// Status::too_few where no level has `min_pixels` (the paper's 15) left, non_finite for a NaN quad, invalid_argument for an
 /// empty pyramid, no pixel lists or a camera that is not valid(). Allocates.
@@ -74,12 +94,18 @@ inline TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double
     level.x.reserve(pixels[l].size());
     level.y.reserve(pixels[l].size());
     level.intensity.reserve(pixels[l].size());
+    level.gx.reserve(pixels[l].size());
+    level.gy.reserve(pixels[l].size());
     for (const Vector2<float>& px : pixels[l]) {
       float value;
       if (!sample_bilinear(host.level[l], px[0], px[1], &value)) continue;
       level.x.push_back(px[0]);
       level.y.push_back(px[1]);
       level.intensity.push_back(value);
+      float gx, gy;
+      host_gradient(host.level[l], px[0], px[1], &gx, &gy);
+      level.gx.push_back(gx);
+      level.gy.push_back(gy);
     }
     most = std::max(most, level.x.size());
   }
