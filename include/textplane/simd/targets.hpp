@@ -1,0 +1,128 @@
+// SIMD targets: which instruction sets this compiler can build regions for, and the attributes of the functions in them.
+//
+// A *region* is a stretch of source inside `textplane::detail::<target>` that the compiler builds for that instruction set,
+// whatever the command line says (foreach_target.inl opens them). Baseline code stays baseline, so one plain -O2 build
+// holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros:
+//
+//   TEXTPLANE_HAS_SSE41, _AVX2, _AVX512   1 for GCC and Clang on x86-64 (MinGW: SSE4.1 alone, its stack is not aligned for more)
+//   TEXTPLANE_HAS_NEON                    1 for GCC and Clang on little-endian AArch64, where NEON is part of the baseline
+//
+// All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone.
+#ifndef TEXTPLANE_SIMD_TARGETS_HPP
+#define TEXTPLANE_SIMD_TARGETS_HPP
+
+#include "textplane/config.hpp"
+
+#define TEXTPLANE_HAS_SSE41 0
+#define TEXTPLANE_HAS_AVX2 0
+#define TEXTPLANE_HAS_AVX512 0
+#define TEXTPLANE_HAS_NEON 0
+
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
+#if defined(__x86_64__)
+#include <immintrin.h>
+#undef TEXTPLANE_HAS_SSE41
+#define TEXTPLANE_HAS_SSE41 1
+#if defined(__clang__) || !defined(_WIN32)
+#undef TEXTPLANE_HAS_AVX2
+#undef TEXTPLANE_HAS_AVX512
+#define TEXTPLANE_HAS_AVX2 1
+#define TEXTPLANE_HAS_AVX512 1
+#endif
+#elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
+#include <arm_neon.h>
+#undef TEXTPLANE_HAS_NEON
+#define TEXTPLANE_HAS_NEON 1
+#endif
+#endif
+
+// A test may define this as a header that emulates the AVX-512 intrinsics: the avx512 regions are then built for AVX2, and
+// the target counts as supported wherever AVX2 is.
+#if defined(TEXTPLANE_EMULATED_AVX512)
+#include TEXTPLANE_EMULATED_AVX512
+#endif
+
+// Building blocks of a region and its entry points.
+#if defined(__GNUC__) || defined(__clang__)
+#define TEXTPLANE_SIMD_INLINE inline __attribute__((always_inline))
+#define TEXTPLANE_SIMD_ENTRY inline __attribute__((noinline))
+#define TEXTPLANE_SIMD_RESTRICT __restrict__
+#define TEXTPLANE_SIMD_SQRT __builtin_sqrtf
+#define TEXTPLANE_SIMD_FLOOR __builtin_floorf
+#define TEXTPLANE_SIMD_ABS __builtin_fabsf
+#else
+#include <cmath>
+#if defined(_MSC_VER)
+#define TEXTPLANE_SIMD_INLINE __forceinline
+#define TEXTPLANE_SIMD_RESTRICT __restrict
+#else
+#define TEXTPLANE_SIMD_INLINE inline
+#define TEXTPLANE_SIMD_RESTRICT
+#endif
+#define TEXTPLANE_SIMD_ENTRY inline
+#define TEXTPLANE_SIMD_SQRT ::std::sqrt
+#define TEXTPLANE_SIMD_FLOOR ::std::floor
+#define TEXTPLANE_SIMD_ABS ::std::fabs
+#endif
+
+TEXTPLANE_BEGIN_NAMESPACE
+namespace simd {
+
+/// The instruction sets that kernels are built for. The numbers do not change between versions.
+enum class Target : int {
+  scalar = 0,  ///< Plain C++.
+  sse41 = 1,   ///< SSE4.1.
+  avx2 = 2,    ///< AVX2, FMA and POPCNT: Haswell, Zen and later.
+  avx512 = 3,  ///< AVX-512 F, BW, DQ, VL and VNNI besides: Ice Lake, Zen 4 and later.
+  neon = 4,    ///< AArch64.
+};
+
+/// Number of enumerators of Target.
+constexpr int kTargetCount = 5;
+
+/// The enumerator's name, never null.
+constexpr const char* to_string(Target target) noexcept {
+  switch (target) {
+    case Target::scalar: return "scalar";
+    case Target::sse41: return "sse41";
+    case Target::avx2: return "avx2";
+    case Target::avx512: return "avx512";
+    case Target::neon: return "neon";
+  }
+  return "unknown";
+}
+
+/// True when this translation unit holds kernels for `target`. Whether the CPU runs them is another matter: see supported.
+constexpr bool compiled(Target target) noexcept {
+  switch (target) {
+    case Target::scalar: return true;
+    case Target::sse41: return TEXTPLANE_HAS_SSE41 != 0;
+    case Target::avx2: return TEXTPLANE_HAS_AVX2 != 0;
+    case Target::avx512: return TEXTPLANE_HAS_AVX512 != 0;
+    case Target::neon: return TEXTPLANE_HAS_NEON != 0;
+  }
+  return false;
+}
+
+/// Floats in a vector of `target`.
+constexpr int lanes(Target target) noexcept {
+  switch (target) {
+    case Target::scalar: return 1;
+    case Target::sse41:
+    case Target::neon: return 4;
+    case Target::avx2: return 8;
+    case Target::avx512: return 16;
+  }
+  return 1;
+}
+
+/// True when kernels of `target` use fused multiply-add. Kernels that do not reduce give the same bits on all targets of
+/// a group; between the groups each kernel states a bound.
+constexpr bool fused(Target target) noexcept {
+  return target == Target::avx2 || target == Target::avx512 || target == Target::neon;
+}
+
+}  // namespace simd
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SIMD_TARGETS_HPP

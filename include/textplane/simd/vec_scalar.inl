@@ -1,0 +1,114 @@
+// Vectors of one lane, in plain C++: the definition of every operation.
+//
+// Lanes are counted from 0. `_n` loads leave the lanes from n on at zero and touch no memory beyond n; `_n` stores write n
+// elements and no more; 0 <= n <= kLanes. Memory need not be aligned.
+
+constexpr int kLanes = 1;
+using vf = float;  // kLanes floats
+using vi = int;    // kLanes int32
+using vm = bool;   // kLanes truth values
+
+// --- make, load, store ---
+TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return value; }
+TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return value; }
+TEXTPLANE_SIMD_INLINE vf zero() noexcept { return 0.0f; }
+TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
+TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
+TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
+TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { *p = v; }
+TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return *p; }
+TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { *p = v; }
+TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept { return n > 0 ? *p : 0.0f; }
+TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
+  if (n > 0) *p = v;
+}
+TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return n > 0 ? *p : 0; }
+TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
+  if (n > 0) *p = v;
+}
+// kLanes bytes, as int32 and as float.
+TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept { return *p; }
+TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return static_cast<float>(*p); }
+TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept { return n > 0 ? *p : 0; }
+TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { return n > 0 ? static_cast<float>(*p) : 0.0f; }
+
+// --- float arithmetic: IEEE, each operation rounded once ---
+TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
+TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return a / b; }
+// a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
+TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
+TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
+// The second operand where either is NaN, and where both are zeros of whatever sign.
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return a < b ? a : b; }
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return a > b ? a : b; }
+TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return TEXTPLANE_SIMD_SQRT(a); }
+TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return TEXTPLANE_SIMD_ABS(a); }
+TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
+TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return TEXTPLANE_SIMD_FLOOR(a); }
+
+// --- conversions: to_int truncates; its result for NaN and beyond int32 is unspecified (no undefined behaviour) ---
+TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept {
+  return a >= -2147483648.0f && a < 2147483648.0f ? static_cast<int>(a) : -2147483647 - 1;
+}
+TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return static_cast<float>(a); }
+
+// --- int32 arithmetic: wraps; shr keeps the sign; 0 <= bits < 32 ---
+TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept {
+  return static_cast<int>(static_cast<unsigned>(a) + static_cast<unsigned>(b));
+}
+TEXTPLANE_SIMD_INLINE vi subi(vi a, vi b) noexcept {
+  return static_cast<int>(static_cast<unsigned>(a) - static_cast<unsigned>(b));
+}
+TEXTPLANE_SIMD_INLINE vi muli(vi a, vi b) noexcept {
+  return static_cast<int>(static_cast<unsigned>(a) * static_cast<unsigned>(b));
+}
+TEXTPLANE_SIMD_INLINE vi mini(vi a, vi b) noexcept { return a < b ? a : b; }
+TEXTPLANE_SIMD_INLINE vi maxi(vi a, vi b) noexcept { return a > b ? a : b; }
+TEXTPLANE_SIMD_INLINE vi shl(vi a, int bits) noexcept { return static_cast<int>(static_cast<unsigned>(a) << bits); }
+TEXTPLANE_SIMD_INLINE vi shr(vi a, int bits) noexcept { return a >> bits; }
+TEXTPLANE_SIMD_INLINE vi andi(vi a, vi b) noexcept { return a & b; }
+TEXTPLANE_SIMD_INLINE vi ori(vi a, vi b) noexcept { return a | b; }
+
+// --- masks; comparisons with NaN are false ---
+TEXTPLANE_SIMD_INLINE vm lt(vf a, vf b) noexcept { return a < b; }
+TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return a <= b; }
+TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return a > b; }
+TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return a >= b; }
+TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return a == b; }
+TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return a < b; }
+TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return a > b; }
+TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return a == b; }
+TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return a && b; }
+TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return a || b; }
+TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return !a && b; }  // not a, and b
+TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return !a; }
+TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return m ? a : b; }
+TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return m ? a : b; }
+TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return m ? a : 0.0f; }
+TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return n > 0; }                    // lanes below n; any n
+TEXTPLANE_SIMD_INLINE unsigned bits(vm m) noexcept { return m ? 1u : 0u; }            // bit i is lane i
+TEXTPLANE_SIMD_INLINE int count(vm m) noexcept { return m ? 1 : 0; }
+TEXTPLANE_SIMD_INLINE bool any(vm m) noexcept { return m; }
+TEXTPLANE_SIMD_INLINE bool all(vm m) noexcept { return m; }
+
+// --- reductions: the upper half of the lanes joins the lower half until one is left; hsum_d does so in double ---
+TEXTPLANE_SIMD_INLINE float hsum(vf a) noexcept { return a; }
+TEXTPLANE_SIMD_INLINE double hsum_d(vf a) noexcept { return static_cast<double>(a); }
+TEXTPLANE_SIMD_INLINE float hmin(vf a) noexcept { return a; }
+TEXTPLANE_SIMD_INLINE float hmax(vf a) noexcept { return a; }
+
+// --- bilinear taps: kLanes words I(x,y) | I(x+1,y) << 8 | I(x,y+1) << 16 | I(x+1,y+1) << 24 ---
+// value = I(x,y), dx = I(x+1,y) - I(x,y), dy = I(x,y+1) - I(x,y), dxy = I(x,y) - I(x+1,y) - I(x,y+1) + I(x+1,y+1): exact.
+struct taps_t {
+  std::uint32_t words;
+};
+TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return taps_t{*p}; }
+TEXTPLANE_SIMD_INLINE int tap_byte(taps_t t, int i) noexcept { return static_cast<int>((t.words >> (8 * i)) & 255u); }
+TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept { return static_cast<float>(tap_byte(t, 0)); }
+TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return static_cast<float>(tap_byte(t, 1) - tap_byte(t, 0)); }
+TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return static_cast<float>(tap_byte(t, 2) - tap_byte(t, 0)); }
+TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept {
+  return static_cast<float>(tap_byte(t, 0) - tap_byte(t, 1) - tap_byte(t, 2) + tap_byte(t, 3));
+}
