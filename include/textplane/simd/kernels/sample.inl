@@ -1,0 +1,141 @@
+// Pieces of every kernel that samples an image at scattered points: warp | taps | interpolation, each a short loop over a strip
+// (see simd/sample.hpp). Output arrays have room for whole vectors.
+
+// kLanes floats of an array of which `left` remain; the others are 0 and not touched.
+TEXTPLANE_SIMD_INLINE vf load_part(const float* p, int left) noexcept { return left >= kLanes ? load(p) : load_n(p, left); }
+
+// Zeroes what the last vector of an array of n holds beyond it.
+TEXTPLANE_SIMD_INLINE void zero_tail(float* p, int n) noexcept {
+  const int rest = n % kLanes;
+  if (rest != 0) store(p + (n - rest), keep(first_n(rest), load(p + (n - rest))));
+}
+
+// Every bit pattern but those of NaN and infinity, whatever the compiler assumes of floats.
+TEXTPLANE_SIMD_INLINE bool finite_d(double x) noexcept {
+  std::uint64_t b;
+  copy_bytes(&b, &x, 8);
+  return (b & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
+}
+
+// The homography h (row-major, host pixel to target pixel) around the host centre (hx, hy) and the target pixel nearest to
+// where that goes; the middle of the image where it lies behind. False where it cannot be written in float.
+TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height, simd::Warp8* w) noexcept {
+  const double u = hx, v = hy;
+  const double x = h[0] * u + h[1] * v + h[2], y = h[3] * u + h[4] * v + h[5], z = h[6] * u + h[7] * v + h[8];
+  const double px = x / z, py = y / z;
+  w->hx = hx;
+  w->hy = hy;
+  w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
+  w->oy = !(z > 0) ? (height - 1) / 2 : !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
+  // Any positive scale will do; this one keeps the divisor of a patch of 100 px near 1.
+  const double size = (z < 0 ? -z : z) + 50 * ((h[6] < 0 ? -h[6] : h[6]) + (h[7] < 0 ? -h[7] : h[7]));
+  const double scale = size > 0 ? 1 / size : 1, ox = w->ox, oy = w->oy;
+  const double g[9] = {(h[0] - ox * h[6]) * scale, (h[1] - ox * h[7]) * scale, (x - ox * z) * scale,
+                       (h[3] - oy * h[6]) * scale, (h[4] - oy * h[7]) * scale, (y - oy * z) * scale,
+                       h[6] * scale,               h[7] * scale,               z * scale};
+  bool good = finite_d(size);
+  for (int i = 0; i < 9; ++i) {
+    good = good && finite_d(g[i]) && g[i] < 1e30 && g[i] > -1e30;
+    w->g[i] = good ? static_cast<float>(g[i]) : 0.0F;
+  }
+  return good;
+}
+
+// How `image` is read around the origin of `warp`.
+TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const simd::Warp8& warp, SampleFrame* f) noexcept {
+  const long long ox = warp.ox, oy = warp.oy;
+  f->pairs = image.pairs ? image.pairs + (oy * image.pair_stride + ox) : nullptr;
+  f->bytes = image.data + (oy * image.stride + ox);
+  f->stride = image.pairs ? image.pair_stride : image.stride;
+  f->x_low = static_cast<float>(-warp.ox);
+  f->y_low = static_cast<float>(-warp.oy);
+  f->x_high = static_cast<float>(image.width - 2 - warp.ox);
+  f->y_high = static_cast<float>(image.height - 2 - warp.oy);
+  f->x_last = static_cast<float>(image.width - 1 - warp.ox);
+  f->y_last = static_cast<float>(image.height - 1 - warp.oy);
+}
+
+// Target coordinates, relative to the origin, and divisors of kLanes host pixels.
+TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
+  const vf u = sub(px, set1(w.hx)), v = sub(py, set1(w.hy));
+  *divisor = madd(set1(w.g[6]), u, madd(set1(w.g[7]), v, set1(w.g[8])));
+  const vf inverse = div(set1(1.0F), *divisor);
+  *x = mul(madd(set1(w.g[0]), u, madd(set1(w.g[1]), v, set1(w.g[2]))), inverse);
+  *y = mul(madd(set1(w.g[3]), u, madd(set1(w.g[4]), v, set1(w.g[5]))), inverse);
+}
+
+// Cell of kLanes target points, clamped to the image (a NaN too): its offset and the position in it.
+TEXTPLANE_SIMD_INLINE void cell_vector(const SampleFrame& f, vf x, vf y, SampleStrip* s, int i) noexcept {
+  const vf cx = min_(max_(floor_(x), set1(f.x_low)), set1(f.x_high));
+  const vf cy = min_(max_(floor_(y), set1(f.y_low)), set1(f.y_high));
+  store(s->fx + i, sub(x, cx));
+  store(s->fy + i, sub(y, cy));
+  storei(s->offset + i, addi(muli(to_int(cy), seti(static_cast<int>(f.stride))), to_int(cx)));
+}
+
+// Warp of the n <= kStrip host pixels px, py: target coordinates to x and y, cells to the strip.
+TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f, const float* TEXTPLANE_SIMD_RESTRICT px,
+                                      const float* TEXTPLANE_SIMD_RESTRICT py, int n, float* TEXTPLANE_SIMD_RESTRICT x,
+                                      float* TEXTPLANE_SIMD_RESTRICT y, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    vf tx, ty, divisor;
+    warp_vector(w, load_part(px + i, n - i), load_part(py + i, n - i), &tx, &ty, &divisor);
+    cell_vector(f, tx, ty, s, i);
+    store(x + i, tx);
+    store(y + i, ty);
+  }
+}
+
+// The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs the
+// middle two are exchanged. Through general registers: faster than gathers, and it reads these pixels only.
+TEXTPLANE_SIMD_INLINE std::uint32_t two_bytes(const std::uint8_t* p) noexcept {
+  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8;  // one 16-bit load
+}
+TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
+  for (int i = 0; i < n; ++i) {
+    const std::ptrdiff_t offset = s->offset[i];
+    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+  }
+}
+TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  for (int i = 0; i < n; ++i) {
+    const std::uint16_t* at = f.pairs + s->offset[i];
+    s->taps[i] = static_cast<std::uint32_t>(at[0]) | static_cast<std::uint32_t>(at[1]) << 16;
+  }
+}
+TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
+  // Whole vectors of words are read later: those beyond n repeat the first.
+  if (f.pairs) fetch_pairs(f, n, s);
+  else fetch_rows(f, n, s);
+  for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
+}
+
+// Value and gradient of kLanes cells of the strip. `paired`: the words are from pairs.
+TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx, vf* gy) noexcept {
+  const taps_t t = load_taps(s.taps + i);
+  const vf fx = load(s.fx + i), fy = load(s.fy + i), dxy = tap_dxy(t);
+  const vf dx = paired ? tap_dy(t) : tap_dx(t), dy = paired ? tap_dx(t) : tap_dy(t);
+  *gx = madd(fy, dxy, dx);
+  *gy = madd(fx, dxy, dy);
+  *value = madd(fy, *gy, madd(fx, dx, tap_value(t)));
+}
+// n values and gradients to arrays.
+TEXTPLANE_SIMD_INLINE void interpolate_strip(const SampleStrip& s, int n, bool paired, float* TEXTPLANE_SIMD_RESTRICT value,
+                                             float* TEXTPLANE_SIMD_RESTRICT gx, float* TEXTPLANE_SIMD_RESTRICT gy) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    vf v, a, b;
+    interpolate_vector(s, i, paired, &v, &a, &b);
+    store(value + i, v);
+    store(gx + i, a);
+    store(gy + i, b);
+  }
+}
+// n values alone.
+TEXTPLANE_SIMD_INLINE void interpolate_values(const SampleStrip& s, int n, bool paired, float* TEXTPLANE_SIMD_RESTRICT value) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    vf v, a, b;
+    interpolate_vector(s, i, paired, &v, &a, &b);
+    store(value + i, v);
+  }
+}
