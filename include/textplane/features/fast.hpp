@@ -13,6 +13,7 @@
 
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/status.hpp"
+#include "textplane/simd/fast.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -35,32 +36,6 @@ struct FastCircle {
     for (int k = 0; k < 16; ++k) offset[k] = dx[k] + dy[k] * stride;
   }
 };
-
-// A cyclic run of 9 set bits among 16.
-inline bool has_run_of_nine(std::uint32_t bits) noexcept {
-  const std::uint32_t m = bits | (bits << 16);
-  std::uint32_t run = m & (m >> 1);
-  run &= run >> 2;
-  run &= run >> 4;
-  return (run & (m >> 8)) != 0;
-}
-
-inline bool is_fast_corner(const std::uint8_t* p, const FastCircle& circle, int threshold) noexcept {
-  const int high = *p + threshold, low = *p - threshold;
-  // A run of 9 covers one of each pair of opposite pixels, and at least two neighbours of every four compass pixels.
-  const int p0 = p[circle.offset[0]], p8 = p[circle.offset[8]];
-  const bool bright = (p0 > high) | (p8 > high), dark = (p0 < low) | (p8 < low);
-  if (!(bright | dark)) return false;
-  const int p4 = p[circle.offset[4]], p12 = p[circle.offset[12]];
-  if (!((bright & ((p4 > high) | (p12 > high))) | (dark & ((p4 < low) | (p12 < low))))) return false;
-  std::uint32_t brighter = 0, darker = 0;
-  for (int k = 0; k < 16; ++k) {
-    const int v = p[circle.offset[k]];
-    brighter |= static_cast<std::uint32_t>(v > high) << k;
-    darker |= static_cast<std::uint32_t>(v < low) << k;
-  }
-  return has_run_of_nine(brighter) || has_run_of_nine(darker);
-}
 
 // Largest over the 16 arcs of 9 pixels of the smallest difference along the arc, for brighter and for darker arcs, less
 // one: the largest threshold (the comparison is strict) that leaves the pixel a corner. At least -1.
@@ -92,40 +67,40 @@ inline int fast_score(const std::uint8_t* p, const FastCircle& circle) noexcept 
   return best - 1;
 }
 
-// Calls emit(x, y, score) for every corner in raster order. `scratch`: 3 * width bytes, used where `suppress`.
+// Calls emit(x, y, score) for every corner in raster order. `scratch`: fast_scratch_size() bytes, used where `suppress`.
 template <class Emit>
 void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8_t* scratch, Emit emit) {
+  constexpr int kPart = 512;  // pixels of a row judged at a time
   const int width = image.width(), height = image.height();
   if (width < 7 || height < 7) return;
   threshold = threshold < 0 ? 0 : (threshold > 255 ? 255 : threshold);
-  const FastCircle circle(image.stride());
+  int found[kPart];
   if (!suppress) {
-    for (int y = 3; y < height - 3; ++y) {
-      const std::uint8_t* row = image.row(y);
-      for (int x = 3; x < width - 3; ++x)
-        if (is_fast_corner(row + x, circle, threshold)) emit(x, y, 0);
-    }
+    std::uint8_t strengths[kPart + 6 + simd::kFastRowPadding] = {};
+    for (int y = 3; y < height - 3; ++y)
+      for (int x = 3; x < width - 3; x += kPart) {
+        const int n = width - 3 - x < kPart ? width - 3 - x : kPart;
+        simd::fast_row({image.row(y) + x - 3, image.stride(), n + 6, threshold, 0, strengths});
+        const int count = simd::fast_maxima({nullptr, strengths, nullptr, 3, n + 3, false, found});
+        for (int i = 0; i < count; ++i) emit(x + found[i] - 3, y, 0);
+      }
     return;
   }
-  const std::size_t row_bytes = static_cast<std::size_t>(width);
-  std::memset(scratch, 0, 3 * row_bytes);
+  const std::size_t pitch = static_cast<std::size_t>(width + simd::kFastRowPadding);
+  std::memset(scratch, 0, 3 * pitch);
   std::uint8_t* above = scratch;
-  std::uint8_t* middle = scratch + row_bytes;
-  std::uint8_t* below = scratch + 2 * row_bytes;
+  std::uint8_t* middle = scratch + pitch;
+  std::uint8_t* below = scratch + 2 * pitch;
   for (int y = 3; y <= height - 3; ++y) {  // `below` is row y; the row judged is y - 1
-    std::memset(below, 0, row_bytes);
     if (y < height - 3) {
-      const std::uint8_t* row = image.row(y);
-      for (int x = 3; x < width - 3; ++x)
-        if (is_fast_corner(row + x, circle, threshold))
-          below[x] = static_cast<std::uint8_t>(fast_score(row + x, circle));
+      simd::fast_row({image.row(y), image.stride(), width, threshold, 1, below});
+    } else {
+      std::memset(below, 0, pitch);
     }
-    for (int x = 3; x < width - 3; ++x) {
-      const int s = middle[x];
-      if (s == 0) continue;
-      if (s > middle[x - 1] && s > middle[x + 1] && s > above[x - 1] && s > above[x] && s > above[x + 1] &&
-          s > below[x - 1] && s > below[x] && s > below[x + 1])
-        emit(x, y - 1, s);
+    for (int x = 3; x < width - 3; x += kPart) {
+      const int last = width - 3 - x < kPart ? width - 3 : x + kPart;
+      const int count = simd::fast_maxima({above, middle, below, x, last, true, found});
+      for (int i = 0; i < count; ++i) emit(found[i], y - 1, middle[found[i]]);
     }
     std::uint8_t* const recycled = above;
     above = middle;
@@ -144,7 +119,9 @@ inline int fast_score(const ImageView8& image, int x, int y) noexcept {
 }
 
 /// Bytes of scratch that detect_fast() on caller buffers needs for an image of this width.
-constexpr std::size_t fast_scratch_size(int width) noexcept { return 3 * static_cast<std::size_t>(width); }
+constexpr std::size_t fast_scratch_size(int width) noexcept {
+  return width > 0 ? 3 * (static_cast<std::size_t>(width) + simd::kFastRowPadding) : 0;
+}
 
 /// FAST-9/16 corners of `image` in raster order, on the caller's memory. `threshold`: intensity, clamped to [0, 255].
 /// `suppress`: keep a corner only where its score exceeds those of its eight neighbours. Corners lie at least 3 px from

@@ -13,6 +13,7 @@
 
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/status.hpp"
+#include "textplane/simd/halve.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -32,16 +33,7 @@ struct PyramidView {
 inline Status halve(const ImageView8& src, const ImageView<std::uint8_t>& dst) noexcept {
   if (!src.valid() || !dst.valid() || dst.width() != src.width() / 2 || dst.height() != src.height() / 2)
     return Status::invalid_argument;
-  const int width = dst.width();
-  for (int y = 0; y < dst.height(); ++y) {
-    const std::uint8_t* upper = src.row(2 * y);
-    const std::uint8_t* lower = src.row(2 * y + 1);
-    std::uint8_t* out = dst.row(y);
-    for (int x = 0; x < width; ++x) {
-      const int sum = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
-      out[x] = static_cast<std::uint8_t>((sum + 2) >> 2);
-    }
-  }
+  simd::halve({src.data(), src.stride(), dst.data(), dst.stride(), dst.width(), dst.height()});
   return Status::ok;
 }
 
