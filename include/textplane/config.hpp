@@ -1,7 +1,8 @@
 // textplane: version, inline ABI namespace and assert hook.
 //
 // Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of the
-// translation unit that change code or layout: the instruction-set baseline, fast-math, and Eigen's largest alignment. Two
+// translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's largest alignment, and the
+// SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two
 // translation units built with different flags therefore keep their own copies, and passing a type from one to the other
 // is a link error instead of a corrupt heap.
 //
@@ -45,11 +46,20 @@
 #define TEXTPLANE_ABI_ALIGN a0
 #endif
 
-#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align) v##major##_##minor##_##isa##_##math##_##align
-#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align) TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align)
+#if defined(TEXTPLANE_TARGET)
+#define TEXTPLANE_ABI_FIXED_(target) _only_##target
+#define TEXTPLANE_ABI_FIXED(target) TEXTPLANE_ABI_FIXED_(target)
+#define TEXTPLANE_ABI_TARGET TEXTPLANE_ABI_FIXED(TEXTPLANE_TARGET)
+#else
+#define TEXTPLANE_ABI_TARGET
+#endif
+
+#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target) v##major##_##minor##_##isa##_##math##_##align##target
+#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, target) \
+  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target)
 #define TEXTPLANE_ABI                                                                                               \
   TEXTPLANE_ABI_JOIN(TEXTPLANE_VERSION_MAJOR, TEXTPLANE_VERSION_MINOR, TEXTPLANE_ABI_ISA, TEXTPLANE_ABI_MATH,      \
-                     TEXTPLANE_ABI_ALIGN)
+                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_TARGET)
 
 #define TEXTPLANE_BEGIN_NAMESPACE \
   namespace textplane {           \

@@ -1,0 +1,17 @@
+// A kernel that only says which region it was compiled in.
+#ifndef TEXTPLANE_TESTS_SIMD_DISPATCH_SUPPORT_HPP
+#define TEXTPLANE_TESTS_SIMD_DISPATCH_SUPPORT_HPP
+
+#include "textplane/simd/vec.hpp"
+
+#define TEXTPLANE_SIMD_KERNEL "simd/dispatch_kernel.inl"
+#include "textplane/simd/foreach_target.inl"
+
+TEXTPLANE_BEGIN_NAMESPACE
+namespace simd {
+inline int dispatched_region() noexcept { TEXTPLANE_SIMD_DISPATCH(region_number()) }
+inline int dispatched_lanes() noexcept { TEXTPLANE_SIMD_DISPATCH(lane_count()) }
+}  // namespace simd
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_TESTS_SIMD_DISPATCH_SUPPORT_HPP
