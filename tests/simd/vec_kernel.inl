@@ -1,0 +1,109 @@
+// Every operation of the vectors on arrays of one vector; results of kLanes elements each, in the order of vec_test.cpp.
+
+TEXTPLANE_SIMD_ENTRY void float_operations(const float* pa, const float* pb, const float* pc, float* out) noexcept {
+  const vf a = load(pa), b = load(pb), c = load(pc);
+  int k = 0;
+  store(out + kLanes * k++, add(a, b));
+  store(out + kLanes * k++, sub(a, b));
+  store(out + kLanes * k++, mul(a, b));
+  store(out + kLanes * k++, div(a, b));
+  store(out + kLanes * k++, madd(a, b, c));
+  store(out + kLanes * k++, nmadd(a, b, c));
+  store(out + kLanes * k++, add(mul(a, b), c));
+  store(out + kLanes * k++, sub(c, mul(a, b)));
+  store(out + kLanes * k++, min_(a, b));
+  store(out + kLanes * k++, max_(a, b));
+  store(out + kLanes * k++, sqrt_(a));
+  store(out + kLanes * k++, abs_(a));
+  store(out + kLanes * k++, neg(a));
+  store(out + kLanes * k++, floor_(a));
+  store(out + kLanes * k++, select(lt(a, b), a, c));
+  store(out + kLanes * k++, keep(lt(a, b), a));
+  store(out + kLanes * k++, set1(pa[0]));
+  store(out + kLanes * k++, zero());
+  store(out + kLanes * k++, iota());
+}
+
+TEXTPLANE_SIMD_ENTRY void int_operations(const int* pa, const int* pb, int shift, int* out) noexcept {
+  const vi a = loadi(pa), b = loadi(pb);
+  int k = 0;
+  storei(out + kLanes * k++, addi(a, b));
+  storei(out + kLanes * k++, subi(a, b));
+  storei(out + kLanes * k++, muli(a, b));
+  storei(out + kLanes * k++, mini(a, b));
+  storei(out + kLanes * k++, maxi(a, b));
+  storei(out + kLanes * k++, andi(a, b));
+  storei(out + kLanes * k++, ori(a, b));
+  storei(out + kLanes * k++, shl(a, shift));
+  storei(out + kLanes * k++, shr(a, shift));
+  storei(out + kLanes * k++, shl(a, 3));
+  storei(out + kLanes * k++, shr(a, 3));
+  storei(out + kLanes * k++, selecti(lti(a, b), a, b));
+  storei(out + kLanes * k++, seti(pa[0]));
+  storei(out + kLanes * k++, ioti());
+}
+
+TEXTPLANE_SIMD_ENTRY void conversions(const float* pa, const int* pb, int* ints, float* floats) noexcept {
+  storei(ints, to_int(load(pa)));
+  store(floats, to_float(loadi(pb)));
+}
+
+// Masks as bits; the last entries are counts and truth values.
+TEXTPLANE_SIMD_ENTRY void mask_operations(const float* pa, const float* pb, const int* pi, const int* pj,
+                                          unsigned* out) noexcept {
+  const vf a = load(pa), b = load(pb);
+  const vi i = loadi(pi), j = loadi(pj);
+  const vm m = lt(a, b), n = lti(i, j);
+  int k = 0;
+  out[k++] = bits(lt(a, b));
+  out[k++] = bits(le(a, b));
+  out[k++] = bits(gt(a, b));
+  out[k++] = bits(ge(a, b));
+  out[k++] = bits(eq(a, b));
+  out[k++] = bits(lti(i, j));
+  out[k++] = bits(gti(i, j));
+  out[k++] = bits(eqi(i, j));
+  out[k++] = bits(and_(m, n));
+  out[k++] = bits(or_(m, n));
+  out[k++] = bits(andnot_(m, n));
+  out[k++] = bits(not_(m));
+  out[k++] = static_cast<unsigned>(count(m));
+  out[k++] = any(m) ? 1u : 0u;
+  out[k++] = all(m) ? 1u : 0u;
+}
+
+TEXTPLANE_SIMD_ENTRY void reductions(const float* pa, double* out) noexcept {
+  const vf a = load(pa);
+  out[0] = static_cast<double>(hsum(a));
+  out[1] = hsum_d(a);
+  out[2] = static_cast<double>(hmin(a));
+  out[3] = static_cast<double>(hmax(a));
+}
+
+TEXTPLANE_SIMD_ENTRY void taps(const std::uint32_t* words, float* out) noexcept {
+  const taps_t t = load_taps(words);
+  store(out, tap_value(t));
+  store(out + kLanes, tap_dx(t));
+  store(out + 2 * kLanes, tap_dy(t));
+  store(out + 3 * kLanes, tap_dxy(t));
+}
+
+// Loads of n elements, each stored whole; and of a full vector of bytes.
+TEXTPLANE_SIMD_ENTRY void partial_load_floats(const float* p, int n, float* out) noexcept { store(out, load_n(p, n)); }
+TEXTPLANE_SIMD_ENTRY void partial_load_ints(const int* p, int n, int* out) noexcept { storei(out, loadi_n(p, n)); }
+TEXTPLANE_SIMD_ENTRY void partial_load_bytes(const std::uint8_t* p, int n, float* floats, int* ints) noexcept {
+  store(floats, load_u8_n(p, n));
+  storei(ints, load_u8i_n(p, n));
+}
+TEXTPLANE_SIMD_ENTRY void load_bytes(const std::uint8_t* p, float* floats, int* ints) noexcept {
+  store(floats, load_u8(p));
+  storei(ints, load_u8i(p));
+}
+TEXTPLANE_SIMD_ENTRY void partial_store_floats(float* p, const float* from, int n) noexcept { store_n(p, load(from), n); }
+TEXTPLANE_SIMD_ENTRY void partial_store_ints(int* p, const int* from, int n) noexcept { storei_n(p, loadi(from), n); }
+TEXTPLANE_SIMD_ENTRY unsigned first_lanes(int n) noexcept { return bits(first_n(n)); }
+
+TEXTPLANE_SIMD_ENTRY unsigned read_half(const std::uint8_t* p) noexcept { return load_half(p); }
+TEXTPLANE_SIMD_ENTRY unsigned read_word(const std::uint8_t* p) noexcept { return load_word(p); }
+TEXTPLANE_SIMD_ENTRY unsigned read_word_n(const std::uint8_t* p, int n) noexcept { return load_word_n(p, n); }
+TEXTPLANE_SIMD_ENTRY void copy(void* to, const void* from, int n) noexcept { copy_bytes(to, from, n); }

@@ -1,0 +1,44 @@
+// The vector operations behind run-time dispatch, for vec_test.cpp.
+#ifndef TEXTPLANE_TESTS_SIMD_VEC_SUPPORT_HPP
+#define TEXTPLANE_TESTS_SIMD_VEC_SUPPORT_HPP
+
+#include "textplane/simd/vec.hpp"
+
+#define TEXTPLANE_SIMD_KERNEL "simd/vec_kernel.inl"
+#include "textplane/simd/foreach_target.inl"
+
+namespace textplane_test {
+
+inline void float_operations(const float* a, const float* b, const float* c, float* out) {
+  TEXTPLANE_SIMD_DISPATCH(float_operations(a, b, c, out))
+}
+inline void int_operations(const int* a, const int* b, int shift, int* out) {
+  TEXTPLANE_SIMD_DISPATCH(int_operations(a, b, shift, out))
+}
+inline void conversions(const float* a, const int* b, int* ints, float* floats) {
+  TEXTPLANE_SIMD_DISPATCH(conversions(a, b, ints, floats))
+}
+inline void mask_operations(const float* a, const float* b, const int* i, const int* j, unsigned* out) {
+  TEXTPLANE_SIMD_DISPATCH(mask_operations(a, b, i, j, out))
+}
+inline void reductions(const float* a, double* out) { TEXTPLANE_SIMD_DISPATCH(reductions(a, out)) }
+inline void taps(const std::uint32_t* words, float* out) { TEXTPLANE_SIMD_DISPATCH(taps(words, out)) }
+inline void partial_load(const float* p, int n, float* out) { TEXTPLANE_SIMD_DISPATCH(partial_load_floats(p, n, out)) }
+inline void partial_load(const int* p, int n, int* out) { TEXTPLANE_SIMD_DISPATCH(partial_load_ints(p, n, out)) }
+inline void partial_load(const std::uint8_t* p, int n, float* floats, int* ints) {
+  TEXTPLANE_SIMD_DISPATCH(partial_load_bytes(p, n, floats, ints))
+}
+inline void load_bytes(const std::uint8_t* p, float* floats, int* ints) {
+  TEXTPLANE_SIMD_DISPATCH(load_bytes(p, floats, ints))
+}
+inline void partial_store(float* p, const float* from, int n) { TEXTPLANE_SIMD_DISPATCH(partial_store_floats(p, from, n)) }
+inline void partial_store(int* p, const int* from, int n) { TEXTPLANE_SIMD_DISPATCH(partial_store_ints(p, from, n)) }
+inline unsigned first_lanes(int n) { TEXTPLANE_SIMD_DISPATCH(first_lanes(n)) }
+inline unsigned read_half(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_half(p)) }
+inline unsigned read_word(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_word(p)) }
+inline unsigned read_word_n(const std::uint8_t* p, int n) { TEXTPLANE_SIMD_DISPATCH(read_word_n(p, n)) }
+inline void copy_bytes(void* to, const void* from, int n) { TEXTPLANE_SIMD_DISPATCH(copy(to, from, n)) }
+
+}  // namespace textplane_test
+
+#endif  // TEXTPLANE_TESTS_SIMD_VEC_SUPPORT_HPP

@@ -1,0 +1,328 @@
+// Each operation of the vectors, on every target, against its definition in plain C++.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "simd/vec_support.hpp"
+#include "support/guarded.hpp"
+#include "support/targets.hpp"
+
+namespace {
+
+using namespace textplane_test;
+using simd::Target;
+
+constexpr int kMost = 16;  // lanes
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr int kMin = std::numeric_limits<int>::min(), kMax = std::numeric_limits<int>::max();
+
+const std::vector<float> kFloats = {0.0f,   -0.0f,     1.0f,        -1.0f,   0.5f,   2.5f,  -2.5f,  0.99999994f, 1.0000001f, 1e-40f,
+                                    -1e-3f, 255.0f,    16777217.0f, 1e9f,    -3e9f,  3e30f, -3e30f, kInf,        -kInf,      kNaN,
+                                    0.1f,   -0.33333f, 12.75f,      -12.75f, 1e-20f};
+const std::vector<int> kInts = {0, 1, -1, 2, 7, -8, 255, -256, 65535, 65536, 123456789, -123456789, kMax, kMin, kMax - 1, kMin + 1};
+
+/// The same bits, or both NaN: which NaN is nobody's business.
+bool same(float a, float b) {
+  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// a b rounded to float, which no compiler may fuse with what follows.
+float rounded_product(float a, float b) {
+  const volatile float product = a * b;
+  return product;
+}
+
+int wrap(std::int64_t value) {
+  const auto low = static_cast<std::uint32_t>(static_cast<std::uint64_t>(value));
+  int result = 0;
+  std::memcpy(&result, &low, sizeof result);
+  return result;
+}
+
+template <class Body>
+void on_each_target(Body body) {
+  for (const Target target : testable_targets()) {
+    const TargetScope scope(target);
+    SCOPED_TRACE(simd::to_string(target));
+    body(target, simd::lanes(target));
+  }
+}
+
+void expect_float_operations(Target target, const float* a, const float* b, const float* c) {
+  const int lanes = simd::lanes(target);
+  const bool fused = simd::fused(target);
+  float out[19 * kMost];
+  float_operations(a, b, c, out);
+  for (int i = 0; i < lanes; ++i) {
+    const float x = a[i], y = b[i], z = c[i];
+    const float expected[19] = {x + y,
+                                x - y,
+                                x * y,
+                                x / y,
+                                fused ? std::fma(x, y, z) : rounded_product(x, y) + z,
+                                fused ? std::fma(-x, y, z) : z - rounded_product(x, y),
+                                rounded_product(x, y) + z,
+                                z - rounded_product(x, y),
+                                x < y ? x : y,
+                                x > y ? x : y,
+                                std::sqrt(x),
+                                std::fabs(x),
+                                -x,
+                                std::floor(x),
+                                x < y ? x : z,
+                                x < y ? x : 0.0f,
+                                a[0],
+                                0.0f,
+                                static_cast<float>(i)};
+    for (int k = 0; k < 19; ++k) {
+      EXPECT_TRUE(same(out[lanes * k + i], expected[k]))
+          << "operation " << k << " of " << x << ", " << y << ", " << z << ": " << out[lanes * k + i] << ", not " << expected[k];
+    }
+  }
+}
+
+TEST(Vec, FloatOperationsGiveTheIeeeBits) {
+  on_each_target([](Target target, int) {
+    const std::size_t n = kFloats.size();
+    for (std::size_t first = 0; first < n * n; first += 5) {  // pairs, shifted against the lanes
+      float a[kMost], b[kMost], c[kMost];
+      for (std::size_t i = 0; i < kMost; ++i) {
+        const std::size_t k = (first + i) % (n * n);
+        a[i] = kFloats[k / n], b[i] = kFloats[k % n], c[i] = kFloats[(k * 7 + k / n) % n];
+      }
+      expect_float_operations(target, a, b, c);
+    }
+    std::mt19937 random(5);
+    const auto uniform = [&random] { return static_cast<float>(static_cast<double>(random()) / 4294967296.0 * 600 - 300); };
+    for (int round = 0; round < 200; ++round) {
+      float a[kMost], b[kMost], c[kMost];
+      for (int i = 0; i < kMost; ++i) a[i] = uniform(), b[i] = uniform(), c[i] = uniform() * 100;
+      expect_float_operations(target, a, b, c);
+    }
+  });
+}
+
+TEST(Vec, IntOperationsWrap) {
+  on_each_target([](Target, int lanes) {
+    const std::size_t n = kInts.size();
+    for (std::size_t first = 0; first < n * n; first += 3) {
+      int a[kMost], b[kMost], out[14 * kMost];
+      for (std::size_t i = 0; i < kMost; ++i) a[i] = kInts[(first + i) % (n * n) / n], b[i] = kInts[(first + i) % n];
+      const int shift = static_cast<int>(first % 32);
+      int_operations(a, b, shift, out);
+      for (int i = 0; i < lanes; ++i) {
+        const std::int64_t x = a[i], y = b[i];
+        const int expected[14] = {wrap(x + y),
+                                  wrap(x - y),
+                                  wrap(static_cast<std::int64_t>(static_cast<std::uint64_t>(x) * static_cast<std::uint64_t>(y))),
+                                  std::min(a[i], b[i]),
+                                  std::max(a[i], b[i]),
+                                  a[i] & b[i],
+                                  a[i] | b[i],
+                                  wrap(x * (std::int64_t{1} << shift)),
+                                  a[i] >> shift,
+                                  wrap(x * 8),
+                                  a[i] >> 3,
+                                  std::min(a[i], b[i]),
+                                  a[0],
+                                  i};
+        for (int k = 0; k < 14; ++k) EXPECT_EQ(out[lanes * k + i], expected[k]) << "operation " << k << " of " << x << ", " << y;
+      }
+    }
+  });
+}
+
+TEST(Vec, ConversionsTruncateAndRound) {
+  const std::vector<float> floats = {0.0f, -0.0f, 0.999f, -0.999f, 1.5f, -1.5f, 2147483520.0f, -2147483648.0f, 8388607.5f, -8388607.5f, 3.0f, -7.9999995f, 1e-30f, 100.01f, -100.99f, 0.5f};
+  on_each_target([&](Target, int lanes) {
+    for (std::size_t first = 0; first < kMost; ++first) {
+      float a[kMost], to_floats[kMost];
+      int b[kMost], to_ints[kMost];
+      for (std::size_t i = 0; i < kMost; ++i) a[i] = floats[(first + i) % kMost], b[i] = kInts[(first + i) % kMost];
+      conversions(a, b, to_ints, to_floats);
+      for (int i = 0; i < lanes; ++i) {
+        EXPECT_EQ(to_ints[i], static_cast<int>(a[i])) << a[i];
+        EXPECT_EQ(to_floats[i], static_cast<float>(b[i])) << b[i];
+      }
+    }
+    // Unspecified, but nothing traps: the sanitizers and the emulators look on.
+    float wild[kMost], floats_out[kMost];
+    int zeros[kMost] = {}, ints_out[kMost];
+    const float values[] = {kNaN, kInf, -kInf, 3e9f, -3e9f, 2147483648.0f};
+    for (int first = 0; first < 6; ++first) {
+      for (int i = 0; i < kMost; ++i) wild[i] = values[(first + i) % 6];
+      conversions(wild, zeros, ints_out, floats_out);
+      EXPECT_EQ(floats_out[0], 0.0f);
+    }
+  });
+}
+
+TEST(Vec, MasksAndTheirBits) {
+  on_each_target([](Target, int lanes) {
+    const unsigned every = (1u << lanes) - 1u;
+    const std::size_t n = kFloats.size(), m = kInts.size();
+    for (std::size_t first = 0; first < n * n; ++first) {
+      float a[kMost], b[kMost];
+      int p[kMost], q[kMost];
+      for (std::size_t i = 0; i < kMost; ++i) {
+        const std::size_t k = (first + i) % (n * n), j = (first + i) % (m * m);
+        a[i] = kFloats[k / n], b[i] = kFloats[k % n], p[i] = kInts[j / m], q[i] = kInts[j % m];
+      }
+      if (first % 4 == 1) std::fill(a, a + kMost, -kInf), std::fill(b, b + kMost, 1.0f);  // all
+      if (first % 4 == 2) std::fill(a, a + kMost, 2.0f), std::fill(b, b + kMost, 1.0f);   // none
+      unsigned e[15] = {}, out[15];
+      for (int i = 0; i < lanes; ++i) {
+        const unsigned bit = 1u << i;
+        const auto set = [&](int k, bool value) { e[k] |= value ? bit : 0u; };
+        set(0, a[i] < b[i]), set(1, a[i] <= b[i]), set(2, a[i] > b[i]), set(3, a[i] >= b[i]), set(4, a[i] == b[i]);
+        set(5, p[i] < q[i]), set(6, p[i] > q[i]), set(7, p[i] == q[i]);
+      }
+      e[8] = e[0] & e[5], e[9] = e[0] | e[5], e[10] = ~e[0] & e[5], e[11] = ~e[0] & every;
+      for (int i = 0; i < lanes; ++i) e[12] += (e[0] >> i) & 1u;
+      e[13] = e[0] != 0, e[14] = e[0] == every;
+      mask_operations(a, b, p, q, out);
+      for (int k = 0; k < 15; ++k) EXPECT_EQ(out[k], e[k]) << "operation " << k << ", pairs from " << first;
+    }
+    for (int k = -3; k <= lanes + 3; ++k) {
+      const unsigned expected = (1u << std::clamp(k, 0, lanes)) - 1u;
+      EXPECT_EQ(first_lanes(k), expected) << k;
+    }
+    EXPECT_EQ(first_lanes(kMax), every);
+    EXPECT_EQ(first_lanes(kMin), 0u);
+  });
+}
+
+TEST(Vec, ReductionsHalveTheLanes) {
+  std::mt19937 random(11);
+  on_each_target([&](Target, int lanes) {
+    for (int round = 0; round < 100; ++round) {
+      float a[kMost], sum[kMost];
+      double sum_d[kMost], out[4];
+      for (int i = 0; i < kMost; ++i) {
+        a[i] = static_cast<float>(static_cast<double>(random()) / 4294967296.0 - 0.5) * std::pow(10.0f, static_cast<float>(i % 5));
+        sum[i] = a[i], sum_d[i] = static_cast<double>(a[i]);
+      }
+      for (int half = lanes / 2; half > 0; half /= 2) {
+        for (int i = 0; i < half; ++i) sum[i] += sum[i + half], sum_d[i] += sum_d[i + half];
+      }
+      reductions(a, out);
+      EXPECT_EQ(out[0], static_cast<double>(sum[0]));
+      EXPECT_EQ(out[1], sum_d[0]);
+      EXPECT_EQ(out[2], static_cast<double>(*std::min_element(a, a + lanes)));
+      EXPECT_EQ(out[3], static_cast<double>(*std::max_element(a, a + lanes)));
+    }
+  });
+}
+
+TEST(Vec, TapsAreExactDifferencesOfBytes) {
+  std::mt19937 random(13);
+  on_each_target([&](Target, int lanes) {
+    for (int round = 0; round < 300; ++round) {
+      std::uint32_t words[kMost];
+      float out[4 * kMost];
+      for (std::uint32_t& word : words) {
+        word = static_cast<std::uint32_t>(random());
+        if (round % 3 == 0) word = (random() & 0x01010101u) * 255u;  // each byte 0 or 255
+      }
+      taps(words, out);
+      for (int i = 0; i < lanes; ++i) {
+        const auto byte = [&](int k) { return static_cast<int>(words[i] >> (8 * k) & 255u); };
+        EXPECT_EQ(out[i], static_cast<float>(byte(0)));
+        EXPECT_EQ(out[lanes + i], static_cast<float>(byte(1) - byte(0)));
+        EXPECT_EQ(out[2 * lanes + i], static_cast<float>(byte(2) - byte(0)));
+        EXPECT_EQ(out[3 * lanes + i], static_cast<float>(byte(0) - byte(1) - byte(2) + byte(3)));
+      }
+    }
+  });
+}
+
+TEST(Vec, PartialLoadsTouchNoMoreThanTheyLoad) {
+  const Guarded<float> floats(kMost);
+  const Guarded<int> ints(kMost);
+  const Guarded<std::uint8_t> bytes(kMost);
+  for (int i = 0; i < kMost; ++i) {
+    floats.data()[i] = static_cast<float>(i) + 0.5f;
+    ints.data()[i] = kMin + i;
+    bytes.data()[i] = static_cast<std::uint8_t>(255 - i);
+  }
+  on_each_target([&](Target, int lanes) {
+    for (int n = 0; n <= lanes; ++n) {
+      SCOPED_TRACE(n);
+      float f[kMost], u[kMost];
+      int k[kMost], v[kMost];
+      partial_load(floats.end() - n, n, f);
+      partial_load(ints.end() - n, n, k);
+      partial_load(bytes.end() - n, n, u, v);
+      for (int i = 0; i < lanes; ++i) {
+        const int source = kMost - n + i;
+        EXPECT_TRUE(same(f[i], i < n ? static_cast<float>(source) + 0.5f : 0.0f)) << i;
+        EXPECT_EQ(k[i], i < n ? kMin + source : 0) << i;
+        EXPECT_EQ(v[i], i < n ? 255 - source : 0) << i;
+        EXPECT_TRUE(same(u[i], i < n ? static_cast<float>(255 - source) : 0.0f)) << i;
+      }
+    }
+    float u[kMost];
+    int v[kMost];
+    load_bytes(bytes.end() - lanes, u, v);
+    for (int i = 0; i < lanes; ++i) {
+      EXPECT_EQ(v[i], 255 - (kMost - lanes + i));
+      EXPECT_EQ(u[i], static_cast<float>(v[i]));
+    }
+  });
+}
+
+TEST(Vec, PartialStoresWriteNoMoreThanTheyStore) {
+  const Guarded<float> floats(3 * kMost);
+  const Guarded<int> ints(3 * kMost);
+  float f[kMost];
+  int k[kMost];
+  for (int i = 0; i < kMost; ++i) f[i] = static_cast<float>(i) + 1.0f, k[i] = i + 1;
+  on_each_target([&](Target, int lanes) {
+    for (int n = 0; n <= lanes; ++n) {
+      SCOPED_TRACE(n);
+      for (const int behind : {0, kMost}) {  // at the forbidden page, and with room for a canary
+        std::fill(floats.data(), floats.end(), -7.0f);
+        std::fill(ints.data(), ints.end(), -7);
+        const int first = 3 * kMost - behind - n;
+        partial_store(floats.data() + first, f, n);
+        partial_store(ints.data() + first, k, n);
+        for (int i = 0; i < 3 * kMost; ++i) {
+          const int expected = i >= first && i < first + n ? i - first + 1 : -7;
+          EXPECT_EQ(floats.data()[i], static_cast<float>(expected)) << i;
+          EXPECT_EQ(ints.data()[i], expected) << i;
+        }
+      }
+    }
+  });
+}
+
+TEST(Vec, BytesAsNumbersAndCopies) {
+  const Guarded<std::uint8_t> bytes(4), target(70), source(70);
+  const std::uint8_t values[4] = {0x81, 0xf2, 0x03, 0xc4};
+  std::copy(values, values + 4, bytes.data());
+  for (int i = 0; i < 70; ++i) source.data()[i] = static_cast<std::uint8_t>(i * 3 + 1);
+  on_each_target([&](Target, int) {
+    EXPECT_EQ(read_half(bytes.end() - 2), 0xc403u);
+    EXPECT_EQ(read_word(bytes.data()), 0xc403f281u);
+    EXPECT_EQ(read_word_n(bytes.end(), 0), 0u);
+    EXPECT_EQ(read_word_n(bytes.end() - 1, 1), 0xc4u);
+    EXPECT_EQ(read_word_n(bytes.end() - 2, 2), 0xc403u);
+    EXPECT_EQ(read_word_n(bytes.end() - 3, 3), 0xc403f2u);
+    EXPECT_EQ(read_word_n(bytes.end() - 4, 4), 0xc403f281u);
+    for (int n = 0; n <= 70; ++n) {
+      std::fill(target.data(), target.end(), std::uint8_t{0});
+      copy_bytes(target.end() - n, source.end() - n, n);
+      for (int i = 0; i < 70; ++i) EXPECT_EQ(target.data()[i], i < 70 - n ? 0 : source.data()[i]);
+    }
+  });
+}
+
+}  // namespace
