@@ -80,7 +80,7 @@ void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8
     for (int y = 3; y < height - 3; ++y)
       for (int x = 3; x < width - 3; x += kPart) {
         const int n = width - 3 - x < kPart ? width - 3 - x : kPart;
-        simd::fast_row({image.row(y) + x - 3, image.stride(), n + 6, threshold, 0, strengths});
+        if (!simd::fast_row({image.row(y) + x - 3, image.stride(), n + 6, threshold, 0, strengths})) continue;
         const int count = simd::fast_maxima({nullptr, strengths, nullptr, 3, n + 3, false, found});
         for (int i = 0; i < count; ++i) emit(x + found[i] - 3, y, 0);
       }
@@ -91,13 +91,15 @@ void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8
   std::uint8_t* above = scratch;
   std::uint8_t* middle = scratch + pitch;
   std::uint8_t* below = scratch + 2 * pitch;
-  for (int y = 3; y <= height - 3; ++y) {  // `below` is row y; the row judged is y - 1
+  bool judged = false, next = false;  // rows y - 1 and y have scores
+  for (int y = 3; y <= height - 3; ++y, judged = next) {
+    // `below` is row y; the row judged is y - 1.
     if (y < height - 3) {
-      simd::fast_row({image.row(y), image.stride(), width, threshold, 1, below});
+      next = simd::fast_row({image.row(y), image.stride(), width, threshold, 1, below});
     } else {
       std::memset(below, 0, pitch);
     }
-    for (int x = 3; x < width - 3; x += kPart) {
+    for (int x = 3; judged && x < width - 3; x += kPart) {
       const int last = width - 3 - x < kPart ? width - 3 : x + kPart;
       const int count = simd::fast_maxima({above, middle, below, x, last, true, found});
       for (int i = 0; i < count; ++i) emit(found[i], y - 1, middle[found[i]]);

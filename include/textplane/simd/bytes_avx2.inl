@@ -43,7 +43,7 @@ TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return _mm256_testz_si256(a, a)
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
   return static_cast<std::uint32_t>(_mm256_movemask_epi8(mask));
 }
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
+TEXTPLANE_SIMD_INLINE int lowest_lane(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
 
 constexpr int kShorts = 16;
 constexpr int kPairsReach = 24;

@@ -34,7 +34,7 @@ TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noex
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return _mm512_movm_epi8(_mm512_cmpge_epu8_mask(a, b)); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return _mm512_test_epi8_mask(a, a) != 0; }
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept { return _mm512_movepi8_mask(mask); }
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
+TEXTPLANE_SIMD_INLINE int lowest_lane(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
 
 constexpr int kShorts = 16;
 constexpr int kPairsReach = 24;

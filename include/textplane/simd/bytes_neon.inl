@@ -37,7 +37,7 @@ TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
   return static_cast<std::uint64_t>(vaddv_u8(vget_low_u8(bit))) |
          static_cast<std::uint64_t>(vaddv_u8(vget_high_u8(bit))) << 8;
 }
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
+TEXTPLANE_SIMD_INLINE int lowest_lane(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
 
 constexpr int kShorts = 8;
 constexpr int kPairsReach = 9;

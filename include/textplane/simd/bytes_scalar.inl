@@ -33,7 +33,7 @@ TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noex
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return a >= b ? 255 : 0; }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return a != 0; }  // any byte that is not 0; a need not be a mask
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept { return mask != 0 ? 1u : 0u; }  // bit i is lane i
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t) noexcept { return 0; }  // index of the lowest bit of bitsb(); not for 0
+TEXTPLANE_SIMD_INLINE int lowest_lane(std::uint64_t) noexcept { return 0; }  // index of the lowest bit of bitsb(); not for 0
 
 // --- int16 ---
 constexpr int kShorts = 8;

@@ -40,10 +40,11 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
 /// The strength of a pixel p is the largest d for which 9 consecutive pixels of the circle of 16 round it are all >= I(p) + d or
-/// all <= I(p) - d. scores[x] = strength - less where strength > threshold, 0 elsewhere, for 3 <= x < width - 3. So pixel x
+/// all <= I(p) - d. Sets scores[x] = strength - less where strength > threshold, 0 elsewhere, for 3 <= x < width - 3, and tells
+/// whether one of them is not 0. So pixel x
 /// is a FAST corner at `threshold` where its strength counts, and its score in the sense of fast_score() is strength - 1.
 /// The same bytes on every target. Reads the pixels of the row and of the 3 rows on either side alone. No allocation.
-inline void fast_row(const FastRowArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(fast_row(args)); }
+inline bool fast_row(const FastRowArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(fast_row(args)); }
 
 /// Writes those x, ascending, at which row[x] is not 0 and, where `suppress`, exceeds its eight neighbours; returns their
 /// number. Of the rows of scores it reads kFastRowPadding bytes beyond `last`, whatever they hold; where `suppress`, scores are

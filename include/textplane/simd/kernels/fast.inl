@@ -60,22 +60,26 @@ TEXTPLANE_SIMD_INLINE vb fast_strengths(const std::uint8_t* p, std::ptrdiff_t st
   return andb(strength, geb(strength, least));
 }
 
-TEXTPLANE_SIMD_ENTRY void fast_row(const simd::FastRowArgs& args) noexcept {
+TEXTPLANE_SIMD_ENTRY bool fast_row(const simd::FastRowArgs& args) noexcept {
   const int end = args.width - 3;
   if (args.threshold >= 255) {  // no difference of bytes exceeds it
     for (int x = 3; x < end; ++x) args.scores[x] = 0;
-    return;
+    return false;
   }
   const vb least = setb(args.threshold + 1), less = setb(args.less);
   if (end - 3 < kBytes) {
     const int n = end - 3;
-    storeb_n(args.scores + 3, subsb(fast_strengths(args.row + 3, args.stride, least, false, n), less), n);
-    return;
+    const vb scores = subsb(fast_strengths(args.row + 3, args.stride, least, false, n), less);
+    storeb_n(args.scores + 3, scores, n);
+    return anyb(scores);
   }
+  vb seen = setb(0);
   for (int x = 3;; x += kBytes) {
     if (x > end - kBytes) x = end - kBytes;  // the last ones again, with some before them
-    storeb(args.scores + x, subsb(fast_strengths(args.row + x, args.stride, least, true, 0), less));
-    if (x == end - kBytes) return;
+    const vb scores = subsb(fast_strengths(args.row + x, args.stride, least, true, 0), less);
+    seen = orb(seen, scores);
+    storeb(args.scores + x, scores);
+    if (x == end - kBytes) return anyb(seen);
   }
 }
 
@@ -97,7 +101,7 @@ TEXTPLANE_SIMD_ENTRY int fast_maxima(const simd::FastMaximaArgs& args) noexcept 
     }
     std::uint64_t bits = bitsb(geb(score, least));
     for (; bits != 0; bits &= bits - 1) {
-      const int at = x + lowest_bit(bits);
+      const int at = x + lowest_lane(bits);
       if (at < args.last) args.found[n++] = at;
     }
   }
