@@ -11,6 +11,7 @@
 #include "textplane/geometry/quad.hpp"
 #include "textplane/photometry/pyramid.hpp"
 #include "textplane/photometry/sample.hpp"
+#include "textplane/simd/sample.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -25,17 +26,21 @@ struct PatchView {
   int n = 0;
   const float* gx = nullptr;
   const float* gy = nullptr;
+  simd::PointBounds bounds = {};  ///< Of x and y, where known: saves the kernels a look at them.
 };
 
 /// The host pixels of one pyramid level. x, y and intensity have one length, gx and gy that length too or none.
 struct PatchLevel {
   std::vector<float> x, y, intensity, gx, gy;
+  simd::PointBounds bounds;  ///< Of x and y. Whoever changes these in place calls find_bounds(), or clears it.
+
+  void find_bounds() noexcept { bounds = simd::point_bounds(x.data(), y.data(), static_cast<int>(x.size())); }
 
   /// Valid until the vectors change.
   PatchView view() const noexcept {
     const bool gradients = gx.size() == x.size() && gy.size() == x.size();
     return {x.data(), y.data(), intensity.data(), nullptr, static_cast<int>(x.size()), gradients ? gx.data() : nullptr,
-            gradients ? gy.data() : nullptr};
+            gradients ? gy.data() : nullptr, bounds};
   }
 };
 
@@ -107,6 +112,7 @@ inline TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double
       level.gx.push_back(gx);
       level.gy.push_back(gy);
     }
+    level.find_bounds();
     most = std::max(most, level.x.size());
   }
   patch.status = static_cast<int>(most) < std::max(min_pixels, 1) ? Status::too_few : Status::ok;

@@ -1,4 +1,8 @@
-// The photometric residual of a planar text object and its normal equations: the public double reference.
+// The photometric residual of a planar text object and its normal equations: fast, and as the double reference.
+//
+// linearise_*(), evaluate() and residuals() run in float vectors where the target is 8-bit and the cost l2 or Huber
+// (simd/residual.hpp states the error), and are those of `reference` otherwise. `reference` is double throughout and slow: the
+// definition. A pixel within about 1e-4 px of the image's border or of a pixel line may fall on either side of it in the fast form.
 //
 // Residual of pixel i (docs/equations.md; the paper's E_text): r_i = I~_host(x_i) - I~_target(K pi(H m~_i)), with
 // H = R + t theta^T of T_t_h and I~ = (I - mean) / ||I - mean|| over the visible pixels alone, host side included. So r does
@@ -21,6 +25,7 @@
 
 #include "textplane/geometry/homography.hpp"
 #include "textplane/photometry/residual_autodiff.hpp"
+#include "textplane/photometry/residual_kernels.hpp"
 #include "textplane/photometry/residual_passes.hpp"
 #include "textplane/photometry/residual_types.hpp"
 
@@ -54,6 +59,44 @@ NormalEquations<P> linearise(const BasicPhotometricInput<T>& in, const Vector3<d
   out.visible = seen.visible;
   out.mean = stats.mean;
   out.s = stats.s;
+  return out;
+}
+
+// The equations for (v, omega, theta) seen through d xi(T_t_h) / d (xi_h, xi_t).
+inline NormalEquations<15> world_parameters(const NormalEquations<9>& inner, const SE3d& T_w_h, const SE3d& T_w_t,
+                                            PerturbationSide side) noexcept {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  NormalEquations<15> out;
+  out.status = inner.status;
+  if (!is_ok(out.status)) return out;
+
+  const RelativePoseJacobians<double> map = relative_pose_jacobians(T_w_h, T_w_t, side);
+  const Matrix6 pose = inner.H.topLeftCorner<6, 6>();
+  const Eigen::Matrix<double, 6, 3> cross = inner.H.topRightCorner<6, 3>();
+  const Vector6<double> b = inner.b.head<6>();
+  const Matrix6 pose_host = pose * map.host, pose_target = pose * map.target;
+  out.H.block<6, 6>(0, 0) = map.host.transpose() * pose_host;
+  out.H.block<6, 6>(0, 6) = map.host.transpose() * pose_target;
+  out.H.block<6, 6>(6, 6) = map.target.transpose() * pose_target;
+  out.H.block<6, 3>(0, 12) = map.host.transpose() * cross;
+  out.H.block<6, 3>(6, 12) = map.target.transpose() * cross;
+  out.H.block<3, 3>(12, 12) = inner.H.bottomRightCorner<3, 3>();
+  for (int i = 0; i < 15; ++i)
+    for (int j = 0; j < i; ++j) out.H(i, j) = out.H(j, i);
+  out.b.segment<6>(0) = map.host.transpose() * b;
+  out.b.segment<6>(6) = map.target.transpose() * b;
+  out.b.segment<3>(12) = inner.b.tail<3>();
+  if (!all_finite(out.H) || !all_finite(out.b)) {
+    out = NormalEquations<15>();
+    out.status = Status::non_finite;
+    return out;
+  }
+  out.cost = inner.cost;
+  out.error = inner.error;
+  out.zncc = inner.zncc;
+  out.visible = inner.visible;
+  out.mean = inner.mean;
+  out.s = inner.s;
   return out;
 }
 }  // namespace detail
@@ -94,41 +137,8 @@ NormalEquations<15> linearise_host_target_plane(const BasicPhotometricInput<T>& 
                                                 const SE3d& T_w_h, const SE3d& T_w_t, PerturbationSide side,
                                                 const PhotometricOptions& options,
                                                 PhotometricWorkspace& workspace) noexcept {
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const SE3d T_t_h = T_w_t.inverse() * T_w_h;
-  const NormalEquations<9> inner = detail::linearise<9>(input, theta, T_t_h, options, workspace);
-  NormalEquations<15> out;
-  out.status = inner.status;
-  if (!is_ok(out.status)) return out;
-
-  const RelativePoseJacobians<double> map = relative_pose_jacobians(T_w_h, T_w_t, side);
-  const Matrix6 pose = inner.H.topLeftCorner<6, 6>();
-  const Eigen::Matrix<double, 6, 3> cross = inner.H.topRightCorner<6, 3>();
-  const Vector6<double> b = inner.b.head<6>();
-  const Matrix6 pose_host = pose * map.host, pose_target = pose * map.target;
-  out.H.block<6, 6>(0, 0) = map.host.transpose() * pose_host;
-  out.H.block<6, 6>(0, 6) = map.host.transpose() * pose_target;
-  out.H.block<6, 6>(6, 6) = map.target.transpose() * pose_target;
-  out.H.block<6, 3>(0, 12) = map.host.transpose() * cross;
-  out.H.block<6, 3>(6, 12) = map.target.transpose() * cross;
-  out.H.block<3, 3>(12, 12) = inner.H.bottomRightCorner<3, 3>();
-  for (int i = 0; i < 15; ++i)
-    for (int j = 0; j < i; ++j) out.H(i, j) = out.H(j, i);
-  out.b.segment<6>(0) = map.host.transpose() * b;
-  out.b.segment<6>(6) = map.target.transpose() * b;
-  out.b.segment<3>(12) = inner.b.tail<3>();
-  if (!all_finite(out.H) || !all_finite(out.b)) {
-    out = NormalEquations<15>();
-    out.status = Status::non_finite;
-    return out;
-  }
-  out.cost = inner.cost;
-  out.error = inner.error;
-  out.zncc = inner.zncc;
-  out.visible = inner.visible;
-  out.mean = inner.mean;
-  out.s = inner.s;
-  return out;
+  return detail::world_parameters(detail::linearise<9>(input, theta, T_t_h, options, workspace), T_w_h, T_w_t, side);
 }
 
 /// The cost alone. With `on_set` (a byte a pixel, usually workspace.visible() after a linearisation) a trial step is judged
@@ -196,6 +206,67 @@ ResidualSummary residuals(const BasicPhotometricInput<T>& input, const Vector3<d
 }
 
 }  // namespace reference
+
+namespace detail {
+// Kernels where they take the call, the reference where not.
+template <int P, class T>
+NormalEquations<P> fast_linearise(const BasicPhotometricInput<T>& in, const Vector3<double>& theta, const SE3d& T_t_h,
+                                  const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
+  NormalEquations<P> out;
+  if constexpr (std::is_same<T, std::uint8_t>::value) {
+    out.status = check_input(in, theta, T_t_h, options, workspace);
+    if (!is_ok(out.status)) return out;
+    if (kernel_linearise<P>(in, theta, T_t_h, options, workspace, &out)) return out;
+  }
+  return linearise<P>(in, theta, T_t_h, options, workspace);
+}
+}  // namespace detail
+
+/// Normal equations for the pose, parameters (v, omega).
+template <class T>
+NormalEquations<6> linearise_pose(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
+                                  const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
+  return detail::fast_linearise<6>(input, theta, T_t_h, options, workspace);
+}
+
+/// Normal equations for the plane, parameters theta.
+template <class T>
+NormalEquations<3> linearise_plane(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
+                                   const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
+  return detail::fast_linearise<3>(input, theta, T_t_h, options, workspace);
+}
+
+/// Normal equations for both, parameters (v, omega, theta).
+template <class T>
+NormalEquations<9> linearise_pose_plane(const BasicPhotometricInput<T>& input, const Vector3<double>& theta,
+                                        const SE3d& T_t_h, const PhotometricOptions& options,
+                                        PhotometricWorkspace& workspace) noexcept {
+  return detail::fast_linearise<9>(input, theta, T_t_h, options, workspace);
+}
+
+/// Normal equations for the world poses of host and target and the plane: see reference::linearise_host_target_plane().
+template <class T>
+NormalEquations<15> linearise_host_target_plane(const BasicPhotometricInput<T>& input, const Vector3<double>& theta,
+                                                const SE3d& T_w_h, const SE3d& T_w_t, PerturbationSide side,
+                                                const PhotometricOptions& options,
+                                                PhotometricWorkspace& workspace) noexcept {
+  const SE3d T_t_h = T_w_t.inverse() * T_w_h;
+  return detail::world_parameters(detail::fast_linearise<9>(input, theta, T_t_h, options, workspace), T_w_h, T_w_t, side);
+}
+
+/// The cost alone: see reference::evaluate().
+template <class T>
+PhotometricCost evaluate(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
+                         const PhotometricOptions& options, PhotometricWorkspace& workspace,
+                         const std::uint8_t* on_set = nullptr) noexcept {
+  if constexpr (std::is_same<T, std::uint8_t>::value) {
+    PhotometricCost out;
+    out.status = detail::check_input(input, theta, T_t_h, options, workspace);
+    if (!is_ok(out.status)) return out;
+    if (detail::kernel_evaluate(input, theta, T_t_h, options, workspace, on_set, &out)) return out;
+  }
+  return reference::evaluate(input, theta, T_t_h, options, workspace, on_set);
+}
 
 TEXTPLANE_END_NAMESPACE
 

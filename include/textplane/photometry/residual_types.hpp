@@ -13,8 +13,10 @@
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/status.hpp"
 #include "textplane/photometry/patch.hpp"
+#include "textplane/photometry/prepared_target.hpp"
 #include "textplane/photometry/pyramid.hpp"
 #include "textplane/photometry/robust.hpp"
+#include "textplane/simd/residual.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -44,6 +46,7 @@ struct BasicPhotometricInput {
   PatchView patch;
   Pinhole<double> host_camera, target_camera;
   ImageView<const T> target;
+  PairView pairs = {};  ///< Of an 8-bit target, optional: PreparedTarget. Must be of the same image.
 };
 using PhotometricInput = BasicPhotometricInput<std::uint8_t>;
 using PhotometricInputF = BasicPhotometricInput<float>;
@@ -127,14 +130,13 @@ class PhotometricWorkspace {
   PhotometricWorkspace() = default;
   explicit PhotometricWorkspace(int n) { reserve(n); }
 
-  /// Makes room for patches of n pixels. The only member that allocates; never shrinks.
+  /// Makes room for patches of n pixels: 89 bytes a pixel and some. The only member that allocates; never shrinks.
   void reserve(int n) {
     if (n <= capacity()) return;
     const auto size = static_cast<std::size_t>(n);
+    const std::size_t doubles = size * (2 + kMaxRow) * sizeof(double), floats = simd::residual_scratch(n) * sizeof(float);
     visible_.resize(size);
-    host_.resize(size);
-    target_.resize(size);
-    rows_.resize(size * kMaxRow);
+    memory_.resize((doubles > floats ? doubles : floats) + kAlignment);
   }
   /// Kernels answer Status::invalid_argument for patches of more pixels than this.
   int capacity() const noexcept { return static_cast<int>(visible_.size()); }
@@ -143,16 +145,23 @@ class PhotometricWorkspace {
   /// pixel of its patch, 1 where visible. evaluate() leaves it alone, so that it can be passed there as `on_set`.
   const std::uint8_t* visible() const noexcept { return visible_.data(); }
 
-  /// Buffers of the kernels.
+  /// Buffers of the double reference, and that of the float kernels, which lies in the same memory.
   std::uint8_t* visible_flags() noexcept { return visible_.data(); }
-  double* host() noexcept { return host_.data(); }
-  double* target() noexcept { return target_.data(); }
-  double* rows() noexcept { return rows_.data(); }
+  double* host() noexcept { return reinterpret_cast<double*>(aligned()); }
+  double* target() noexcept { return host() + visible_.size(); }
+  double* rows() noexcept { return target() + visible_.size(); }
+  float* scratch() noexcept { return reinterpret_cast<float*>(aligned()); }
 
  private:
-  static constexpr std::size_t kMaxRow = 9;
+  static constexpr std::size_t kMaxRow = 9, kAlignment = 64;
+
+  unsigned char* aligned() noexcept {
+    const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
+    return memory_.data() + (kAlignment - address % kAlignment) % kAlignment;
+  }
+
   std::vector<std::uint8_t> visible_;
-  std::vector<double> host_, target_, rows_;
+  std::vector<unsigned char> memory_;
 };
 
 TEXTPLANE_END_NAMESPACE

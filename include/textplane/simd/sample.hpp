@@ -40,9 +40,16 @@ inline bool readable(const Image8& image) noexcept {
 /// A homography between recentred coordinates, in float: with u = x - hx and v = y - hy the target pixel is
 /// (ox, oy) + (g0 u + g1 v + g2, g3 u + g4 v + g5) / (g6 u + g7 v + g8), and in front where the divisor is positive.
 struct Warp8 {
-  float g[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  float hx = 0, hy = 0;
-  int ox = 0, oy = 0;
+  float g[9];
+  float hx, hy;
+  int ox, oy;
+};
+
+/// Bounds of n points, so that they need not be found again in every call. n = 0: not known; whatever n, the kernels use them
+/// for exactly as many points only, and find them where they are not given.
+struct PointBounds {
+  float x_low = 0, x_high = 0, y_low = 0, y_high = 0;
+  int n = 0;
 };
 
 /// Arguments of warp_points() and sample_points(). Outputs may not overlap inputs.
@@ -50,6 +57,7 @@ struct PointArgs {
   const float* x = nullptr;  ///< n points.
   const float* y = nullptr;
   int n = 0;
+  PointBounds bounds;                         ///< Of the n points, or none.
   double h[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< Row-major; its sign tells front from behind.
   Image8 image;                               ///< warp_points() takes its size alone, to choose the origin.
   float* out_x = nullptr;                     ///< Target px relative to the origin that is returned.
@@ -99,14 +107,41 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
+namespace detail {
+inline void point_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(point_bounds(x, y, n, out));
+}
+inline void warp_points(const simd::PointArgs& args, simd::PointResult* result) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(warp_points(args, result));
+}
+inline void sample_points(const simd::PointArgs& args, simd::PointResult* result) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(sample_points(args, result));
+}
+}  // namespace detail
+
 namespace simd {
+
+/// Bounds of n points; of none (n = 0) where a coordinate is not finite, for null pointers and n < 1.
+inline PointBounds point_bounds(const float* x, const float* y, int n) noexcept {
+  PointBounds out;
+  if (x && y && n > 0) detail::point_bounds(x, y, n, &out);
+  return out;
+}
 
 /// Target pixels of scattered points. Same bits on avx2, avx512 and neon, and on scalar and sse41; between the groups, and to
 /// the exact value, about 1e-5 px as said above.
-inline PointResult warp_points(const PointArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(warp_points(args)); }
+inline PointResult warp_points(const PointArgs& args) noexcept {
+  PointResult result;
+  detail::warp_points(args, &result);
+  return result;
+}
 
 /// The same with value and gradient of the image there.
-inline PointResult sample_points(const PointArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(sample_points(args)); }
+inline PointResult sample_points(const PointArgs& args) noexcept {
+  PointResult result;
+  detail::sample_points(args, &result);
+  return result;
+}
 
 /// Writes pairs(x, y) = I(x, y) | I(x, y + 1) << 8, y < height - 1, to `pairs`, `pair_stride` words from row to row. The caller
 /// guarantees an image that is readable() and room for (height - 2) * pair_stride + width words. Costs about what a copy of the

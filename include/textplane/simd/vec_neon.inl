@@ -146,3 +146,7 @@ TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return vcvtq_f32_s32(vsubq_
 TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept {
   return vcvtq_f32_s32(vsubq_s32(vsubq_s32(tap_11(t), tap_01(t)), vsubq_s32(tap_10(t), tap_00(t))));
 }
+
+// --- one double, one word ---
+TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return vget_lane_f64(vsqrt_f64(vdup_n_f64(a)), 0); }
+TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t word) noexcept { return __builtin_ctzll(word); }

@@ -112,3 +112,11 @@ TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return static_cast<float>(t
 TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept {
   return static_cast<float>(tap_byte(t, 0) - tap_byte(t, 1) - tap_byte(t, 2) + tap_byte(t, 3));
 }
+
+// --- one double, one word ---
+TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return __builtin_sqrt(a); }
+TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t word) noexcept {  // the number of the lowest bit that is set; word != 0
+  int bit = 0;
+  for (; (word & 1u) == 0; word >>= 1) ++bit;
+  return bit;
+}

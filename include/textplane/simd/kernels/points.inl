@@ -1,37 +1,15 @@
 // Scattered points through a homography: warp_points, sample_points; and the prepared target image. See simd/sample.hpp.
 
-// Least and greatest of n floats; NaN are ignored.
-TEXTPLANE_SIMD_INLINE void bounds_of(const float* p, int n, float* low, float* high) noexcept {
-  vf least = set1(p[0]), most = set1(p[0]);
-  for (int i = 0; i < n; i += kLanes) {
-    const int left = n - i;
-    const vf v = left >= kLanes ? load(p + i) : select(first_n(left), load_n(p + i, left), least);
-    least = min_(v, least);
-    most = max_(v, most);
-  }
-  *low = hmin(least);
-  *high = hmax(most);
-}
-
-// The middle of n floats; 0 where there is none.
-TEXTPLANE_SIMD_INLINE float middle_of(const float* p, int n) noexcept {
-  float low = 0.0F, high = 0.0F;
-  bounds_of(p, n, &low, &high);
-  const float middle = 0.5F * low + 0.5F * high;
-  return finite_d(middle) ? middle : 0.0F;
-}
-
-TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divisor) noexcept {
-  const vm across = and_(ge(x, set1(f.x_low)), le(x, set1(f.x_last)));
-  const vm down = and_(ge(y, set1(f.y_low)), le(y, set1(f.y_last)));
-  return and_(gt(divisor, zero()), and_(across, down));
+TEXTPLANE_SIMD_ENTRY void point_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept {
+  find_bounds(x, y, n, out);
 }
 
 TEXTPLANE_SIMD_INLINE bool prepare_points(const simd::PointArgs& a, simd::Warp8* warp, SampleFrame* frame,
                                           simd::PointResult* result) noexcept {
   if (!a.x || !a.y || !a.out_x || !a.out_y || a.n < 0) return false;
-  if (a.n > 0 && !make_warp(a.h, middle_of(a.x, a.n), middle_of(a.y, a.n), a.image.width, a.image.height, warp))
-    return false;
+  simd::PointBounds bounds = a.bounds;
+  if (a.n > 0 && bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
+  if (!make_warp(a.h, middle_x(bounds), middle_y(bounds), a.image.width, a.image.height, warp)) return false;
   make_sample_frame(a.image, *warp, frame);
   result->ox = warp->ox;
   result->oy = warp->oy;
@@ -39,19 +17,18 @@ TEXTPLANE_SIMD_INLINE bool prepare_points(const simd::PointArgs& a, simd::Warp8*
   return true;
 }
 
-TEXTPLANE_SIMD_ENTRY simd::PointResult warp_points(const simd::PointArgs& a) noexcept {
-  simd::PointResult result;
+TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResult* result) noexcept {
   simd::Warp8 warp;
   SampleFrame frame;
-  if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, &result)) return result;
-  if (!a.inside) result.inside = a.n;
+  if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
+  if (!a.inside) result->inside = a.n;
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
     vf x, y, divisor;
     warp_vector(warp, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
     if (a.inside) {
       const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
-      result.inside += count(in);
+      result->inside += count(in);
       const unsigned b = bits(in);
       for (int k = 0; k < left; ++k) a.inside[i + k] = static_cast<std::uint8_t>(b >> k & 1U);
     }
@@ -63,7 +40,6 @@ TEXTPLANE_SIMD_ENTRY simd::PointResult warp_points(const simd::PointArgs& a) noe
       store_n(a.out_y + i, y, left);
     }
   }
-  return result;
 }
 
 // Copies n floats.
@@ -74,11 +50,10 @@ TEXTPLANE_SIMD_INLINE void copy_part(float* to, const float* from, int n) noexce
   }
 }
 
-TEXTPLANE_SIMD_ENTRY simd::PointResult sample_points(const simd::PointArgs& a) noexcept {
-  simd::PointResult result;
+TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointResult* result) noexcept {
   simd::Warp8 warp;
   SampleFrame frame;
-  if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, &result)) return result;
+  if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
   const bool paired = frame.pairs != nullptr;
   SampleStrip strip;
   for (int begin = 0; begin < a.n; begin += kStrip) {
@@ -90,7 +65,7 @@ TEXTPLANE_SIMD_ENTRY simd::PointResult sample_points(const simd::PointArgs& a) n
       cell_vector(frame, tx, ty, &strip, i);
       const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
       const unsigned b = bits(in);
-      result.inside += count(in);
+      result->inside += count(in);
       store(x + i, tx);
       store(y + i, ty);
       store(gx + i, keep(in, set1(1.0F)));  // which ones count, until their values are known
@@ -112,7 +87,6 @@ TEXTPLANE_SIMD_ENTRY simd::PointResult sample_points(const simd::PointArgs& a) n
     copy_part(a.gx + begin, gx, n);
     copy_part(a.gy + begin, gy, n);
   }
-  return result;
 }
 
 TEXTPLANE_SIMD_ENTRY void prepare_pair16(const simd::Image8& image, std::uint16_t* pairs,

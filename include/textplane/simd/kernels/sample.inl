@@ -17,6 +17,33 @@ TEXTPLANE_SIMD_INLINE bool finite_d(double x) noexcept {
   return (b & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 
+// Bounds of n > 0 points; n = 0 in the result where a coordinate is not finite, and the other numbers are those of some points.
+TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept {
+  vf x_low = set1(x[0]), x_high = x_low, y_low = set1(y[0]), y_high = y_low, nothing = zero();
+  for (int i = 0; i < n; i += kLanes) {
+    const int left = n - i;
+    const vf px = left >= kLanes ? load(x + i) : select(first_n(left), load_n(x + i, left), set1(x[0]));
+    const vf py = left >= kLanes ? load(y + i) : select(first_n(left), load_n(y + i, left), set1(y[0]));
+    x_low = min_(px, x_low);
+    x_high = max_(px, x_high);
+    y_low = min_(py, y_low);
+    y_high = max_(py, y_high);
+    nothing = madd(add(px, py), zero(), nothing);  // the bounds do not see a NaN
+  }
+  out->x_low = hmin(x_low);
+  out->x_high = hmax(x_high);
+  out->y_low = hmin(y_low);
+  out->y_high = hmax(y_high);
+  const double all = hsum_d(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
+  out->n = finite_d(all) ? n : 0;
+}
+TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
+  const float middle = 0.5F * low + 0.5F * high;
+  return finite_d(middle) ? middle : 0.0F;
+}
+TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
+TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
+
 // The homography h (row-major, host pixel to target pixel) around the host centre (hx, hy) and the target pixel nearest to
 // where that goes; the middle of the image where it lies behind. False where it cannot be written in float.
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height, simd::Warp8* w) noexcept {
@@ -62,6 +89,13 @@ TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x
   const vf inverse = div(set1(1.0F), *divisor);
   *x = mul(madd(set1(w.g[0]), u, madd(set1(w.g[1]), v, set1(w.g[2]))), inverse);
   *y = mul(madd(set1(w.g[3]), u, madd(set1(w.g[4]), v, set1(w.g[5]))), inverse);
+}
+
+// In front, and inside [0, width - 1] x [0, height - 1].
+TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divisor) noexcept {
+  const vm across = and_(ge(x, set1(f.x_low)), le(x, set1(f.x_last)));
+  const vm down = and_(ge(y, set1(f.y_low)), le(y, set1(f.y_last)));
+  return and_(gt(divisor, zero()), and_(across, down));
 }
 
 // Cell of kLanes target points, clamped to the image (a NaN too): its offset and the position in it.

@@ -1,0 +1,36 @@
+// Entry points of the residual kernels: see simd/residual.hpp.
+
+// `parameters` 3, 6, 9: normal equations; 0: the cost alone, and `out` is null.
+TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                        double* b) noexcept {
+  simd::PointBounds bounds = a.bounds;
+  if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
+  ResidualFrame f;
+  info->status = Status::rank_deficient;
+  if (!make_frame(a, bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  // Host intensities that are not finite show in their sums: only then, a second time without them.
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    info->status = Status::too_few;
+    if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    info->status = parameters == 0 ? evaluate_pixels(a, f, pixels, s, info)
+                                   : linearise_large(parameters, a, f, pixels, s, info, H, b);
+    if (info->status != Status::non_finite) return;
+  }
+  info->status = Status::rank_deficient;
+}
+
+TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualSums* out) noexcept {
+  residual_any(3, a, &out->info, out->H, out->b);
+}
+TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualSums* out) noexcept {
+  residual_any(6, a, &out->info, out->H, out->b);
+}
+TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualSums* out) noexcept {
+  residual_any(9, a, &out->info, out->H, out->b);
+}
+TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
+  residual_any(0, a, info, nullptr, nullptr);
+}

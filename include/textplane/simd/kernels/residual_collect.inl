@@ -1,0 +1,120 @@
+// From host pixels to sampled target pixels: see simd/residual.hpp.
+
+TEXTPLANE_SIMD_INLINE void make_arrays(float* scratch, int n, ResidualArrays* s) noexcept {
+  const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(simd::residual_scratch(n) / 10);
+  s->x = scratch;
+  s->y = scratch + step;
+  s->a = scratch + 2 * step;
+  s->b = scratch + 3 * step;
+  s->i = scratch + 4 * step;
+  s->d = scratch + 5 * step;
+  s->hx = scratch + 6 * step;
+  s->hy = scratch + 7 * step;
+  s->h = scratch + 8 * step;
+  s->list = reinterpret_cast<std::int32_t*>(scratch + 9 * step);
+}
+
+// No byte of n is zero.
+TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
+  int i = 0;
+  for (; i + 8 <= n; i += 8) {
+    std::uint64_t w;
+    copy_bytes(&w, p + i, 8);
+    if (((w - 0x0101010101010101ULL) & ~w & 0x8080808080808080ULL) != 0) return false;
+  }
+  for (; i < n; ++i)
+    if (p[i] == 0) return false;
+  return true;
+}
+
+// Closes up the visible pixels into hx, hy, h; counts; flags.
+TEXTPLANE_SIMD_INLINE void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
+                                    simd::ResidualInfo* info) noexcept {
+  int candidates = 0, front = 0, visible = 0;
+  for (int i = 0; i < a.n; i += kLanes) {
+    const int left = a.n - i < kLanes ? a.n - i : kLanes;
+    unsigned b = (1U << left) - 1U;
+    if (a.mask)
+      for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.mask[i + k] == 0) << k);
+    if (a.on_set)
+      for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.on_set[i + k] == 0) << k);
+    const vf px = load_part(a.x + i, left), py = load_part(a.y + i, left), h = load_part(a.intensity + i, left);
+    vf x, y, divisor;
+    warp_vector(f.warp, px, py, &x, &y, &divisor);
+    const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
+    const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+    const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
+    const vm finite = le(abs_(h), set1(3.0e38F));
+    const unsigned in_front = b & bits(ahead), seen = in_front & bits(and_(inside_vector(f.sample, x, y, divisor), finite));
+    if (seen == (1U << kLanes) - 1U) {
+      store(s.hx + visible, px);
+      store(s.hy + visible, py);
+      store(s.h + visible, h);
+      visible += kLanes;
+    } else {
+      for (int k = 0; k < left; ++k) {
+        s.hx[visible] = a.x[i + k];
+        s.hy[visible] = a.y[i + k];
+        s.h[visible] = a.intensity[i + k];
+        visible += static_cast<int>(seen >> k & 1U);
+      }
+    }
+    if (a.flags)
+      for (int k = 0; k < left; ++k) a.flags[i + k] = static_cast<std::uint8_t>(seen >> k & 1U);
+    for (int k = 0; k < left; ++k) {
+      candidates += static_cast<int>(b >> k & 1U);
+      front += static_cast<int>(in_front >> k & 1U);
+    }
+  }
+  info->candidates = candidates;
+  info->behind = candidates - front;
+  info->visible = visible;
+}
+
+// Where the host pixels of the strips come from. Sets the counts and the flags.
+struct HostPixels {
+  const float *x, *y, *h;
+  int n;
+};
+// All of them, where the frame and the masks allow it; else (and where `close`) the visible ones, closed up.
+TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const ResidualFrame& f, bool close,
+                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
+  if (!close && f.inside && (!a.mask || all_set(a.mask, a.n)) && (!a.on_set || all_set(a.on_set, a.n))) {
+    info->candidates = info->visible = a.n;
+    info->behind = 0;
+    if (a.flags)
+      for (int i = 0; i < a.n; ++i) a.flags[i] = 1;
+    return HostPixels{a.x, a.y, a.intensity, a.n};
+  }
+  close_up(a, f, s, info);
+  return HostPixels{s.hx, s.hy, s.h, info->visible};
+}
+
+// Strip of n host pixels from `begin` on: target coordinates, intensities, gradients (unless `values` alone are wanted), host
+// intensities, all unshifted. Whole vectors are written, zero beyond n.
+TEXTPLANE_SIMD_INLINE void collect_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
+                                         const ResidualArrays& s, SampleStrip* strip) noexcept {
+  warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
+  fetch_taps(f.sample, n, strip);
+  const bool paired = f.sample.pairs != nullptr;
+  if (values) {
+    if (paired) interpolate_values(*strip, n, true, s.i + begin);
+    else interpolate_values(*strip, n, false, s.i + begin);
+  } else {
+    if (paired) interpolate_strip(*strip, n, true, s.i + begin, s.a + begin, s.b + begin);
+    else interpolate_strip(*strip, n, false, s.i + begin, s.a + begin, s.b + begin);
+    zero_tail(s.x + begin, n);
+    zero_tail(s.y + begin, n);
+    zero_tail(s.a + begin, n);
+    zero_tail(s.b + begin, n);
+  }
+  zero_tail(s.i + begin, n);
+  for (int i = 0; i < n; i += kLanes) store(s.d + begin + i, load_part(host.h + begin + i, n - i));
+}
+
+// Mean of n values.
+TEXTPLANE_SIMD_INLINE double mean_of(const float* p, int n) noexcept {
+  vf sum = zero();
+  for (int i = 0; i < n; i += kLanes) sum = add(sum, load(p + i));
+  return hsum_d(sum) / n;
+}

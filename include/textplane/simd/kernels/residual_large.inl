@@ -1,0 +1,358 @@
+// Many pixels: unweighted sums in one pass, then the residuals, then what the outliers' weights take away. See simd/residual.hpp.
+//
+// `form` is 3 (rows of theta), 6 (rows of v and omega) or 8 (rows of the pixel homography). Sums lie as follows, one after the
+// other: products of rows (6, 21, 27), then sums with three factors, one for each row: (1, I, d) for all pixels, (w, w n, w r)
+// for weighted ones.
+
+TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
+
+// Everything one strip needs besides its pixels.
+struct RowStrip {
+  float row[6][kStrip];
+};
+
+// Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too.
+TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x, const float* y,
+                                              const float* a, const float* b, int n, RowStrip* rows, float* acc) noexcept {
+  float(*r)[kStrip] = rows->row;
+  float* sums = acc + product_count(form) * kLanes;
+  if (form == 3) {
+    plane_rows(k, x, y, a, b, n, r);
+    if (plain) add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+    else add_squares3(r[0], r[1], r[2], n, acc);
+  } else if (form == 6) {
+    pose_rows(k, x, y, a, b, n, r);
+    if (plain) {
+      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+      add_squares_sums3(r[3], r[4], r[5], n, acc + 6 * kLanes, sums + 3 * kLanes);
+    } else {
+      add_squares3(r[0], r[1], r[2], n, acc);
+      add_squares3(r[3], r[4], r[5], n, acc + 6 * kLanes);
+    }
+    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 12 * kLanes);
+  } else {
+    homography_rows(x, y, a, b, n, r);
+    add_squares_sums3(a, r[0], r[1], n, acc, sums);
+    add_squares_sums3(b, r[2], r[3], n, acc + 6 * kLanes, sums + 3 * kLanes);
+    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, acc + 12 * kLanes, sums + 6 * kLanes);
+    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 18 * kLanes);
+  }
+}
+
+// Sums of the rows with the factors p and q, to the sums `first` and `second` of three.
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows, const float* p,
+                                          const float* q, int n, float* first, float* second) noexcept {
+  const float(*r)[kStrip] = rows.row;
+  if (form == 3) {
+    add_products3(r[0], r[1], r[2], p, q, n, first, second);
+  } else if (form == 6) {
+    add_products3(r[0], r[1], r[2], p, q, n, first, second);
+    add_products3(r[3], r[4], r[5], p, q, n, first + 3 * kLanes, second + 3 * kLanes);
+  } else {
+    add_products4(a, r[0], r[1], b, p, q, n, first, second);
+    add_products4(r[2], r[3], r[4], r[5], p, q, n, first + 4 * kLanes, second + 4 * kLanes);
+  }
+}
+
+// Adds the partial sums to the totals and clears them.
+TEXTPLANE_SIMD_INLINE void fold(float* acc, int sums, double* total) noexcept {
+  for (int k = 0; k < sums; ++k) {
+    total[k] += hsum_d(load(acc + k * kLanes));
+    store(acc + k * kLanes, zero());
+  }
+}
+
+// The target's and the host's offsets and kappa, from the first strip.
+struct Offsets {
+  float target, host, kappa;
+};
+TEXTPLANE_SIMD_INLINE Offsets first_offsets(const float* i, const float* h, int n) noexcept {
+  Offsets o;
+  o.target = static_cast<float>(mean_of(i, n));
+  o.host = static_cast<float>(mean_of(h, n));
+  vf t = zero(), s = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vm counted = first_n(n - k);
+    const vf p = keep(counted, sub(load(i + k), set1(o.target))), q = keep(counted, sub(load(h + k), set1(o.host)));
+    t = madd(p, p, t);
+    s = madd(q, q, s);
+  }
+  const double ratio = hsum_d(t) / hsum_d(s);
+  o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
+  return o;
+}
+
+// i less its offset, d = kappa (h - offset) - i, and the sums of both sides and their squares. Zero beyond n.
+struct SideSums {
+  double i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, float* TEXTPLANE_SIMD_RESTRICT host, int n,
+                                        const Offsets& o, SideSums* sums) noexcept {
+  vf si = zero(), sii = zero(), sh = zero(), shh = zero();
+  const vf kappa = set1(o.kappa);
+  for (int k = 0; k < n; k += kLanes) {
+    vf i = sub(load(target + k), set1(o.target)), h = sub(load(host + k), set1(o.host));
+    if (n - k < kLanes) {
+      i = keep(first_n(n - k), i);
+      h = keep(first_n(n - k), h);
+    }
+    store(target + k, i);
+    store(host + k, sub(mul(kappa, h), i));
+    si = add(si, i);
+    sh = add(sh, h);
+    sii = madd(i, i, sii);
+    shh = madd(h, h, shh);
+  }
+  sums->i += hsum_d(si);
+  sums->ii += hsum_d(sii);
+  sums->h += hsum_d(sh);
+  sums->hh += hsum_d(shh);
+}
+
+// r sqrt(N) = on_d d + on_i i + shift, and n = (I - mean) / s = (i - i_mean) / i_s.
+struct Residual {
+  double on_d, on_i, shift, i_mean, i_s;
+};
+
+// From the sums of both sides, for N pixels. no_contrast where there is none on either; non_finite for host intensities that are
+// not, or whose squares are not in float.
+TEXTPLANE_SIMD_INLINE Status make_residual(const simd::ResidualArgs& a, const Offsets& o, const SideSums& sums, int n, Residual* r, simd::ResidualInfo* info) noexcept {
+  const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
+  const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
+  if (!finite_d(h_squares)) return Status::non_finite;
+  // What rounding leaves of a constant side is no contrast either.
+  const double least = a.min_contrast > 0 ? a.min_contrast : 0, floor = 1e-6;
+  const double i_size = abs_d(i_mean + o.target), h_size = abs_d(h_mean + o.host);
+  const double i_sigma = i_squares > 0 ? sqrt_d(i_squares / count) : 0, h_sigma = h_squares > 0 ? sqrt_d(h_squares / count) : 0;
+  if (!(i_sigma > least) || !(i_sigma > floor * i_size)) return Status::no_contrast;
+  if (!(h_sigma > least) || !(h_sigma > floor * h_size)) return Status::no_contrast;
+  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
+  r->on_d = root / (kappa * h_s);
+  r->on_i = root * (1 / (kappa * h_s) - 1 / i_s);
+  r->shift = root * (i_mean / i_s - h_mean / h_s);
+  r->i_mean = i_mean;
+  r->i_s = i_s;
+  info->mean = i_mean + o.target;
+  info->s = i_s;
+  return Status::ok;
+}
+
+// Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta; returns
+// how many.
+TEXTPLANE_SIMD_INLINE int add_costs(const float* d, const float* i, int n, const Residual& r, bool huber, float delta,
+                                    std::int32_t* list, double* squares, double* rho) noexcept {
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift)), limit = set1(delta);
+  int listed = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    vf s = zero(), c = zero();
+    std::uint64_t word = 0;
+    int first = begin, filled = 0;
+    for (int k = begin; k < end; k += kLanes) {
+      vf e = madd(load(d + k), on_d, madd(load(i + k), on_i, shift));
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      s = madd(e, e, s);
+      if (!huber) continue;
+      const vf size = abs_(e), m = min_(size, limit);
+      c = madd(m, add(size, sub(size, m)), c);
+      if (!list) continue;
+      word |= static_cast<std::uint64_t>(bits(gt(size, limit))) << filled;
+      filled += kLanes;
+      if (filled == 64 || k + kLanes >= end) {
+        for (; word != 0; word &= word - 1) list[listed++] = first + lowest_bit(word);
+        first += filled;
+        filled = 0;
+      }
+    }
+    *squares += hsum_d(s);
+    *rho += huber ? hsum_d(c) : hsum_d(s);
+  }
+  return listed;
+}
+
+// n <= kStrip pixels that are given weights: coordinates, and gradient and factors times the root of the weight.
+struct WeightedStrip {
+  float x[kStrip], y[kStrip], a[kStrip], b[kStrip], p[kStrip], q[kStrip], r[kStrip];  // p = 1, q = n, r = r, times the root
+};
+
+// Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is Huber's w, or
+// (complement) 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
+TEXTPLANE_SIMD_INLINE void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n, const Residual& k,
+                                       double root, float delta, bool complement, WeightedStrip* w, double* sums) noexcept {
+  if (list) {
+    for (int j = 0; j < n; ++j) {
+      const std::ptrdiff_t at = list[j];
+      w->x[j] = s.x[at];
+      w->y[j] = s.y[at];
+      w->a[j] = s.a[at];
+      w->b[j] = s.b[at];
+      w->q[j] = s.i[at];
+      w->r[j] = s.d[at];
+    }
+    for (int j = n; j % kLanes != 0; ++j) w->x[j] = w->y[j] = w->a[j] = w->b[j] = w->q[j] = w->r[j] = 0.0F;
+  }
+  const vf on_d = set1(static_cast<float>(k.on_d)), on_i = set1(static_cast<float>(k.on_i));
+  const vf shift = set1(static_cast<float>(k.shift)), limit = set1(delta);
+  const vf i_mean = set1(static_cast<float>(k.i_mean)), i_scale = set1(static_cast<float>(1 / k.i_s));
+  const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
+  for (int j = 0; j < n; j += kLanes) {
+    const vf i = list ? load(w->q + j) : load(s.i + begin + j), d = list ? load(w->r + j) : load(s.d + begin + j);
+    const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
+    const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
+    const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
+    vf weight = div(min_(size, limit), max_(size, set1(1e-30F)));  // w; 1 - w below
+    weight = complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F)))
+                        : select(gt(size, limit), weight, one);
+    if (n - j < kLanes) weight = keep(first_n(n - j), weight);
+    const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
+    const vf q = mul(p, nn), r = mul(p, rr);
+    store(w->x + j, x);
+    store(w->y + j, y);
+    store(w->a + j, mul(p, a));
+    store(w->b + j, mul(p, b));
+    store(w->p + j, p);
+    store(w->q + j, q);
+    store(w->r + j, r);
+    s0 = add(s0, weight);
+    s1 = madd(p, q, s1);
+    s2 = madd(q, q, s2);
+    s3 = madd(p, r, s3);
+    s4 = madd(q, r, s4);
+  }
+  sums[0] += hsum_d(s0);
+  sums[1] += hsum_d(s1);
+  sums[2] += hsum_d(s2);
+  sums[3] += hsum_d(s3);
+  sums[4] += hsum_d(s4);
+}
+
+// The cost of the host pixels, of which there are at least a.min_visible.
+TEXTPLANE_SIMD_INLINE Status evaluate_pixels(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
+                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = {0, 0, 0, 0};
+  const int n = host.n;
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, true, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, s.d, count);
+    centre_strip(s.i + begin, s.d + begin, count, offsets, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double squares = 0, rho = 0;
+  add_costs(s.d, s.i, n, r, a.huber, static_cast<float>(a.delta), nullptr, &squares, &rho);
+  info->error = squares / n;
+  info->cost = rho / n;
+  return Status::ok;
+}
+
+// Normal equations of `parameters` (3, 6 or 9) for the host pixels, of which there are at least a.min_visible.
+TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
+                                             const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int form = parameters == 9 ? 8 : parameters, products = product_count(form), all = products + 3 * form;
+  const int n = host.n;
+  float acc[kMostSums * kMostLanes];
+  double total[kMostSums], other[kMostSums];
+  for (int k = 0; k < all; ++k) {
+    total[k] = other[k] = 0;
+    store(acc + k * kLanes, zero());
+  }
+  float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
+  RowConstants constants;
+  if (form != 8) make_row_constants(a, f, &constants);
+
+  SampleStrip strip;
+  RowStrip rows;
+  Offsets offsets;
+  SideSums sides = {0, 0, 0, 0};
+  int terms = 0;
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, false, s, &strip);
+    const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
+    float *i = s.i + begin, *d = s.d + begin;
+    if (begin == 0) offsets = first_offsets(i, d, count);
+    centre_strip(i, d, count, offsets, &sides);
+    add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
+    add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    terms += kStrip / kLanes;
+    if (terms >= kFoldTerms || begin + kStrip >= n) {
+      fold(acc, all, total);
+      terms = 0;
+    }
+  }
+
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  const double count = n, root = sqrt_d(count);
+  double squares = 0, rho = 0;
+  const float delta = static_cast<float>(a.delta);
+  const int outliers = add_costs(s.d, s.i, n, r, a.huber, delta, s.list, &squares, &rho);
+  info->error = squares / count;
+  info->cost = rho / count;
+
+  WeightedSums sums;
+  unpack_products(form, total, sums.S);
+  const double *j1 = total + products, *ji = j1 + form, *jd = ji + form;
+  for (int k = 0; k < form; ++k) {
+    sums.e[k] = j1[k] / count;
+    sums.jn[k] = (ji[k] - r.i_mean * j1[k]) / r.i_s;
+    sums.w1[k] = j1[k];
+    sums.wn[k] = sums.jn[k];
+    sums.wr[k] = (jd[k] * r.on_d + ji[k] * r.on_i + j1[k] * r.shift) / root;
+  }
+  sums.w[0] = count;
+  sums.w[1] = 0;
+  sums.w[2] = 1;
+  sums.w[3] = 0;
+  sums.w[4] = -0.5 * info->error;
+
+  if (outliers > 0) {
+    // Where most pixels are outliers their weighted sums are taken directly: little would be left of the others.
+    const bool direct = outliers > n / 2;
+    const int weighted = direct ? n : outliers;
+    double w[5] = {0, 0, 0, 0, 0};
+    WeightedStrip ws;
+    for (int begin = 0; begin < weighted; begin += kStrip) {
+      const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
+      weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
+      float* with_p = acc + products * kLanes;
+      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
+      if (form == 8)
+        for (int k = 0; k < form; ++k) store(with_p + k * kLanes, zero());
+      add_strip_sums(form, ws.a, ws.b, rows, ws.p, ws.q, m, with_p, sum_i);
+      add_strip_sums(form, ws.a, ws.b, rows, ws.r, ws.r, m, sum_d, sum_d);
+      fold(acc, all, other);
+    }
+    double S[8][8];
+    unpack_products(form, other, S);
+    const double sign = direct ? 1 : -1, *o1 = other + products, *on = o1 + form, *orr = on + form;
+    for (int k = 0; k < form; ++k) {
+      sums.w1[k] = (direct ? 0 : sums.w1[k]) + sign * o1[k];
+      sums.wn[k] = (direct ? 0 : sums.wn[k]) + sign * on[k];
+      sums.wr[k] = (direct ? 0 : sums.wr[k]) + sign * orr[k];
+      for (int j = 0; j < form; ++j) sums.S[k][j] = (direct ? 0 : sums.S[k][j]) + sign * S[k][j];
+    }
+    for (int k = 0; k < 5; ++k) sums.w[k] = (direct ? 0 : sums.w[k]) + sign * w[k];
+  }
+  project_sums(form, a.exact, r.i_s, &sums);
+  if (form == 8) {
+    double M[8][9];
+    parameter_matrix(a, f, M);
+    change_parameters(M, sums.S, sums.wr, H, b);
+  } else {
+    double scale[6] = {1, 1, 1, 1, 1, 1};
+    if (form == 6) pose_scale(a, scale);
+    for (int i = 0; i < form; ++i) {
+      b[i] = scale[i] * sums.wr[i];
+      for (int j = 0; j < form; ++j) H[form * i + j] = scale[i] * scale[j] * sums.S[i][j];
+    }
+  }
+  return Status::ok;
+}

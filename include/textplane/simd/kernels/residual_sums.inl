@@ -1,0 +1,186 @@
+// Sums of products of rows over a strip. A row is an array of n floats, zero up to the next whole vector; `acc` points to the
+// sums of kLanes partial sums each, to which is added. At most 12 sums a loop: they stay in registers.
+
+// r0 r0, r0 r1, r0 r2, r1 r1, r1 r2, r2 r2.
+TEXTPLANE_SIMD_INLINE void add_squares3(const float* r0, const float* r1, const float* r2, int n, float* acc) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    s0 = madd(a, a, s0);
+    s1 = madd(a, b, s1);
+    s2 = madd(a, c, s2);
+    s3 = madd(b, b, s3);
+    s4 = madd(b, c, s4);
+    s5 = madd(c, c, s5);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+}
+
+// The same, and to `sums` r0, r1, r2 themselves.
+TEXTPLANE_SIMD_INLINE void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, float* acc,
+                                             float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    s0 = madd(a, a, s0);
+    s1 = madd(a, b, s1);
+    s2 = madd(a, c, s2);
+    s3 = madd(b, b, s3);
+    s4 = madd(b, c, s4);
+    s5 = madd(c, c, s5);
+    t0 = add(t0, a);
+    t1 = add(t1, b);
+    t2 = add(t2, c);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+  store(sums + 2 * kLanes, t2);
+}
+
+// r_j q_k, j the slower index.
+TEXTPLANE_SIMD_INLINE void add_products33(const float* r0, const float* r1, const float* r2, const float* q0, const float* q1,
+                                          const float* q2, int n, float* acc) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(q0 + i), y = load(q1 + i), z = load(q2 + i);
+    s0 = madd(a, x, s0);
+    s1 = madd(a, y, s1);
+    s2 = madd(a, z, s2);
+    s3 = madd(b, x, s3);
+    s4 = madd(b, y, s4);
+    s5 = madd(b, z, s5);
+    s6 = madd(c, x, s6);
+    s7 = madd(c, y, s7);
+    s8 = madd(c, z, s8);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+}
+
+// r_j p to `acc`, r_j q to `acc2`, for the three rows of j.
+TEXTPLANE_SIMD_INLINE void add_products3(const float* r0, const float* r1, const float* r2, const float* p, const float* q, int n,
+                                         float* acc, float* acc2) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(p + i), y = load(q + i);
+    s0 = madd(a, x, s0);
+    s1 = madd(b, x, s1);
+    s2 = madd(c, x, s2);
+    t0 = madd(a, y, t0);
+    t1 = madd(b, y, t1);
+    t2 = madd(c, y, t2);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc2, t0);
+  store(acc2 + kLanes, t1);
+  store(acc2 + 2 * kLanes, t2);
+}
+
+// r_j p to `acc`, r_j q to `acc2`, for four rows.
+TEXTPLANE_SIMD_INLINE void add_products4(const float* r0, const float* r1, const float* r2, const float* r3, const float* p,
+                                         const float* q, int n, float* acc, float* acc2) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
+  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), d = load(r3 + i), x = load(p + i), y = load(q + i);
+    s0 = madd(a, x, s0);
+    s1 = madd(b, x, s1);
+    s2 = madd(c, x, s2);
+    s3 = madd(d, x, s3);
+    t0 = madd(a, y, t0);
+    t1 = madd(b, y, t1);
+    t2 = madd(c, y, t2);
+    t3 = madd(d, y, t3);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc2, t0);
+  store(acc2 + kLanes, t1);
+  store(acc2 + 2 * kLanes, t2);
+  store(acc2 + 3 * kLanes, t3);
+}
+
+// The products of (A, Ax, Ay) and (B, Bx, By) and the sums of Cx, Cy: six and two.
+TEXTPLANE_SIMD_INLINE void add_mixed(const float* a, const float* ax, const float* ay, const float* b, const float* bx,
+                                     const float* by, const float* cx, const float* cy, int n, float* acc,
+                                     float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf A = load(a + i), Ax = load(ax + i), B = load(b + i), Bx = load(bx + i), By = load(by + i);
+    s0 = madd(A, B, s0);
+    s1 = madd(A, Bx, s1);
+    s2 = madd(A, By, s2);
+    s3 = madd(Ax, Bx, s3);
+    s4 = madd(Ax, By, s4);
+    s5 = madd(load(ay + i), By, s5);
+    t0 = add(t0, load(cx + i));
+    t1 = add(t1, load(cy + i));
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+
+// The products with Cx, Cy: of (Ax, Ay), of (Bx, By), and their own; xx, xy, yy of each.
+TEXTPLANE_SIMD_INLINE void add_cubic(const float* ax, const float* ay, const float* bx, const float* by, const float* cx,
+                                     const float* cy, int n, float* acc) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf Cx = load(cx + i), Cy = load(cy + i), Ax = load(ax + i), Bx = load(bx + i);
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(load(ay + i), Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(load(by + i), Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+}

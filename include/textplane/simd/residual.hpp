@@ -1,0 +1,179 @@
+// The photometric residual of a planar text object and its normal equations, in float vectors: raw pointers in, sums out.
+// photometry/residual.hpp is the typed form and says what r, E, H and b are; docs/equations.md holds the formulas used here.
+//
+//   frame    H in double, recentred on patch and projected centre (simd/sample.hpp); corners of the patch tested for visibility
+//   collect  strips of 256 pixels: warp | taps | interpolation. Where a corner is not visible, or a mask is given, a pass before
+//            closes up the visible pixels
+//   sums     of products of rows, in float over at most 256 terms a lane, then in double
+//   finish   projection through mean and s, and change of parameters, in double
+//
+// Few pixels (kRowPixels) take rows of the parameters themselves, projected and weighted pixel by pixel. More take one pass of
+// unweighted sums and correct them for the outliers of Huber's cost, which alone have weights other than 1; all 9 parameters then
+// go through the 8 of the pixel homography.
+//
+// Error against the double reference, sigma being the standard deviation of the target's intensities and samples kept clear of
+// pixel lines (1e-4 px), where the gradient jumps: coordinates 1e-5 px for patches of 128 px. r sqrt(N): 1e-5 + 1e-5 |g| / sigma.
+// Entries of H and b: 3e-5 of sqrt(H_ii H_jj) and sqrt(H_ii); cost and E: 1e-5 of their size plus 1e-6.
+#ifndef TEXTPLANE_SIMD_RESIDUAL_HPP
+#define TEXTPLANE_SIMD_RESIDUAL_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+#include "textplane/simd/sample.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace simd {
+
+/// One host patch, one 8-bit target, one pose and plane. All arrays are the caller's.
+struct ResidualArgs {
+  const float* x = nullptr;  ///< n host pixels: positions, intensities.
+  const float* y = nullptr;
+  const float* intensity = nullptr;
+  int n = 0;
+  const std::uint8_t* mask = nullptr;    ///< If not null: pixels with 0 here do not exist.
+  const std::uint8_t* on_set = nullptr;  ///< Another such mask.
+  PointBounds bounds;                    ///< Of all n pixels, or none.
+  Image8 target;                         ///< readable().
+  double R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< Host to target, row-major.
+  double t[3] = {};
+  double theta[3] = {};          ///< Plane in the host frame, theta^T p = 1.
+  double host_camera[4] = {};    ///< fx, fy, cx, cy.
+  double target_camera[4] = {};
+  bool exact = true;             ///< Derivatives through mean and s; else both are held.
+  bool huber = true;             ///< Huber's weights, else none.
+  double delta = 0.5;            ///< Of Huber, on r sqrt(N).
+  double min_contrast = 0;       ///< Least standard deviation of either side, in intensity units.
+  int min_visible = 1;           ///< Sums are taken from this many visible pixels on.
+  std::uint8_t* flags = nullptr; ///< If not null: n bytes, 1 for visible pixels, 0 for others.
+  float* scratch = nullptr;      ///< residual_scratch(n) floats.
+};
+
+/// Floats of scratch memory for n pixels: ten arrays with room for whole vectors, whose starts differ modulo 4 KiB.
+constexpr std::size_t residual_scratch(int n) noexcept {
+  return 10 * ((static_cast<std::size_t>(n > 0 ? n : 0) + 159) / 256 * 256 + 112);
+}
+
+/// What is known about the residuals. All zero but for the counts unless the status is ok.
+struct ResidualInfo {
+  int candidates = 0;  ///< Pixels that the masks let through.
+  int behind = 0;      ///< Of these, behind one of the cameras.
+  int visible = 0;     ///< N.
+  double cost = 0;     ///< Sum of rho(N r^2) / N.
+  double error = 0;    ///< E = sum of r^2.
+  double mean = 0;     ///< Of the target intensities.
+  double s = 0;        ///< ||I - mean|| of the same.
+  /// ok; too_few below min_visible; no_contrast; rank_deficient where float or the homography's inverse do not carry the case,
+  /// and the double reference must take it.
+  Status status = Status::invalid_argument;
+};
+
+/// Normal equations, parameters as the functions say. H is P x P, row by row and symmetric; b has P entries.
+struct ResidualSums {
+  double H[81] = {};
+  double b[9] = {};
+  ResidualInfo info;
+};
+
+}  // namespace simd
+
+namespace detail {
+enum : int {
+  kRowPixels = 160,   // up to here rows of the parameters, from here on sums that are corrected
+  kFoldTerms = 256,   // terms of a lane before a sum goes to double
+  kMostSums = 51,     // 27 + 3 * 8
+  kMostLanes = 16,
+};
+
+// The geometry of one call. (c, d) is the target's principal point relative to the origin.
+struct ResidualFrame {
+  simd::Warp8 warp;
+  SampleFrame sample;
+  float rho[3];            // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
+  double inverse[9];       // H^-1, row-major
+  double q[3];             // theta^T H^-1
+  double c, d;
+  bool inside;             // every pixel of the patch is visible
+};
+
+// The caller's scratch: one array of each.
+struct ResidualArrays {
+  float *x, *y;            // target coordinates relative to the origin
+  float *a, *b;            // gradient there
+  float *i;                // target intensity, less an offset
+  float *d;                // host intensity, less an offset; later kappa times that, less i
+  float *hx, *hy, *h;      // visible host pixels, closed up
+  std::int32_t* list;
+};
+}  // namespace detail
+
+TEXTPLANE_END_NAMESPACE
+
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_frame.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_collect.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_sums.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_rows.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_finish.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_large.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual.inl"
+#include "textplane/simd/foreach_target.inl"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+inline void linearise_plane_sums(const simd::ResidualArgs& args, simd::ResidualSums* out) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(linearise_plane_sums(args, out));
+}
+inline void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualSums* out) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(linearise_pose_sums(args, out));
+}
+inline void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualSums* out) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(linearise_pose_plane_sums(args, out));
+}
+inline void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(evaluate_cost(args, out));
+}
+}  // namespace detail
+
+namespace simd {
+
+/// Normal equations for theta, P = 3.
+inline ResidualSums linearise_plane(const ResidualArgs& args) noexcept {
+  ResidualSums out;
+  detail::linearise_plane_sums(args, &out);
+  return out;
+}
+
+/// Normal equations for the pose, (v, omega), P = 6.
+inline ResidualSums linearise_pose(const ResidualArgs& args) noexcept {
+  ResidualSums out;
+  detail::linearise_pose_sums(args, &out);
+  return out;
+}
+
+/// Normal equations for both, (v, omega, theta), P = 9.
+inline ResidualSums linearise_pose_plane(const ResidualArgs& args) noexcept {
+  ResidualSums out;
+  detail::linearise_pose_plane_sums(args, &out);
+  return out;
+}
+
+/// Cost, E and counts alone.
+inline ResidualInfo evaluate(const ResidualArgs& args) noexcept {
+  ResidualInfo out;
+  detail::evaluate_cost(args, &out);
+  return out;
+}
+
+}  // namespace simd
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SIMD_RESIDUAL_HPP
