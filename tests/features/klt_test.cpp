@@ -78,8 +78,15 @@ TEST(Klt, IsBlindToGainAndBias) {
     ASSERT_EQ(plain[i].status, lit[i].status);
     if (!is_ok(plain[i].status)) continue;
     ++compared;
-    EXPECT_NEAR((plain[i].px - lit[i].px).norm(), 0, 1e-3);
-    EXPECT_NEAR(plain[i].zncc, lit[i].zncc, 1e-5);
+    // The two may take their last step from neighbouring positions of the grid, 1/64 px apart, of which an iteration
+    // removes more than four fifths.
+    EXPECT_NEAR((plain[i].px - lit[i].px).norm(), 0, 1.0 / 320);
+    // Samples are off by -3/128 to 1/128 grey level. Less their mean, that turns the normalised patch by at most 1/64 of its
+    // contrast, half of that in the brighter image; what a turn d does to a correlation z is at most sqrt(1 - z^2) d + d^2 / 2.
+    PatchTemplate seen;
+    ASSERT_EQ(extract_template(second.view(), plain[i].px, Eigen::Matrix2f::Identity(), 9, &seen), Status::ok);
+    const double turn = 1.05 * 1.5 / 64 / seen.contrast(), z = plain[i].zncc;
+    EXPECT_NEAR(z, lit[i].zncc, std::sqrt(1 - z * z) * turn + turn * turn / 2);
   }
   EXPECT_GT(compared, 50);
 }

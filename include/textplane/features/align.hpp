@@ -34,73 +34,38 @@ struct KltResult {
 
 namespace detail {
 
-// Sums over the target's samples v, taken relative to an offset near their mean so that floats keep their digits.
-struct AlignSums {
-  float v = 0, vv = 0;   // sum v, sum v^2
-  float tv = 0;          // sum T~ v
-  float xv = 0, yv = 0;  // sum J~ v
-};
-
-template <int Lanes>
-AlignSums align_sums(const PatchTemplate& t, const ImageView8& image, const SampleWindow& window,
-                     float offset) noexcept {
-  float c_v[Lanes] = {}, c_vv[Lanes] = {}, c_tv[Lanes] = {}, c_xv[Lanes] = {}, c_yv[Lanes] = {};
-  float upper[Lanes], lower[Lanes];
-  std::uint8_t padded[Lanes + 1] = {};
-  lerp_row<Lanes>(window_row(image, window.x, window.y, t.columns, Lanes, padded), window.fx, upper);
-  for (int y = 0; y < t.rows; ++y) {
-    lerp_row<Lanes>(window_row(image, window.x, window.y + y + 1, t.columns, Lanes, padded), window.fx, lower);
-    const float* value = t.value + y * Lanes;
-    const float* jx = t.jx + y * Lanes;
-    const float* jy = t.jy + y * Lanes;
-    for (int i = 0; i < Lanes; ++i) {
-      const float v = upper[i] + window.fy * (lower[i] - upper[i]) - offset;
-      c_v[i] += v;
-      c_vv[i] += v * v;
-      c_tv[i] += value[i] * v;
-      c_xv[i] += jx[i] * v;
-      c_yv[i] += jy[i] * v;
-    }
-    for (int i = 0; i < Lanes; ++i) upper[i] = lower[i];
-  }
-  AlignSums sums;
-  for (int i = 0; i < t.columns; ++i) {
-    sums.v += c_v[i];
-    sums.vv += c_vv[i];
-    sums.tv += c_tv[i];
-    sums.xv += c_xv[i];
-    sums.yv += c_yv[i];
-  }
-  return sums;
-}
-
 struct Alignment {
   float x = 0, y = 0, zncc = 0;
   Status status = Status::invalid_argument;
 };
 
-// Sums at the position (x, y) of the point, and their correlation. Status::out_of_view or no_contrast without one.
+// What a template finds at a position (x, y) of its point: the correlation, and b = sum J~ I~, of which the step is
+// -(J~^T J~)^-1 b. Taken at (at_x, at_y), the nearest position on the grid of 1/64 px. out_of_view or no_contrast
+// without one.
 struct Correlation {
-  AlignSums sums;
-  float inverse_norm = 0;  // 1 / ||I - mean||
-  float zncc = 0;
+  float at_x = 0, at_y = 0;
+  float zncc = 0, bx = 0, by = 0;
   Status status = Status::out_of_view;
 };
 
-inline Correlation correlate(const PatchTemplate& t, const ImageView8& image, float x, float y,
-                             float min_contrast) noexcept {
+inline Correlation correlate(const PatchTemplate& t, const ImageView8& image, float x, float y, float min_contrast) noexcept {
   Correlation c;
-  SampleWindow window;
-  if (!place_window(image, x - static_cast<float>(t.left), y - static_cast<float>(t.top), t.columns, t.rows, &window))
-    return c;
-  const float offset = static_cast<float>(image(window.x + t.left, window.y + t.top));
-  c.sums = t.stride == 16 ? align_sums<16>(t, image, window, offset) : align_sums<24>(t, image, window, offset);
-  const float n = static_cast<float>(t.count());
-  const float variance = c.sums.vv - c.sums.v * c.sums.v / n;
+  const float left = x - t.dx - static_cast<float>(t.left), top = y - t.dy - static_cast<float>(t.top);
+  PlacedWindow placed;
+  if (!place_window(image, left, top, t.columns, t.rows, &placed)) return c;
+  c.at_x = x + placed.moved_x;
+  c.at_y = y + placed.moved_y;
+  const simd::KltSums sums = simd::klt_sums(placed.window, t.patch);
+  constexpr double kScale = simd::kKltScale;
+  const double n = t.count();
+  const double vv = sums.vv - sums.v * sums.v / n;  // kScale^2 ||I - mean||^2
   c.status = Status::no_contrast;
-  if (!(variance > min_contrast * min_contrast * n) || !(variance > 1e-6F * n)) return c;
-  c.inverse_norm = 1.0F / std::sqrt(variance);
-  c.zncc = c.sums.tv * c.inverse_norm;
+  if (!(vv > kScale * kScale * n * (min_contrast * min_contrast)) || !(vv > 1e-6 * kScale * kScale * n)) return c;
+  const double inverse = 1.0 / (std::sqrt(vv) * t.norm);
+  const double tv = sums.tv - sums.v * t.mean_v;
+  c.bx = static_cast<float>((sums.xv - sums.v * t.mean_x - tv * t.along_x) * inverse);
+  c.by = static_cast<float>((sums.yv - sums.v * t.mean_y - tv * t.along_y) * inverse);
+  c.zncc = static_cast<float>(tv * inverse);
   c.zncc = c.zncc > -1.0F ? (c.zncc < 1.0F ? c.zncc : 1.0F) : -1.0F;
   c.status = Status::ok;
   return c;
@@ -117,7 +82,7 @@ inline Alignment align_translation(const PatchTemplate& t, const ImageView8& ima
     return result;
   }
   const float longest = 0.5F * static_cast<float>(t.columns < t.rows ? t.columns : t.rows);
-  float step_x = 0, step_y = 0;
+  float step_x = 0, step_y = 0, last2 = 0;
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     const Correlation c = correlate(t, image, x, y, options.min_contrast);
     if (iteration == 0 && !is_ok(c.status)) {
@@ -135,19 +100,25 @@ inline Alignment align_translation(const PatchTemplate& t, const ImageView8& ima
       result.status = worse ? Status::iteration_limit : c.status;
       continue;
     }
-    const float bx = c.sums.xv * c.inverse_norm, by = c.sums.yv * c.inverse_norm;
-    step_x = -(t.hyy * bx - t.hxy * by) / determinant;
-    step_y = -(t.hxx * by - t.hxy * bx) / determinant;
+    step_x = -(t.hyy * c.bx - t.hxy * c.by) / determinant;
+    step_y = -(t.hxx * c.by - t.hxy * c.bx) / determinant;
     const float length2 = step_x * step_x + step_y * step_y;
     if (length2 > longest * longest) {
       const float scale = longest / std::sqrt(length2);
       step_x *= scale;
       step_y *= scale;
     }
-    result = {x, y, c.zncc, Status::iteration_limit};
-    x += step_x;
-    y += step_y;
-    if (length2 < options.epsilon * options.epsilon) return {x, y, c.zncc, Status::converged};
+    // Done where the step is short, rounds to none, or where the one before was short and led no further up: between a few
+    // neighbours on the grid the iteration may go round for ever.
+    constexpr float kCell = 1.0F / simd::kKltSubpixels;
+    const float longer = std::abs(step_x) > std::abs(step_y) ? std::abs(step_x) : std::abs(step_y);
+    const bool done = length2 < options.epsilon * options.epsilon || longer <= 0.5F * kCell ||
+                      (iteration > 0 && last2 < 4.0F * kCell * kCell && c.zncc <= result.zncc);
+    last2 = length2;
+    result = {c.at_x, c.at_y, c.zncc, Status::iteration_limit};
+    x = c.at_x + step_x;
+    y = c.at_y + step_y;
+    if (done) return {x, y, c.zncc, Status::converged};
   }
   return result;
 }
