@@ -99,6 +99,8 @@ inline float round(float value, int mode) {
 #define _mm512_maskz_cvtepi32_ps(m, a) (emulated::convert<float, std::int32_t, __m512>((m), (a)))
 #undef _mm512_maskz_cvtepu8_epi32
 #define _mm512_maskz_cvtepu8_epi32(m, a) (emulated::convert<std::int32_t, std::uint8_t, __m512i>((m), (a)))
+#undef _mm512_maskz_cvtepi32_epi8
+#define _mm512_maskz_cvtepi32_epi8(m, a) (emulated::convert<std::int8_t, std::int32_t, __m128i>((m), (a)))
 #undef _mm512_maskz_cvtps_pd
 #define _mm512_maskz_cvtps_pd(m, a) (emulated::convert<double, float, __m512d>((m), (a)))
 #undef _mm512_maskz_cvttps_epi32
