@@ -134,7 +134,8 @@ class PhotometricWorkspace {
   void reserve(int n) {
     if (n <= capacity()) return;
     const auto size = static_cast<std::size_t>(n);
-    const std::size_t doubles = size * (2 + kMaxRow) * sizeof(double), floats = simd::residual_scratch(n) * sizeof(float);
+    const std::size_t doubles = size * (2 + kMaxRow) * sizeof(double);
+    const std::size_t floats = (simd::residual_scratch(n) + 2 * (size + 16)) * sizeof(float);
     visible_.resize(size);
     memory_.resize((doubles > floats ? doubles : floats) + kAlignment);
   }
@@ -151,6 +152,8 @@ class PhotometricWorkspace {
   double* target() noexcept { return host() + visible_.size(); }
   double* rows() noexcept { return target() + visible_.size(); }
   float* scratch() noexcept { return reinterpret_cast<float*>(aligned()); }
+  /// 2 (capacity() + 16) floats more, for the kernels of linearise_by().
+  float* more_scratch() noexcept { return scratch() + simd::residual_scratch(capacity()); }
 
  private:
   static constexpr std::size_t kMaxRow = 9, kAlignment = 64;

@@ -1,0 +1,169 @@
+// Bodies of simd/template.hpp. A strip of pixels passes through short loops, each near the limit of its ports (one long loop
+// is bound by the scheduler's window): divisors | positions | offsets and fractions | taps and interpolation | products.
+//
+// Range of the sums: a word product is at most 8191 * 8160, two of them in a lane, 16 vectors a strip: 2.14e9 < 2^31. After a
+// strip the lanes are split into low and high halves, which add up for kTemplateChunk pixels without overflow.
+
+enum : int {
+  kTemplateStrip = 16 * k16Lanes,
+  kTemplateChunk = 512 * kTemplateStrip,
+  kTemplateSums = 11,
+};
+
+struct TemplateStrip {
+  float inverse[kTemplateStrip];
+  std::int32_t x[kTemplateStrip], y[kTemplateStrip];  // in units of 2^-15 px
+  std::int32_t offset[kTemplateStrip];
+  std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
+};
+
+// 1 / w of two vectors by one division.
+TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
+  const vf g6 = set1(a.g[6]), g7 = set1(a.g[7]), one = set1(1.0f);
+  const float *u = a.u + from, *v = a.v + from;
+  for (int i = 0; i < n; i += k16Lanes) {
+    const vf w0 = madd(g6, load(u + i), madd(g7, load(v + i), one));
+    const vf w1 = madd(g6, load(u + i + kLanes), madd(g7, load(v + i + kLanes), one));
+    const vf r = div(one, mul(w0, w1));
+    store(s.inverse + i, mul(r, w1));
+    store(s.inverse + i + kLanes, mul(r, w0));
+  }
+}
+
+TEXTPLANE_SIMD_INLINE void template_positions(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
+  const float scale = 32768.0f;
+  const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
+  const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
+  const float *u = a.u + from, *v = a.v + from;
+  for (int i = 0; i < n; i += kLanes) {
+    const vf p = load(u + i), q = load(v + i), z = load(s.inverse + i);
+    storei(s.x + i, to_int(madd(madd(g0, p, madd(g1, q, g2)), z, half)));
+    storei(s.y + i, to_int(madd(madd(g3, p, madd(g4, q, g5)), z, half)));
+  }
+}
+
+// Offsets of the cells, in elements of what is read, clamped so that a cell lies in the buffer whatever its position.
+TEXTPLANE_SIMD_INLINE void template_cells(int stride, int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
+  const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  for (int i = 0; i < n; i += k16Lanes) {
+    const vi x0 = loadi(s.x + i), x1 = loadi(s.x + i + kLanes), y0 = loadi(s.y + i), y1 = loadi(s.y + i + kLanes);
+    const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
+    storei(s.offset + i, mini(maxi(o0, low), high));
+    storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
+    store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
+  }
+}
+
+// Two words of two pixels each: along f inside them, then along g from the first to the second.
+TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) noexcept {
+  const v16 a = add16(dot_pair(first, 64, 0), mul15(dot_pair(first, -64, 64), f));
+  const v16 b = add16(dot_pair(second, 64, 0), mul15(dot_pair(second, -64, 64), f));
+  return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
+}
+
+TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, const TemplateStrip& s,
+                                         std::int16_t* values) noexcept {
+  const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
+  const std::uint8_t* lower = upper + a.target.stride;
+  for (int i = 0; i < n; i += k16Lanes)
+    store16(values + i, template_value(gather16(upper, s.offset + i), gather16(lower, s.offset + i),
+                                      load16(s.fx + i), load16(s.fy + i)));
+}
+
+TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
+                                          std::int16_t* values) noexcept {
+  const std::uint16_t* origin = a.target.pairs + a.oy * a.target.pair_stride + a.ox;
+  for (int i = 0; i < n; i += k16Lanes) {
+    const vi p = gather_pairs(origin, s.offset + i), q = gather_pairs(origin, s.offset + i + kLanes);
+    store16(values + i, template_value(low16(p, q), high16(p, q), load16(s.fy + i), load16(s.fx + i)));
+  }
+}
+
+TEXTPLANE_SIMD_INLINE void template_flush(vi sum, vi* low, vi* high) noexcept {
+  *low = addi(*low, andi(sum, seti(65535)));
+  *high = addi(*high, shr(sum, 16));
+}
+
+// Sums of V, V^2 and V times the first column of the rows.
+TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std::int16_t* values, int n, vi* low,
+                                             vi* high) noexcept {
+  vi total = seti(0), square = total, host = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
+    for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = addi(total, dot16(value, ones));
+      square = addi(square, dot16(value, value));
+      host = addi(host, dot16(value, load16(rows + j)));
+    }
+  }
+  template_flush(total, low, high);
+  template_flush(square, low + 1, high + 1);
+  template_flush(host, low + 2, high + 2);
+}
+
+// Sums of V times the four columns from `rows` on.
+TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const std::int16_t* values, int n, vi* low,
+                                              vi* high) noexcept {
+  vi c0 = seti(0), c1 = c0, c2 = c0, c3 = c0;
+  for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
+    for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      c0 = addi(c0, dot16(value, load16(rows + j)));
+      c1 = addi(c1, dot16(value, load16(rows + j + simd::kTemplateBlock)));
+      c2 = addi(c2, dot16(value, load16(rows + j + 2 * simd::kTemplateBlock)));
+      c3 = addi(c3, dot16(value, load16(rows + j + 3 * simd::kTemplateBlock)));
+    }
+  }
+  template_flush(c0, low, high);
+  template_flush(c1, low + 1, high + 1);
+  template_flush(c2, low + 2, high + 2);
+  template_flush(c3, low + 3, high + 3);
+}
+
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives, simd::TemplateSums& out) noexcept {
+  const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
+  const int used = derivatives ? kTemplateSums : 3;
+  const bool paired = a.target.pairs != nullptr;
+  const int stride = static_cast<int>(paired ? a.target.pair_stride : a.target.stride);
+  const int low_offset = -(a.oy * stride + a.ox);
+  const int high_offset = (a.target.height - 2) * stride + a.target.width - 2 + low_offset;
+  for (int k = 0; k < simd::kTemplateColumns; ++k) out.column[k] = 0;
+  out.value = out.square = 0;
+  TemplateStrip strip;
+  for (int begin = 0; begin < padded; begin += kTemplateChunk) {
+    const int end = padded - begin < kTemplateChunk ? padded : begin + kTemplateChunk;
+    vi low[kTemplateSums], high[kTemplateSums];
+    for (int k = 0; k < used; ++k) low[k] = high[k] = seti(0);
+    for (int from = begin; from < end; from += kTemplateStrip) {
+      const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
+      std::int16_t* values = a.values + from;
+      const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
+      template_divide(a, from, n, strip);
+      template_positions(a, from, n, strip);
+      template_cells(stride, low_offset, high_offset, n, strip);
+      if (paired) template_pairs(a, n, strip, values);
+      else template_rows(a, n, strip, values);
+      if (a.n - from < n) zero16(values, a.n - from, n);
+      template_products(rows, values, n, low, high);
+      if (derivatives) {
+        template_products4(rows + simd::kTemplateBlock, values, n, low + 3, high + 3);
+        template_products4(rows + 5 * simd::kTemplateBlock, values, n, low + 7, high + 7);
+      }
+    }
+    std::int64_t total[kTemplateSums];
+    for (int k = 0; k < used; ++k) total[k] = hsumi(low[k]) + static_cast<std::int64_t>(hsumi(high[k])) * 65536;
+    out.value += total[0];
+    out.square += total[1];
+    for (int k = 2; k < used; ++k) out.column[k - 2] += total[k];
+  }
+}
+
+TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
+  template_run(a, true, out);
+}
+
+TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
+  template_run(a, false, out);
+}

@@ -1,0 +1,61 @@
+// Eight int16. The operations are defined in words_scalar.inl.
+
+enum : int { k16Lanes = 8 };
+using v16 = __m128i;
+
+TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm_set1_epi16(static_cast<short>(value)); }
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
+  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+}
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }
+TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm_add_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm_sub_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  return _mm_maddubs_epi16(t, _mm_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+}
+TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm_madd_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
+TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
+  const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+}
+// Two offsets a load; pinsrw and pinsrd, which beat gathers and the way through general registers.
+TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
+  std::uint64_t pair;
+  __builtin_memcpy(&pair, offset, 8);
+  return pair;
+}
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
+  return static_cast<std::int64_t>(pair) >> 32;
+}
+TEXTPLANE_SIMD_INLINE __m128i gather_words8(const std::uint8_t* p, const int* offset) noexcept {
+  const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
+  const std::uint64_t c = two_offsets(offset + 4), d = two_offsets(offset + 6);
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(p + first_offset(a))));
+  v = _mm_insert_epi16(v, static_cast<int>(load_half(p + second_offset(a))), 1);
+  v = _mm_insert_epi16(v, static_cast<int>(load_half(p + first_offset(b))), 2);
+  v = _mm_insert_epi16(v, static_cast<int>(load_half(p + second_offset(b))), 3);
+  v = _mm_insert_epi16(v, static_cast<int>(load_half(p + first_offset(c))), 4);
+  v = _mm_insert_epi16(v, static_cast<int>(load_half(p + second_offset(c))), 5);
+  v = _mm_insert_epi16(v, static_cast<int>(load_half(p + first_offset(d))), 6);
+  return _mm_insert_epi16(v, static_cast<int>(load_half(p + second_offset(d))), 7);
+}
+TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
+  const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(two_pairs(p + first_offset(a))));
+  v = _mm_insert_epi32(v, static_cast<int>(two_pairs(p + second_offset(a))), 1);
+  v = _mm_insert_epi32(v, static_cast<int>(two_pairs(p + first_offset(b))), 2);
+  return _mm_insert_epi32(v, static_cast<int>(two_pairs(p + second_offset(b))), 3);
+}
+TEXTPLANE_SIMD_INLINE v16 gather16(const std::uint8_t* p, const int* offset) noexcept { return gather_words8(p, offset); }
+TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept { return gather_pairs4(p, offset); }
+TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
+  return _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(a, 16), 16), _mm_srai_epi32(_mm_slli_epi32(b, 16), 16));
+}
+TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
+  return _mm_packs_epi32(_mm_srai_epi32(a, 16), _mm_srai_epi32(b, 16));
+}
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm_cvtepi16_epi32(v); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm_cvtepi16_epi32(_mm_srli_si128(v, 8)); }
