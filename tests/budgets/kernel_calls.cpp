@@ -1,0 +1,133 @@
+// One call of each kernel for callgrind to count the instructions of: see tests/budgets/check.sh.
+//
+// Outside of valgrind the client requests do nothing, and the program only shows that the calls succeed.
+#include <valgrind/callgrind.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "textplane/features/align.hpp"
+#include "textplane/features/fast.hpp"
+#include "textplane/photometry/residual.hpp"
+#include "textplane/photometry/warp_patch.hpp"
+#include "textplane/simd/sample.hpp"
+
+namespace tp = textplane;
+
+namespace {
+
+int failures = 0;
+
+// Counts the second call: the first one resolves the target and touches the memory.
+template <class Call>
+void count(const std::string& name, const Call& call) {
+  bool good = call();
+  CALLGRIND_START_INSTRUMENTATION;
+  CALLGRIND_ZERO_STATS;
+  good &= call();
+  CALLGRIND_DUMP_STATS_AT(name.c_str());
+  CALLGRIND_STOP_INSTRUMENTATION;
+  if (!good) std::printf("%s failed\n", name.c_str());
+  failures += good ? 0 : 1;
+}
+
+float intensity(double x, double y) {
+  return static_cast<float>(128 + 55 * std::sin(0.31 * x + 0.11 * y) + 55 * std::sin(0.07 * x - 0.23 * y + 1));
+}
+
+struct Scene {
+  static constexpr int kWidth = 320, kHeight = 240;
+  tp::Image<std::uint8_t> image{kWidth, kHeight};
+  tp::Image<float> image_f{kWidth, kHeight};
+  tp::Pinhole<double> camera{300, 300, 159.5, 119.5};
+  tp::Vector3<double> theta{0.1, -0.05, 0.5};
+  tp::SE3d T_t_h = tp::se3_exp<double>((tp::Vector6<double>() << 0.02, -0.01, 0.03, 0.01, -0.02, 0.015).finished());
+
+  Scene() {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        image_f(x, y) = intensity(x, y);
+        image(x, y) = static_cast<std::uint8_t>(image_f(x, y));
+      }
+  }
+};
+
+// n scattered pixels of a rectangle of 100 x 40, one in ten of them an outlier.
+struct Pixels {
+  std::vector<float> x, y, value;
+  explicit Pixels(int n) {
+    for (int i = 0; i < n; ++i) {
+      const int cell = static_cast<int>((static_cast<long>(i) * 2654435761L) % 4000);
+      x.push_back(static_cast<float>(110 + cell % 100));
+      y.push_back(static_cast<float>(100 + cell / 100));
+      value.push_back(intensity(x.back(), y.back()) + (i % 10 == 9 ? 70.0F : 0.0F));
+    }
+  }
+};
+
+void count_residual(const Scene& scene, int n) {
+  const Pixels pixels(n);
+  tp::PhotometricWorkspace workspace(n);
+  tp::PhotometricInput input;
+  input.patch.x = pixels.x.data();
+  input.patch.y = pixels.y.data();
+  input.patch.intensity = pixels.value.data();
+  input.patch.n = n;
+  input.host_camera = input.target_camera = scene.camera;
+  input.target = scene.image.view();
+  const tp::PhotometricOptions options;
+  const std::string size = "/" + std::to_string(n);
+  count("pose" + size, [&] {
+    return is_ok(tp::linearise_pose(input, scene.theta, scene.T_t_h, options, workspace).status);
+  });
+  count("plane" + size, [&] {
+    return is_ok(tp::linearise_plane(input, scene.theta, scene.T_t_h, options, workspace).status);
+  });
+  count("pose_plane" + size, [&] {
+    return is_ok(tp::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, workspace).status);
+  });
+  count("cost" + size, [&] {
+    return is_ok(tp::evaluate(input, scene.theta, scene.T_t_h, options, workspace).status);
+  });
+}
+
+template <class S, class D>
+void count_warp(const char* name, const tp::Image<S>& image) {
+  const tp::Matrix3<double> H = (tp::Matrix3<double>() << 1.02, 0.05, 90.3, -0.03, 0.98, 80.7, 1e-4, -5e-5, 1).finished();
+  tp::Image<D> out(100, 40);
+  count(name, [&] { return is_ok(tp::warp_patch<S, D>(image.view(), H, out.view()).status); });
+}
+
+void count_features(const Scene& scene) {
+  tp::Image<std::uint8_t> half(Scene::kWidth / 2, Scene::kHeight / 2);
+  count("halve/320x240", [&] { return is_ok(tp::halve(scene.image.view(), half.view())); });
+
+  std::vector<std::uint8_t> scratch(tp::fast_scratch_size(Scene::kWidth));
+  std::vector<tp::Corner> corners(5000);
+  count("fast/320x240", [&] {
+    int found = 0;
+    return is_ok(tp::detect_fast(scene.image.view(), 10, true, scratch.data(), corners.data(), 5000, &found));
+  });
+
+  tp::PatchTemplate patch;
+  count("klt_template/21x21", [&] {
+    return is_ok(tp::extract_template(scene.image.view(), {150.3F, 110.6F}, Eigen::Matrix2f::Identity(), 10, &patch));
+  });
+  count("klt_align/21x21", [&] {
+    return is_ok(tp::align_template(patch, scene.image.view(), {151.1F, 110.0F}).status);
+  });
+}
+
+}  // namespace
+
+int main() {
+  const Scene scene;
+  for (const int n : {15, 64, 256, 1000, 4000}) count_residual(scene, n);
+  count_warp<std::uint8_t, float>("warp_u8_f32/100x40", scene.image);
+  count_warp<std::uint8_t, std::uint8_t>("warp_u8_u8/100x40", scene.image);
+  count_warp<float, float>("warp_f32_f32/100x40", scene.image_f);
+  count_features(scene);
+  return failures == 0 ? 0 : 1;
+}
