@@ -82,7 +82,7 @@ namespace detail {
 enum : int {
   kRowPixels = 160,   // up to here rows of the parameters, from here on sums that are corrected
   kFoldTerms = 256,   // terms of a lane before a sum goes to double
-  kMostSums = 51,     // 27 + 3 * 8
+  kMostSums = 52,     // 27 + 3 * 8, and a multiple of four
   kMostLanes = 16,
 };
 

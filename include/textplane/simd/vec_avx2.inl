@@ -154,3 +154,28 @@ TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff
 // --- one double, one word ---
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t word) noexcept { return __builtin_ctzll(word); }
+
+// --- 8 doubles ---
+struct vd {
+  __m256d low, high;
+};
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept { return vd{_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)}; }
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  _mm256_storeu_pd(p, a.low);
+  _mm256_storeu_pd(p + 4, a.high);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  const __m256d v = _mm256_set1_pd(value);
+  return vd{v, v};
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  return vd{_mm256_mul_pd(a.low, b.low), _mm256_mul_pd(a.high, b.high)};
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  return vd{_mm256_fmadd_pd(a.low, b.low, c.low), _mm256_fmadd_pd(a.high, b.high, c.high)};
+}
+
+TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+  const __m256 s = _mm256_hadd_ps(_mm256_hadd_ps(a, b), _mm256_hadd_ps(c, d));
+  _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
+}

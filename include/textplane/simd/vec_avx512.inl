@@ -144,3 +144,23 @@ TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff
 // --- one double, one word ---
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t word) noexcept { return __builtin_ctzll(word); }
+
+// --- 8 doubles ---
+struct vd {
+  __m512d all;
+};
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept { return vd{_mm512_loadu_pd(p)}; }
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept { _mm512_storeu_pd(p, a.all); }
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept { return vd{_mm512_set1_pd(value)}; }
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept { return vd{_mm512_mul_pd(a.all, b.all)}; }
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept { return vd{_mm512_fmadd_pd(a.all, b.all, c.all)}; }
+
+TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept {  // lane i + lane i + 8
+  const __m512d upper = _mm512_castps_pd(_mm512_maskz_shuffle_f32x4(0xffff, a, a, 0xee));
+  return _mm256_add_ps(_mm512_castps512_ps256(a), _mm512_castps512_ps256(_mm512_castpd_ps(upper)));
+}
+TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+  const __m256 s =
+      _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
+  _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
+}

@@ -150,3 +150,33 @@ TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept {
 // --- one double, one word ---
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return vget_lane_f64(vsqrt_f64(vdup_n_f64(a)), 0); }
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t word) noexcept { return __builtin_ctzll(word); }
+
+// --- 8 doubles ---
+struct vd {
+  float64x2_t part[4];
+};
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  return vd{{vld1q_f64(p), vld1q_f64(p + 2), vld1q_f64(p + 4), vld1q_f64(p + 6)}};
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  vst1q_f64(p, a.part[0]);
+  vst1q_f64(p + 2, a.part[1]);
+  vst1q_f64(p + 4, a.part[2]);
+  vst1q_f64(p + 6, a.part[3]);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  const float64x2_t v = vdupq_n_f64(value);
+  return vd{{v, v, v, v}};
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  return vd{{vmulq_f64(a.part[0], b.part[0]), vmulq_f64(a.part[1], b.part[1]), vmulq_f64(a.part[2], b.part[2]),
+             vmulq_f64(a.part[3], b.part[3])}};
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  return vd{{vfmaq_f64(c.part[0], a.part[0], b.part[0]), vfmaq_f64(c.part[1], a.part[1], b.part[1]),
+             vfmaq_f64(c.part[2], a.part[2], b.part[2]), vfmaq_f64(c.part[3], a.part[3], b.part[3])}};
+}
+
+TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+  vst1q_f32(out, vpaddq_f32(vpaddq_f32(a, b), vpaddq_f32(c, d)));
+}

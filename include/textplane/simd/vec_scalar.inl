@@ -120,3 +120,37 @@ TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t word) noexcept {  // the numb
   for (; (word & 1u) == 0; word >>= 1) ++bit;
   return bit;
 }
+
+// --- 8 doubles, on every target ---
+struct vd {
+  double lane[8];
+};
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  vd r;
+  for (int i = 0; i < 8; ++i) r.lane[i] = p[i];
+  return r;
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  for (int i = 0; i < 8; ++i) p[i] = a.lane[i];
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  vd r;
+  for (int i = 0; i < 8; ++i) r.lane[i] = value;
+  return r;
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  for (int i = 0; i < 8; ++i) a.lane[i] *= b.lane[i];
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {  // as madd
+  for (int i = 0; i < 8; ++i) c.lane[i] += a.lane[i] * b.lane[i];
+  return c;
+}
+
+// hsum of four vectors to out[0 .. 3]: neighbouring lanes join first.
+TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+  out[0] = a;
+  out[1] = b;
+  out[2] = c;
+  out[3] = d;
+}

@@ -148,3 +148,34 @@ TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff
 // --- one double, one word ---
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t word) noexcept { return __builtin_ctzll(word); }
+
+// --- 8 doubles ---
+struct vd {
+  __m128d part[4];
+};
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  return vd{{_mm_loadu_pd(p), _mm_loadu_pd(p + 2), _mm_loadu_pd(p + 4), _mm_loadu_pd(p + 6)}};
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  _mm_storeu_pd(p, a.part[0]);
+  _mm_storeu_pd(p + 2, a.part[1]);
+  _mm_storeu_pd(p + 4, a.part[2]);
+  _mm_storeu_pd(p + 6, a.part[3]);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  const __m128d v = _mm_set1_pd(value);
+  return vd{{v, v, v, v}};
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  return vd{{_mm_mul_pd(a.part[0], b.part[0]), _mm_mul_pd(a.part[1], b.part[1]), _mm_mul_pd(a.part[2], b.part[2]),
+             _mm_mul_pd(a.part[3], b.part[3])}};
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  const vd p = muld(a, b);
+  return vd{{_mm_add_pd(p.part[0], c.part[0]), _mm_add_pd(p.part[1], c.part[1]), _mm_add_pd(p.part[2], c.part[2]),
+             _mm_add_pd(p.part[3], c.part[3])}};
+}
+
+TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+  _mm_storeu_ps(out, _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, d)));
+}

@@ -27,6 +27,14 @@ TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
   return true;
 }
 
+// Sets n bytes to 1.
+TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
+  const std::uint64_t ones = 0x0101010101010101ULL;
+  int i = 0;
+  for (; i + 8 <= n; i += 8) copy_bytes(p + i, &ones, 8);
+  for (; i < n; ++i) p[i] = 1;
+}
+
 // Closes up the visible pixels into hx, hy, h; counts; flags.
 TEXTPLANE_SIMD_INLINE void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
                                     simd::ResidualInfo* info) noexcept {
@@ -82,16 +90,15 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
   if (!close && f.inside && (!a.mask || all_set(a.mask, a.n)) && (!a.on_set || all_set(a.on_set, a.n))) {
     info->candidates = info->visible = a.n;
     info->behind = 0;
-    if (a.flags)
-      for (int i = 0; i < a.n; ++i) a.flags[i] = 1;
+    if (a.flags) set_all(a.flags, a.n);
     return HostPixels{a.x, a.y, a.intensity, a.n};
   }
   close_up(a, f, s, info);
   return HostPixels{s.hx, s.hy, s.h, info->visible};
 }
 
-// Strip of n host pixels from `begin` on: target coordinates, intensities, gradients (unless `values` alone are wanted), host
-// intensities, all unshifted. Whole vectors are written, zero beyond n.
+// Strip of n host pixels from `begin` on: target coordinates, intensities, gradients (unless `values` alone are wanted). Whole
+// vectors are written, zero beyond n.
 TEXTPLANE_SIMD_INLINE void collect_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                          const ResidualArrays& s, SampleStrip* strip) noexcept {
   warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
@@ -109,12 +116,4 @@ TEXTPLANE_SIMD_INLINE void collect_strip(const HostPixels& host, const ResidualF
     zero_tail(s.b + begin, n);
   }
   zero_tail(s.i + begin, n);
-  for (int i = 0; i < n; i += kLanes) store(s.d + begin + i, load_part(host.h + begin + i, n - i));
-}
-
-// Mean of n values.
-TEXTPLANE_SIMD_INLINE double mean_of(const float* p, int n) noexcept {
-  vf sum = zero();
-  for (int i = 0; i < n; i += kLanes) sum = add(sum, load(p + i));
-  return hsum_d(sum) / n;
 }

@@ -59,80 +59,86 @@ struct WeightedSums {
 TEXTPLANE_SIMD_INLINE void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
   const double scale = 1 / (s * s);
   if (exact) {
-    double p[8], q[8];
+    double p[8] = {0, 0, 0, 0, 0, 0, 0, 0}, q[8] = {0, 0, 0, 0, 0, 0, 0, 0};
     for (int i = 0; i < form; ++i) {
       p[i] = k->w1[i] - 0.5 * (k->w[0] * k->e[i] + k->w[1] * k->jn[i]);
       q[i] = k->wn[i] - 0.5 * (k->w[2] * k->jn[i] + k->w[1] * k->e[i]);
       k->wr[i] -= k->e[i] * k->w[3] + k->jn[i] * k->w[4];
     }
-    for (int i = 0; i < form; ++i)
-      for (int j = 0; j < form; ++j)
-        k->S[i][j] -= k->e[i] * p[j] + p[i] * k->e[j] + k->jn[i] * q[j] + q[i] * k->jn[j];
+    const vd e = loadd(k->e), jn = loadd(k->jn), vp = loadd(p), vq = loadd(q);
+    for (int i = 0; i < form; ++i) {
+      const vd by_e = maddd(setd(-k->e[i]), vp, maddd(setd(-p[i]), e, loadd(k->S[i])));
+      stored(k->S[i], maddd(setd(-k->jn[i]), vq, maddd(setd(-q[i]), jn, by_e)));
+    }
   }
   for (int i = 0; i < form; ++i) {
-    k->wr[i] /= -s;
-    for (int j = 0; j < form; ++j) k->S[i][j] *= scale;
+    k->wr[i] *= -scale * s;
+    stored(k->S[i], muld(setd(scale), loadd(k->S[i])));
   }
 }
 
 // d j / d parameter: columns v, omega, theta of the matrix M, which takes rows of the pixel homography to rows of the parameters.
-TEXTPLANE_SIMD_INLINE void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[9]) noexcept {
-  const double fx = a.target_camera[0], fy = a.target_camera[1], c = f.c, d = f.d;
-  const double fxy = fx / fy, fyx = fy / fx, cx = c / fx, dy = d / fy;
+// Rows 0 to 7 of the result hold columns 0 to 7; row 8 holds column 8.
+TEXTPLANE_SIMD_INLINE void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
+  const double fx = a.target_camera[0], fy = a.target_camera[1], ix = 1 / fx, iy = 1 / fy, c = f.c, d = f.d;
+  const double fxy = fx * iy, fyx = fy * ix, cx = c * ix, dy = d * iy;
   for (int k = 0; k < 9; ++k) {
     // The generator dH H^-1 of this parameter is left^T right, or [e]x.
-    double m[8];
+    double m0 = 0, m1 = 0, m2 = 0, m3 = 0, m4 = 0, m5 = 0, m6 = 0, m7 = 0;
     if (k >= 3 && k < 6) {
-      m[0] = k == 4 ? 1 : 0;
-      m[1] = 0;
-      m[2] = k == 5 ? -1 : 0;
-      m[3] = k == 3 ? -1 : 0;
-      m[4] = k == 5 ? 1 : 0;
-      m[5] = 0;
-      m[6] = k == 4 ? 1 : 0;
-      m[7] = k == 3 ? -1 : 0;
+      m0 = m6 = k == 4 ? 1 : 0;
+      m3 = m7 = k == 3 ? -1 : 0;
+      m2 = k == 5 ? -1 : 0;
+      m4 = -m2;
     } else {
       const double* right = k < 3 ? f.q : f.inverse + 3 * (k - 6);
       const double l0 = k < 3 ? (k == 0 ? 1 : 0) : a.t[0], l1 = k < 3 ? (k == 1 ? 1 : 0) : a.t[1];
       const double l2 = k < 3 ? (k == 2 ? 1 : 0) : a.t[2];
-      m[0] = l0 * right[2];
-      m[1] = l0 * right[0] - l2 * right[2];
-      m[2] = l0 * right[1];
-      m[3] = l1 * right[2];
-      m[4] = l1 * right[0];
-      m[5] = l1 * right[1] - l2 * right[2];
-      m[6] = -l2 * right[0];
-      m[7] = -l2 * right[1];
+      m0 = l0 * right[2];
+      m1 = l0 * right[0] - l2 * right[2];
+      m2 = l0 * right[1];
+      m3 = l1 * right[2];
+      m4 = l1 * right[0];
+      m5 = l1 * right[1] - l2 * right[2];
+      m6 = -l2 * right[0];
+      m7 = -l2 * right[1];
     }
-    M[0][k] = fx * m[0] - c * m[1] - fxy * d * m[2] + c * (cx * m[6] + dy * m[7]);
-    M[1][k] = m[1] - 2 * cx * m[6] - dy * m[7];
-    M[2][k] = fxy * m[2] - c / fy * m[7];
-    M[3][k] = fy * m[3] - fyx * c * m[4] - d * m[5] + d * (cx * m[6] + dy * m[7]);
-    M[4][k] = fyx * m[4] - d / fx * m[6];
-    M[5][k] = m[5] - cx * m[6] - 2 * dy * m[7];
-    M[6][k] = m[6] / fx;
-    M[7][k] = m[7] / fy;
+    double* out = k < 8 ? &M[0][k] : M[8];
+    const int step = k < 8 ? 8 : 1;
+    const double both = cx * m6 + dy * m7;
+    out[0] = fx * m0 - c * m1 - fxy * d * m2 + c * both;
+    out[step] = m1 - cx * m6 - both;
+    out[2 * step] = fxy * m2 - c * iy * m7;
+    out[3 * step] = fy * m3 - fyx * c * m4 - d * m5 + d * both;
+    out[4 * step] = fyx * m4 - d * ix * m6;
+    out[5 * step] = m5 - both - dy * m7;
+    out[6 * step] = m6 * ix;
+    out[7 * step] = m7 * iy;
   }
 }
 
-// H = M^T S M, b = M^T g.
-TEXTPLANE_SIMD_INLINE void change_parameters(const double (*M)[9], const double (*S)[8], const double* g, double* H,
+// The row of `left` times the rows of eight columns.
+TEXTPLANE_SIMD_INLINE vd row_product(const double* left, std::ptrdiff_t step, const double (*rows)[8]) noexcept {
+  vd sum = muld(setd(left[0]), loadd(rows[0]));
+  for (int k = 1; k < 8; ++k) sum = maddd(setd(left[k * step]), loadd(rows[k]), sum);
+  return sum;
+}
+
+// H = M^T S M (9 x 9) and b = M^T g.
+TEXTPLANE_SIMD_INLINE void change_parameters(const double (*M)[8], const double (*S)[8], const double* g, double* H,
                                              double* b) noexcept {
-  double T[8][9];
+  double T[8][8], last[8], row[8];
+  for (int r = 0; r < 8; ++r) stored(T[r], row_product(S[r], 1, M));
+  stored(last, row_product(M[8], 1, S));  // column 8 of S M
+  for (int r = 0; r < 8; ++r) stored(H + 9 * r, row_product(&M[0][r], 8, T));
+  stored(H + 72, row_product(M[8], 1, T));
+  stored(b, row_product(g, 1, M));
+  stored(row, muld(loadd(last), loadd(M[8])));
+  H[80] = ((row[0] + row[1]) + (row[2] + row[3])) + ((row[4] + row[5]) + (row[6] + row[7]));
+  stored(row, muld(loadd(g), loadd(M[8])));
+  b[8] = ((row[0] + row[1]) + (row[2] + row[3])) + ((row[4] + row[5]) + (row[6] + row[7]));
+  for (int r = 0; r < 8; ++r) H[9 * r + 8] = H[72 + r];
+  // The two products of an off-diagonal pair round differently.
   for (int r = 0; r < 8; ++r)
-    for (int c = 0; c < 9; ++c) {
-      double sum = 0;
-      for (int k = 0; k < 8; ++k) sum += S[r][k] * M[k][c];
-      T[r][c] = sum;
-    }
-  for (int r = 0; r < 9; ++r) {
-    double sum = 0;
-    for (int k = 0; k < 8; ++k) sum += M[k][r] * g[k];
-    b[r] = sum;
-    for (int c = r; c < 9; ++c) {
-      double entry = 0;
-      for (int k = 0; k < 8; ++k) entry += M[k][r] * T[k][c];
-      H[9 * r + c] = H[9 * c + r] = entry;
-    }
-  }
+    for (int c = 0; c < r; ++c) H[9 * r + c] = H[9 * c + r];
 }

@@ -18,7 +18,8 @@ TEXTPLANE_SIMD_INLINE bool make_frame(const simd::ResidualArgs& a, const simd::P
                          H[3] * H[7] - H[4] * H[6], H[1] * H[6] - H[0] * H[7], H[0] * H[4] - H[1] * H[3]};
   const double det = H[0] * adj[0] + H[1] * adj[3] + H[2] * adj[6];
   if (!(abs_d(det) > 1e-9)) return false;
-  for (int k = 0; k < 9; ++k) f->inverse[k] = adj[k] / det;
+  const double idet = 1 / det;
+  for (int k = 0; k < 9; ++k) f->inverse[k] = adj[k] * idet;
   for (int k = 0; k < 3; ++k) f->q[k] = p[0] * f->inverse[k] + p[1] * f->inverse[3 + k] + p[2] * f->inverse[6 + k];
 
   // G = K_t H K_h^-1, and rho as a function of the host pixel.

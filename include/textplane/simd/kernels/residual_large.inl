@@ -15,7 +15,7 @@ struct RowStrip {
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x, const float* y,
                                               const float* a, const float* b, int n, RowStrip* rows, float* acc) noexcept {
   float(*r)[kStrip] = rows->row;
-  float* sums = acc + product_count(form) * kLanes;
+  float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;  // or where nobody reads
   if (form == 3) {
     plane_rows(k, x, y, a, b, n, r);
     if (plain) add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
@@ -54,11 +54,16 @@ TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float*
   }
 }
 
-// Adds the partial sums to the totals and clears them.
+// Adds the partial sums to the totals and clears them; `sums` is rounded up to a multiple of four.
 TEXTPLANE_SIMD_INLINE void fold(float* acc, int sums, double* total) noexcept {
-  for (int k = 0; k < sums; ++k) {
-    total[k] += hsum_d(load(acc + k * kLanes));
-    store(acc + k * kLanes, zero());
+  for (int k = 0; k < sums; k += 4) {
+    float* p = acc + k * kLanes;
+    float four[4];
+    hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
+    for (int j = 0; j < 4; ++j) {
+      total[k + j] += static_cast<double>(four[j]);
+      store(p + j * kLanes, zero());
+    }
   }
 }
 
@@ -68,12 +73,20 @@ struct Offsets {
 };
 TEXTPLANE_SIMD_INLINE Offsets first_offsets(const float* i, const float* h, int n) noexcept {
   Offsets o;
-  o.target = static_cast<float>(mean_of(i, n));
-  o.host = static_cast<float>(mean_of(h, n));
   vf t = zero(), s = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vm counted = first_n(n - k);
-    const vf p = keep(counted, sub(load(i + k), set1(o.target))), q = keep(counted, sub(load(h + k), set1(o.host)));
+    t = add(t, load(i + k));
+    s = add(s, load_part(h + k, n - k));
+  }
+  o.target = static_cast<float>(hsum_d(t) / n);
+  o.host = static_cast<float>(hsum_d(s) / n);
+  t = s = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    vf p = sub(load(i + k), set1(o.target)), q = sub(load_part(h + k, n - k), set1(o.host));
+    if (n - k < kLanes) {
+      p = keep(first_n(n - k), p);
+      q = keep(first_n(n - k), q);
+    }
     t = madd(p, p, t);
     s = madd(q, q, s);
   }
@@ -86,18 +99,19 @@ TEXTPLANE_SIMD_INLINE Offsets first_offsets(const float* i, const float* h, int 
 struct SideSums {
   double i, ii, h, hh;
 };
-TEXTPLANE_SIMD_INLINE void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, float* TEXTPLANE_SIMD_RESTRICT host, int n,
-                                        const Offsets& o, SideSums* sums) noexcept {
+TEXTPLANE_SIMD_INLINE void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
+                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
+                                        SideSums* sums) noexcept {
   vf si = zero(), sii = zero(), sh = zero(), shh = zero();
   const vf kappa = set1(o.kappa);
   for (int k = 0; k < n; k += kLanes) {
-    vf i = sub(load(target + k), set1(o.target)), h = sub(load(host + k), set1(o.host));
+    vf i = sub(load(target + k), set1(o.target)), h = sub(load_part(host + k, n - k), set1(o.host));
     if (n - k < kLanes) {
       i = keep(first_n(n - k), i);
       h = keep(first_n(n - k), h);
     }
     store(target + k, i);
-    store(host + k, sub(mul(kappa, h), i));
+    store(difference + k, sub(mul(kappa, h), i));
     si = add(si, i);
     sh = add(sh, h);
     sii = madd(i, i, sii);
@@ -228,6 +242,13 @@ TEXTPLANE_SIMD_INLINE void weigh_strip(const ResidualArrays& s, const std::int32
   sums[4] += hsum_d(s4);
 }
 
+// Sums of the rows with the factors p, q and r of the strip, one after the other.
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, float* acc) noexcept {
+  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, acc, acc + form * kLanes);
+  float* last = acc + 2 * form * kLanes;
+  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, last, last);  // twice the same, stored once more
+}
+
 // The cost of the host pixels, of which there are at least a.min_visible.
 TEXTPLANE_SIMD_INLINE Status evaluate_pixels(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                              const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
@@ -238,8 +259,8 @@ TEXTPLANE_SIMD_INLINE Status evaluate_pixels(const simd::ResidualArgs& a, const 
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, true, s, &strip);
-    if (begin == 0) offsets = first_offsets(s.i, s.d, count);
-    centre_strip(s.i + begin, s.d + begin, count, offsets, &sides);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
   }
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
@@ -256,12 +277,10 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
                                              const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info, double* H, double* b) noexcept {
   const int form = parameters == 9 ? 8 : parameters, products = product_count(form), all = products + 3 * form;
   const int n = host.n;
-  float acc[kMostSums * kMostLanes];
+  float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
-  for (int k = 0; k < all; ++k) {
-    total[k] = other[k] = 0;
-    store(acc + k * kLanes, zero());
-  }
+  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
+  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -276,8 +295,8 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     collect_strip(host, f, begin, count, false, s, &strip);
     const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
     float *i = s.i + begin, *d = s.d + begin;
-    if (begin == 0) offsets = first_offsets(i, d, count);
-    centre_strip(i, d, count, offsets, &sides);
+    if (begin == 0) offsets = first_offsets(i, host.h, count);
+    centre_strip(i, host.h + begin, d, count, offsets, &sides);
     add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
     add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
     terms += kStrip / kLanes;
@@ -322,13 +341,13 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
       weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
-      float* with_p = acc + products * kLanes;
       add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      if (form == 8)
-        for (int k = 0; k < form; ++k) store(with_p + k * kLanes, zero());
-      add_strip_sums(form, ws.a, ws.b, rows, ws.p, ws.q, m, with_p, sum_i);
-      add_strip_sums(form, ws.a, ws.b, rows, ws.r, ws.r, m, sum_d, sum_d);
-      fold(acc, all, other);
+      add_strip_weights(form, ws, rows, m, acc + products * kLanes);
+      terms += kStrip / kLanes;
+      if (terms >= kFoldTerms || begin + kStrip >= weighted) {
+        fold(acc, all, other);
+        terms = 0;
+      }
     }
     double S[8][8];
     unpack_products(form, other, S);
@@ -343,7 +362,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   }
   project_sums(form, a.exact, r.i_s, &sums);
   if (form == 8) {
-    double M[8][9];
+    double M[9][8];
     parameter_matrix(a, f, M);
     change_parameters(M, sums.S, sums.wr, H, b);
   } else {

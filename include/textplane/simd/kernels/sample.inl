@@ -49,7 +49,7 @@ TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { retu
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height, simd::Warp8* w) noexcept {
   const double u = hx, v = hy;
   const double x = h[0] * u + h[1] * v + h[2], y = h[3] * u + h[4] * v + h[5], z = h[6] * u + h[7] * v + h[8];
-  const double px = x / z, py = y / z;
+  const double iz = 1 / z, px = x * iz, py = y * iz;
   w->hx = hx;
   w->hy = hy;
   w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
@@ -81,6 +81,12 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->x_last = static_cast<float>(image.width - 1 - warp.ox);
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
+
+// A number in every lane, kept in memory: a load, where a register that held it would have to be spilt.
+struct Constant {
+  float lane[kLanes];
+};
+TEXTPLANE_SIMD_INLINE void set_constant(Constant* c, float value) noexcept { store(c->lane, set1(value)); }
 
 // Target coordinates, relative to the origin, and divisors of kLanes host pixels.
 TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
@@ -127,16 +133,31 @@ TEXTPLANE_SIMD_INLINE std::uint32_t two_bytes(const std::uint8_t* p) noexcept {
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
-  for (int i = 0; i < n; ++i) {
+  int i = 0;
+  for (; i + 4 <= n; i += 4) {
+    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
+    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
+    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
+    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
+    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
+  }
+  for (; i < n; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
     s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
   }
 }
+TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
+  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 16;  // one 32-bit load
+}
 TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  for (int i = 0; i < n; ++i) {
-    const std::uint16_t* at = f.pairs + s->offset[i];
-    s->taps[i] = static_cast<std::uint32_t>(at[0]) | static_cast<std::uint32_t>(at[1]) << 16;
+  int i = 0;
+  for (; i + 4 <= n; i += 4) {
+    s->taps[i] = two_pairs(f.pairs + s->offset[i]);
+    s->taps[i + 1] = two_pairs(f.pairs + s->offset[i + 1]);
+    s->taps[i + 2] = two_pairs(f.pairs + s->offset[i + 2]);
+    s->taps[i + 3] = two_pairs(f.pairs + s->offset[i + 3]);
   }
+  for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
 }
 TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
   // Whole vectors of words are read later: those beyond n repeat the first.
