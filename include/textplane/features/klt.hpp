@@ -60,7 +60,10 @@ inline Alignment track_one(const PyramidView& from, const PyramidView& to, const
                            const Vector2<float>& guess, int levels, const KltOptions& options) noexcept {
   constexpr int kMinSide = 7;             // of a cut patch, px
   constexpr float kMinCoarseZncc = 0.3F;  // below it a coarse estimate is no better than none
+  constexpr float kCoarseEpsilon = 0.1F;  // px of its level: the next one finds what is left
   PatchTemplate t;
+  KltOptions coarse = options;
+  coarse.epsilon = coarse.epsilon > kCoarseEpsilon ? coarse.epsilon : kCoarseEpsilon;
   Alignment found{guess[0], guess[1], 0, Status::out_of_view};
   for (int level = levels - 1; level >= 0; --level) {
     const ImageView8& from_image = from.level[static_cast<std::size_t>(level)];
@@ -76,11 +79,11 @@ inline Alignment track_one(const PyramidView& from, const PyramidView& to, const
     }
     Alignment a{start[0], start[1], 0, extract_upright_template(from_image, at[0], at[1], &t)};
     if (is_ok(a.status) && t.contrast() < options.min_contrast) a.status = Status::no_contrast;
-    if (is_ok(a.status)) a = align_translation(t, to_image, start[0], start[1], options);
+    if (is_ok(a.status)) a = align_translation(t, to_image, start[0], start[1], level > 0 ? coarse : options);
     bool usable = is_ok(a.status);
     if (level > 0) {
       const bool aligned = is_ok(t.status) && (usable || a.status == Status::out_of_view);
-      if (aligned && a.zncc < options.min_zncc) a = search(t, to_image, start, a, options);
+      if (aligned && a.zncc < options.min_zncc) a = search(t, to_image, start, a, coarse);
       usable = aligned && a.zncc > kMinCoarseZncc;
     }
     if (usable) {

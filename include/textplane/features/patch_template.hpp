@@ -16,6 +16,7 @@
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/status.hpp"
 #include "textplane/photometry/sample.hpp"
+#include "textplane/photometry/warp_patch.hpp"
 #include "textplane/simd/klt.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -80,7 +81,10 @@ inline bool place_window(const ImageView8& image, float left, float top, int col
   const int qx = static_cast<int>(left * kGrid + 0.5F), qy = static_cast<int>(top * kGrid + 0.5F);
   // On the last column or row the interpolation uses the cell before it, with weight one.
   const int x = qx / kGrid < last_x ? qx / kGrid : last_x, y = qy / kGrid < last_y ? qy / kGrid : last_y;
-  placed->window = {image.row(y) + x, image.stride(), image.width() - x, columns, rows, qx - kGrid * x, qy - kGrid * y};
+  // Bytes behind the window's last row may be read where they belong to the image: other rows', or the gap between rows.
+  const std::ptrdiff_t behind = (image.height() - 1 - y - rows) * image.stride() + image.width() - x;
+  const int readable = behind < 4096 ? static_cast<int>(behind) : 4096;
+  placed->window = {image.row(y) + x, image.stride(), readable, columns, rows, qx - kGrid * x, qy - kGrid * y};
   placed->moved_x = static_cast<float>(qx) / kGrid - left;
   placed->moved_y = static_cast<float>(qy) / kGrid - top;
   return true;
@@ -125,6 +129,27 @@ inline Status extract_upright_template(const ImageView8& image, float x, float y
   return t->status;
 }
 
+// Samples at centre + A (i, j), |i|, |j| <= reach, all of which lie inside the image or a hair outside. `out` begins with that
+// of (-reach, -reach), its rows are simd::kKltStride floats apart.
+inline void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int reach,
+                          float* out) noexcept {
+  const int side = 2 * reach + 1;
+  const Vector2<double> first = centre.cast<double>() - A.cast<double>() * Vector2<double>::Constant(reach);
+  Matrix3<double> H = Matrix3<double>::Identity();
+  H.topLeftCorner<2, 2>() = A.cast<double>();
+  H.topRightCorner<2, 1>() = first;
+  constexpr std::ptrdiff_t kStride = simd::kKltStride * sizeof(float);
+  if (warp_patch(image, H, ImageView<float>(out, side, side, kStride)).inside == side * side) return;
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) {
+      const Vector2<double> p = first + A.cast<double>() * Vector2<double>(i, j);
+      const double x = p[0] > 0 ? p[0] : 0, y = p[1] > 0 ? p[1] : 0;  // beyond the far borders the last cell is extended
+      double v = 0;
+      sample_inside(image, x, y, &v, static_cast<double*>(nullptr), static_cast<double*>(nullptr));
+      out[j * simd::kKltStride + i] = static_cast<float>(v > 0 ? (v < 255 ? v : 255) : 0);
+    }
+}
+
 }  // namespace detail
 
 /// Samples a template of (2 half + 1)^2 pixels: its offset (dx, dy) shows `image` at centre + A (dx, dy), bilinearly.
@@ -149,20 +174,9 @@ inline Status extract_template(const ImageView8& image, const Vector2<float>& ce
   if (!image.contains(centre[0] - extent_x, centre[1] - extent_y) ||
       !image.contains(centre[0] + extent_x, centre[1] + extent_y))
     return t->status = Status::out_of_view;
-  std::int16_t padded[simd::kKltPadded] = {};
-  for (int j = -half - 1; j <= half + 1; ++j) {
-    std::int16_t* out = padded + (j + half + 1) * simd::kKltStride + half + 1;
-    for (int i = -half - 1; i <= half + 1; ++i) {
-      const float fi = static_cast<float>(i), fj = static_cast<float>(j);
-      const float x = centre[0] + a * fi + b * fj, y = centre[1] + c * fi + d * fj;
-      // Rounding may leave a corner a hair outside; sample_inside() then extends the last cell.
-      float v = 0;
-      detail::sample_inside<std::uint8_t, float>(image, x, y, &v, nullptr, nullptr);
-      const int rounded = static_cast<int>(v * simd::kKltScale + 4096.5F) - 8192;
-      out[i] = static_cast<std::int16_t>(rounded > -4096 ? (rounded < 4095 ? rounded : 4095) : -4096);
-    }
-  }
-  detail::normalise_template(simd::klt_gradients(padded, t->columns, t->rows, t->patch), t);
+  float padded[simd::kKltPadded] = {};
+  detail::sample_affine(image, centre, A, half + 1, padded);
+  detail::normalise_template(simd::klt_from_grey(padded, t->columns, t->rows, t->patch), t);
   return t->status;
 }
 

@@ -78,6 +78,13 @@ TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
   return _mm256_maddubs_epi16(weights, _mm256_shuffle_epi8(centred, neighbours));
 }
 
+TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
+  const __m256 scale = _mm256_set1_ps(32.0f), half = _mm256_set1_ps(0.5f);
+  const __m256i low = _mm256_cvttps_epi32(_mm256_add_ps(_mm256_mul_ps(_mm256_loadu_ps(p), scale), half));
+  const __m256i high = _mm256_cvttps_epi32(_mm256_add_ps(_mm256_mul_ps(_mm256_loadu_ps(p + 8), scale), half));
+  return _mm256_sub_epi16(_mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xD8), seth(4096));
+}
+
 constexpr int kWords = 8;
 using vw = __m256i;
 

@@ -65,6 +65,13 @@ TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
   return vmlal_s8(vmull_s8(left, w0), right, w1);
 }
 
+TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
+  const float32x4_t scale = vdupq_n_f32(32.0f), half = vdupq_n_f32(0.5f);
+  const int32x4_t low = vcvtq_s32_f32(vaddq_f32(vmulq_f32(vld1q_f32(p), scale), half));
+  const int32x4_t high = vcvtq_s32_f32(vaddq_f32(vmulq_f32(vld1q_f32(p + 4), scale), half));
+  return vsubq_s16(vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)), seth(4096));
+}
+
 constexpr int kWords = 4;
 using vw = int32x4_t;
 

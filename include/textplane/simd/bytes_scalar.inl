@@ -95,6 +95,13 @@ TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
   return weights;
 }
 
+// x / 2^-5 - 4096, rounded half up, of kShorts floats in [0, 255]: grey levels as samples of a KLT patch (simd/klt.hpp).
+TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
+  vh r;
+  for (int i = 0; i < kShorts; ++i) r.lane[i] = static_cast<std::int16_t>(static_cast<int>(p[i] * 32.0f + 0.5f) - 4096);
+  return r;
+}
+
 // --- int32 sums of products of int16 ---
 constexpr int kWords = 4;
 struct vw {

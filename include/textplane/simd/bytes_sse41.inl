@@ -63,6 +63,13 @@ TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
   return _mm_maddubs_epi16(weights, _mm_shuffle_epi8(centred, neighbours));
 }
 
+TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
+  const __m128 scale = _mm_set1_ps(32.0f), half = _mm_set1_ps(0.5f);
+  const __m128i low = _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(_mm_loadu_ps(p), scale), half));
+  const __m128i high = _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(_mm_loadu_ps(p + 4), scale), half));
+  return _mm_sub_epi16(_mm_packs_epi32(low, high), seth(4096));
+}
+
 constexpr int kWords = 4;
 using vw = __m128i;
 

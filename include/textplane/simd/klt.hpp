@@ -15,7 +15,7 @@ constexpr int kKltSide = 21;      ///< Largest columns and rows of a patch.
 constexpr int kKltStride = 32;    ///< int16 from a row of samples to the next.
 constexpr int kKltSubpixels = 64;  ///< Positions a px.
 constexpr int kKltScale = 32;     ///< Units of a sample a grey level.
-/// int16 of a patch with a border of one sample on all sides.
+/// Elements of a patch with a border of one sample on all sides.
 constexpr int kKltPadded = (kKltSide + 2) * kKltStride + 16;
 
 /// columns x rows samples v = kKltScale (I - 128), rounded down, of the bilinear interpolant; the first one (fx, fy) / 64 px from
@@ -23,7 +23,7 @@ constexpr int kKltPadded = (kKltSide + 2) * kKltStride + 16;
 struct KltWindow {
   const std::uint8_t* data = nullptr;
   std::ptrdiff_t stride = 0;  ///< Bytes.
-  int readable = 0;           ///< Bytes from `data` on that may be read in each of the rows; at least columns + 1.
+  int readable = 0;           ///< Bytes that may be read from the first pixel of each of the rows on; at least columns + 1.
   int columns = 0, rows = 0;  ///< In [1, kKltSide].
   int fx = 0, fy = 0;         ///< In [0, 64].
 };
@@ -54,13 +54,13 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
-/// Gradients of samples that the caller provides: `padded` holds (columns + 2) x (rows + 2) of them, kKltStride apart, in
-/// kKltPadded elements all of which are initialised, each in [-4096, 4095]. Copies the inner ones to patch.value. No allocation.
-inline KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows, KltPatch& patch) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(klt_gradients(padded, columns, rows, patch));
+/// A patch from grey levels in [0, 255] that the caller sampled, rounded to samples: (columns + 2) x (rows + 2) of them, the
+/// patch with a border of one on all sides, kKltStride apart in kKltPadded elements that are all initialised. No allocation.
+inline KltPatchSums klt_from_grey(const float* padded, int columns, int rows, KltPatch& patch) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(klt_from_grey(padded, columns, rows, patch));
 }
 
-/// The same for the samples of an image. `window` is that of the patch with its border: 2 more columns and rows than the patch,
+/// A patch from an image. `window` is that of the patch with its border: 2 more columns and rows than the patch,
 /// whose own are within [1, kKltSide]. Reads the window's pixels, and others of their rows only within `readable`.
 inline KltPatchSums klt_extract(const KltWindow& window, KltPatch& patch) noexcept {
   TEXTPLANE_SIMD_DISPATCH(klt_extract(window, patch));

@@ -23,8 +23,9 @@ TEXTPLANE_SIMD_INLINE vh klt_between(vh above, vh below, vh minus_fy) noexcept {
   return halfh(addh(above, mulhrsh(subh(above, below), minus_fy)));
 }
 
-TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows,
-                                                      simd::KltPatch& patch) noexcept {
+// The inner samples of `padded`, their gradients and the sums over them.
+TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows,
+                                                       simd::KltPatch& patch) noexcept {
   const vh one = seth(1);
   vw v_sum = zerow(), vv = zerow(), x_sum = zerow(), y_sum = zerow(), vx = zerow(), vy = zerow(), xx = zerow(),
      xy = zerow(), yy = zerow();
@@ -53,6 +54,14 @@ TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_gradients(const std::int16_t* padded
   }
   return simd::KltPatchSums{sumw(v_sum), sumw(vv), sumw(x_sum), sumw(y_sum), sumw(vx),
                             sumw(vy),    sumw(xx), sumw(xy),    sumw(yy)};
+}
+
+TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_from_grey(const float* padded, int columns, int rows,
+                                                      simd::KltPatch& patch) noexcept {
+  std::int16_t samples[simd::kKltPadded];
+  const int used = (rows + 2) * simd::kKltStride + 16;
+  for (int i = 0; i < used; i += kShorts) storeh(samples + i, grey_to_fixed(padded + i));
+  return klt_gradients(samples, columns, rows, patch);
 }
 
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_extract(const simd::KltWindow& window, simd::KltPatch& patch) noexcept {
