@@ -1,0 +1,246 @@
+// TextBatch: many text objects of a few pixels each (the paper's 15, up to some hundred), judged against one image at once:
+// verification of all signs of a map in one frame, or normal equations of all of them.
+//
+// One object fills one lane of the vectors, so 15 pixels cost no more a pixel than thousands do; objects that lie wholly behind
+// a camera or outside the image cost a few dozen cycles. Objects of very different size waste lanes: sort them by size.
+#ifndef TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
+#define TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "textplane/core/camera.hpp"
+#include "textplane/core/se3.hpp"
+#include "textplane/photometry/residual_types.hpp"
+#include "textplane/simd/batch.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// One object of a batch: host pixels of one level, the host's camera of that level, and the plane in the host frame.
+struct TextBatchItem {
+  PatchView patch;
+  Pinhole<double> host_camera;
+  Vector3<double> theta = Vector3<double>::Zero();
+};
+
+/// The host side of many objects, packed once. Thread-safe to read.
+class TextBatch {
+ public:
+  TextBatch() = default;
+  TextBatch(const TextBatchItem* items, int count) { build(items, count); }
+
+  /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a negative
+  /// n or a camera that is not valid() keeps its place, and has Status::invalid_argument in every result.
+  /// invalid_argument for null items or a negative count: the batch is then empty.
+  Status build(const TextBatchItem* items, int count) {
+    objects_.clear();
+    valid_.clear();
+    pixels_.clear();
+    group_start_.clear();
+    group_pixels_.clear();
+    most_ = 0;
+    if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
+    objects_.resize(static_cast<std::size_t>(count));
+    valid_.assign(static_cast<std::size_t>(count), 0);
+    for (int first = 0; first < count; first += simd::kBatchLanes)
+      add_group(items + first, first, std::min(count - first, simd::kBatchLanes));
+    return Status::ok;
+  }
+
+  int size() const noexcept { return static_cast<int>(objects_.size()); }
+  /// Pixels of the largest object.
+  int max_pixels() const noexcept { return most_; }
+  /// A new plane for object i, 0 <= i < size().
+  void set_plane(int i, const Vector3<double>& theta) noexcept {
+    for (int k = 0; k < 3; ++k) objects_[static_cast<std::size_t>(i)].theta[k] = theta[k];
+  }
+
+  /// For the kernels.
+  bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }
+  void fill(simd::BatchArgs* args) const noexcept {
+    args->objects = objects_.data();
+    args->count = size();
+    args->pixels = pixels_.data();
+    args->group_start = group_start_.data();
+    args->group_pixels = group_pixels_.data();
+  }
+
+ private:
+  static bool usable(const PatchView& patch, int i) noexcept {
+    return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) && is_finite(patch.intensity[i]);
+  }
+
+  void add_group(const TextBatchItem* items, int first, int members) {
+    const std::size_t start = pixels_.size();
+    int most = 0;
+    for (int l = 0; l < members; ++l) {
+      const TextBatchItem& item = items[l];
+      const PatchView& p = item.patch;
+      const auto at = static_cast<std::size_t>(first + l);
+      simd::BatchObject& o = objects_[at];
+      valid_[at] = p.x && p.y && p.intensity && p.n >= 0 && item.host_camera.valid();
+      if (!valid_[at]) continue;
+      float x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+      for (int i = 0; i < p.n; ++i) {
+        if (!usable(p, i)) continue;
+        x0 = o.n ? std::min(x0, p.x[i]) : p.x[i];
+        x1 = o.n ? std::max(x1, p.x[i]) : p.x[i];
+        y0 = o.n ? std::min(y0, p.y[i]) : p.y[i];
+        y1 = o.n ? std::max(y1, p.y[i]) : p.y[i];
+        ++o.n;
+      }
+      const float hx = x0 + 0.5F * (x1 - x0), hy = y0 + 0.5F * (y1 - y0);
+      o.ru = std::max(static_cast<double>(x1) - static_cast<double>(hx), static_cast<double>(hx) - static_cast<double>(x0));
+      o.rv = std::max(static_cast<double>(y1) - static_cast<double>(hy), static_cast<double>(hy) - static_cast<double>(y0));
+      o.ifx = 1.0 / item.host_camera.fx;
+      o.ify = 1.0 / item.host_camera.fy;
+      o.mu = (static_cast<double>(hx) - item.host_camera.cx) * o.ifx;
+      o.mv = (static_cast<double>(hy) - item.host_camera.cy) * o.ify;
+      for (int k = 0; k < 3; ++k) o.theta[k] = item.theta[k];
+      most = std::max(most, o.n);
+      pixels_.resize(start + static_cast<std::size_t>(most) * 3 * simd::kBatchLanes, 0.0F);
+      float* out = pixels_.data() + start + l;
+      for (int i = 0; i < p.n; ++i) {
+        if (!usable(p, i)) continue;
+        out[0] = p.x[i] - hx;
+        out[simd::kBatchLanes] = p.y[i] - hy;
+        out[2 * simd::kBatchLanes] = p.intensity[i];
+        out += 3 * simd::kBatchLanes;
+      }
+    }
+    group_start_.push_back(static_cast<std::ptrdiff_t>(start));
+    group_pixels_.push_back(most);
+    most_ = std::max(most_, most);
+  }
+
+  std::vector<simd::BatchObject> objects_;
+  std::vector<std::uint8_t> valid_;
+  std::vector<float> pixels_;
+  std::vector<std::ptrdiff_t> group_start_;
+  std::vector<int> group_pixels_;
+  int most_ = 0;
+};
+
+/// Results of the last call on a batch, and the memory that it needs. One a thread.
+class TextBatchResult {
+ public:
+  TextBatchResult() = default;
+  explicit TextBatchResult(const TextBatch& batch) { reserve(batch); }
+
+  /// Makes room for the batch and nine parameters. The only member that allocates; never shrinks.
+  void reserve(const TextBatch& batch) {
+    const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
+    const std::size_t out = groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9));
+    if (out_.size() < out) out_.resize(out);
+    if (status_.size() < static_cast<std::size_t>(batch.size())) status_.resize(static_cast<std::size_t>(batch.size()));
+    const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
+    if (scratch_.size() < scratch) scratch_.resize(scratch);
+  }
+  bool fits(const TextBatch& batch) const noexcept {
+    const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
+    return out_.size() >= groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
+           status_.size() >= static_cast<std::size_t>(batch.size()) &&
+           scratch_.size() >= simd::batch_scratch(batch.max_pixels());
+  }
+
+  /// Of object i of the batch, as reference::linearise_*() would say it; all zero, `visible` excepted, unless is_ok(status).
+  Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
+  double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
+  double error(int i) const noexcept { return tail(i, simd::BatchEntry::error); }
+  double zncc(int i) const noexcept { return is_ok(status(i)) ? 1.0 - 0.5 * error(i) : 0.0; }
+  int visible(int i) const noexcept { return static_cast<int>(tail(i, simd::BatchEntry::visible)); }
+
+  /// P: that of the call.
+  template <int P>
+  NormalEquations<P> normal_equations(int i) const noexcept {
+    NormalEquations<P> n;
+    n.status = status(i);
+    if (parameters_ != P || !is_ok(n.status)) return n;
+    int entry = 0;
+    for (int r = 0; r < P; ++r)
+      for (int c = r; c < P; ++c, ++entry) n.H(r, c) = n.H(c, r) = at(i, entry);
+    for (int r = 0; r < P; ++r, ++entry) n.b[r] = at(i, entry);
+    n.cost = cost(i);
+    n.error = error(i);
+    n.zncc = zncc(i);
+    n.visible = visible(i);
+    n.mean = tail(i, simd::BatchEntry::mean);
+    n.s = tail(i, simd::BatchEntry::s);
+    return n;
+  }
+
+  /// For the kernels.
+  void fill(int parameters, simd::BatchArgs* args) noexcept {
+    parameters_ = parameters;
+    args->out = out_.data();
+    args->status = status_.data();
+    args->scratch = scratch_.data();
+  }
+
+ private:
+  double at(int i, int entry) const noexcept {
+    const int group = i / simd::kBatchLanes, lane = i % simd::kBatchLanes;
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(group) * simd::batch_entries(parameters_) + entry;
+    return static_cast<double>(out_[static_cast<std::size_t>(row * simd::kBatchLanes + lane)]);
+  }
+  double tail(int i, simd::BatchEntry entry) const noexcept {
+    return at(i, parameters_ * (parameters_ + 1) / 2 + parameters_ + static_cast<int>(entry));
+  }
+
+  std::vector<float> out_, scratch_;
+  std::vector<Status> status_;
+  int parameters_ = 0;
+};
+
+/// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega, theta).
+/// `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
+///
+/// Each object's result is that of reference::linearise_*() within the bounds of simd/batch.hpp. ok, or invalid_argument, and
+/// then all statuses are that: null poses, a target below 2 x 2, a camera that is not valid(), robust costs other than l2 and
+/// Huber, other bad options, a result without room.
+template <int P>
+Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera, const SE3d* T_t_h,
+                      const PhotometricOptions& options, TextBatchResult& result) noexcept {
+  static_assert(P == 0 || P == 6 || P == 9, "costs, pose, or pose and theta");
+  if (!result.fits(batch)) return Status::invalid_argument;
+  simd::BatchArgs args;
+  batch.fill(&args);
+  result.fill(P, &args);
+  args.target.data = target.data();
+  args.target.stride = target.stride();
+  args.target.width = target.width();
+  args.target.height = target.height();
+  const bool robust = options.robust.kind == RobustKind::l2 || options.robust.kind == RobustKind::huber;
+  if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() || !robust ||
+      (!T_t_h && batch.size() > 0)) {
+    for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
+    std::fill_n(args.out, simd::kBatchLanes * simd::batch_entries(P) * ((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes), 0.0F);
+    return Status::invalid_argument;
+  }
+  if (batch.size() == 0) return Status::ok;
+  static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
+  args.pose = T_t_h->R.data();
+  args.pose_step = 12;
+  args.t_offset = 9;
+  args.camera[0] = camera.fx;
+  args.camera[1] = camera.fy;
+  args.camera[2] = camera.cx;
+  args.camera[3] = camera.cy;
+  args.exact = options.normalisation == Normalisation::exact;
+  args.huber = options.robust.kind == RobustKind::huber;
+  args.delta = options.robust.delta;
+  args.min_contrast = options.min_contrast;
+  args.min_visible = options.min_visible;
+  if constexpr (P == 0) simd::batch_evaluate(args);
+  if constexpr (P == 6) simd::batch_linearise_pose(args);
+  if constexpr (P == 9) simd::batch_linearise_pose_plane(args);
+  for (int i = 0; i < batch.size(); ++i)
+    if (!batch.valid(i)) args.status[i] = Status::invalid_argument;
+  return Status::ok;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
