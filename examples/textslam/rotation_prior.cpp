@@ -27,7 +27,7 @@ RotationPrior align_rotation(const Frame& a, const Frame& b, const Pinhole<doubl
   double best_cost = 0;
   Eigen::Matrix3d R = start;
   for (int iteration = 0; iteration < 12; ++iteration) {
-    const auto eq = textplane::reference::linearise_pose(input, far_plane, SE3d{R, Vec3::Zero()}, options, workspace);
+    const auto eq = textplane::linearise_pose(input, far_plane, SE3d{R, Vec3::Zero()}, options, workspace);
     // Images that share less than a third say nothing about each other.
     if (!textplane::is_ok(eq.status) || 3 * eq.visible < patch.view().n) break;
     if (iteration > 0 && eq.cost >= best_cost) break;

@@ -116,14 +116,6 @@ TrackReport Tracker::track(const Frame& frame) {
   const bool aligned = prior.zncc > kPriorZncc;
   const Eigen::Matrix3d turn = aligned ? prior.R_b_a : last_turn;
 
-  std::vector<Vec2f> guesses;
-  for (const Track& track : tracks_) {
-    const Vec3 m = turn * map_.camera.unproject(track.px.cast<double>());
-    guesses.push_back(m.z() > 0.1 ? map_.camera.project(m).cast<float>() : track.px);
-  }
-  advance_tracks(frame_, frame, guesses, parameters_, tracks_);
-  const double t1 = now_ms();
-
   // The whole-image turn takes sideways motion for rotation, so it replaces the velocity only where the two are far apart.
   SE3d predicted = (moving_ ? velocity_ : SE3d{}) * T_c_w_;
   if (aligned && textplane::so3_log<double>(turn * last_turn.transpose()).norm() > 3 * M_PI / 180) {
@@ -131,6 +123,14 @@ TrackReport Tracker::track(const Frame& frame) {
     predicted.R = turn * T_c_w_.R;
     predicted.t = -(predicted.R * centre);
   }
+
+  std::vector<Vec2f> guesses;
+  for (const Track& track : tracks_) {
+    const Vec3 m = turn * map_.camera.unproject(track.px.cast<double>());
+    guesses.push_back(m.z() > 0.1 ? map_.camera.project(m).cast<float>() : track.px);
+  }
+  advance_tracks(frame_, frame, guesses, parameters_, tracks_);
+  const double t1 = now_ms();
 
   SE3d pose = predicted;
   Fit fit = fit_pose(frame, false, &pose);
