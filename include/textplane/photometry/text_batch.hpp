@@ -35,36 +35,32 @@ class TextBatch {
   /// n or a camera that is not valid() keeps its place, and has Status::invalid_argument in every result.
   /// invalid_argument for null items or a negative count: the batch is then empty.
   Status build(const TextBatchItem* items, int count) {
-    objects_.clear();
+    groups_.clear();
     valid_.clear();
     pixels_.clear();
-    group_start_.clear();
-    group_pixels_.clear();
     most_ = 0;
     if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
-    objects_.resize(static_cast<std::size_t>(count));
     valid_.assign(static_cast<std::size_t>(count), 0);
     for (int first = 0; first < count; first += simd::kBatchLanes)
       add_group(items + first, first, std::min(count - first, simd::kBatchLanes));
     return Status::ok;
   }
 
-  int size() const noexcept { return static_cast<int>(objects_.size()); }
+  int size() const noexcept { return static_cast<int>(valid_.size()); }
   /// Pixels of the largest object.
   int max_pixels() const noexcept { return most_; }
   /// A new plane for object i, 0 <= i < size().
   void set_plane(int i, const Vector3<double>& theta) noexcept {
-    for (int k = 0; k < 3; ++k) objects_[static_cast<std::size_t>(i)].theta[k] = theta[k];
+    simd::BatchGroup& group = groups_[static_cast<std::size_t>(i / simd::kBatchLanes)];
+    for (int k = 0; k < 3; ++k) group.theta[k][i % simd::kBatchLanes] = theta[k];
   }
 
   /// For the kernels.
   bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }
   void fill(simd::BatchArgs* args) const noexcept {
-    args->objects = objects_.data();
+    args->groups = groups_.data();
     args->count = size();
     args->pixels = pixels_.data();
-    args->group_start = group_start_.data();
-    args->group_pixels = group_pixels_.data();
   }
 
  private:
@@ -74,52 +70,52 @@ class TextBatch {
 
   void add_group(const TextBatchItem* items, int first, int members) {
     const std::size_t start = pixels_.size();
+    simd::BatchGroup group = {};
+    group.start = static_cast<std::ptrdiff_t>(start);
     int most = 0;
     for (int l = 0; l < members; ++l) {
       const TextBatchItem& item = items[l];
       const PatchView& p = item.patch;
       const auto at = static_cast<std::size_t>(first + l);
-      simd::BatchObject& o = objects_[at];
       valid_[at] = p.x && p.y && p.intensity && p.n >= 0 && item.host_camera.valid();
       if (!valid_[at]) continue;
+      int& n = group.n[l];
       float x0 = 0, x1 = 0, y0 = 0, y1 = 0;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;
-        x0 = o.n ? std::min(x0, p.x[i]) : p.x[i];
-        x1 = o.n ? std::max(x1, p.x[i]) : p.x[i];
-        y0 = o.n ? std::min(y0, p.y[i]) : p.y[i];
-        y1 = o.n ? std::max(y1, p.y[i]) : p.y[i];
-        ++o.n;
+        x0 = n ? std::min(x0, p.x[i]) : p.x[i];
+        x1 = n ? std::max(x1, p.x[i]) : p.x[i];
+        y0 = n ? std::min(y0, p.y[i]) : p.y[i];
+        y1 = n ? std::max(y1, p.y[i]) : p.y[i];
+        ++n;
       }
-      const float hx = x0 + 0.5F * (x1 - x0), hy = y0 + 0.5F * (y1 - y0);
-      o.ru = std::max(static_cast<double>(x1) - static_cast<double>(hx), static_cast<double>(hx) - static_cast<double>(x0));
-      o.rv = std::max(static_cast<double>(y1) - static_cast<double>(hy), static_cast<double>(hy) - static_cast<double>(y0));
-      o.ifx = 1.0 / item.host_camera.fx;
-      o.ify = 1.0 / item.host_camera.fy;
-      o.mu = (static_cast<double>(hx) - item.host_camera.cx) * o.ifx;
-      o.mv = (static_cast<double>(hy) - item.host_camera.cy) * o.ify;
-      for (int k = 0; k < 3; ++k) o.theta[k] = item.theta[k];
-      most = std::max(most, o.n);
+      const float fx = x0 + 0.5F * (x1 - x0), fy = y0 + 0.5F * (y1 - y0);
+      const double hx = static_cast<double>(fx), hy = static_cast<double>(fy);
+      group.ru[l] = std::max(static_cast<double>(x1) - hx, hx - static_cast<double>(x0));
+      group.rv[l] = std::max(static_cast<double>(y1) - hy, hy - static_cast<double>(y0));
+      group.ifx[l] = 1.0 / item.host_camera.fx;
+      group.ify[l] = 1.0 / item.host_camera.fy;
+      group.mu[l] = (hx - item.host_camera.cx) * group.ifx[l];
+      group.mv[l] = (hy - item.host_camera.cy) * group.ify[l];
+      for (int k = 0; k < 3; ++k) group.theta[k][l] = item.theta[k];
+      most = std::max(most, n);
       pixels_.resize(start + static_cast<std::size_t>(most) * 3 * simd::kBatchLanes, 0.0F);
       float* out = pixels_.data() + start + l;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;
-        out[0] = p.x[i] - hx;
-        out[simd::kBatchLanes] = p.y[i] - hy;
+        out[0] = p.x[i] - fx;
+        out[simd::kBatchLanes] = p.y[i] - fy;
         out[2 * simd::kBatchLanes] = p.intensity[i];
         out += 3 * simd::kBatchLanes;
       }
     }
-    group_start_.push_back(static_cast<std::ptrdiff_t>(start));
-    group_pixels_.push_back(most);
+    groups_.push_back(group);
     most_ = std::max(most_, most);
   }
 
-  std::vector<simd::BatchObject> objects_;
+  std::vector<simd::BatchGroup> groups_;
   std::vector<std::uint8_t> valid_;
   std::vector<float> pixels_;
-  std::vector<std::ptrdiff_t> group_start_;
-  std::vector<int> group_pixels_;
   int most_ = 0;
 };
 

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "textplane/simd/doubles.hpp"
 #include "textplane/simd/sample.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -22,13 +23,14 @@ namespace simd {
 /// Lanes of a group, on every target.
 constexpr int kBatchLanes = 16;
 
-/// What is known of an object before the pose. Finite.
-struct BatchObject {
-  double theta[3] = {};              ///< Plane in the host frame.
-  double ifx = 1, ify = 1;           ///< 1 / focal lengths of the host.
-  double mu = 0, mv = 0;             ///< Normalised host coordinates of the patch's centre, where u = v = 0.
-  double ru = 0, rv = 0;             ///< All |u| <= ru, |v| <= rv.
-  int n = 0;                         ///< Pixels.
+/// What is known of a group's objects before the pose, one object a lane. Lanes without an object have n = 0 and finite numbers.
+struct BatchGroup {
+  double theta[3][kBatchLanes];                ///< Planes in the host frames.
+  double ifx[kBatchLanes], ify[kBatchLanes];   ///< 1 / focal lengths of the hosts.
+  double mu[kBatchLanes], mv[kBatchLanes];     ///< Normalised host coordinates of the patch's centre, where u = v = 0.
+  double ru[kBatchLanes], rv[kBatchLanes];     ///< All |u| <= ru, |v| <= rv.
+  int n[kBatchLanes];                          ///< Pixels.
+  std::ptrdiff_t start;                        ///< Of the group's pixels in BatchArgs::pixels.
 };
 
 /// Entries of a result: H's upper triangle row by row (45, or 21), b (9, or 6), then these.
@@ -38,11 +40,9 @@ constexpr int batch_entries(int parameters) noexcept {
 }
 
 struct BatchArgs {
-  const BatchObject* objects = nullptr;  ///< `count` of them.
-  int count = 0;
-  const float* pixels = nullptr;             ///< Of group g from pixels + group_start[g] on: [pixel][u, v, intensity][lane].
-  const std::ptrdiff_t* group_start = nullptr;  ///< One for each group of kBatchLanes objects.
-  const int* group_pixels = nullptr;         ///< Largest n in each group.
+  const BatchGroup* groups = nullptr;
+  int count = 0;                    ///< Objects, kBatchLanes a group.
+  const float* pixels = nullptr;    ///< Of a group from its start on: [pixel][u, v, intensity][lane].
   /// Pose of object i: R at pose + i * pose_step, column by column, t three numbers from there + t_offset on.
   const double* pose = nullptr;
   std::ptrdiff_t pose_step = 12, t_offset = 9;

@@ -140,7 +140,7 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, bool huber, float 
   *error = s;
 }
 
-// One vector of objects. `ok` on entry: the lanes with pixels to look at.
+// One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with pixels.
 TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
                                         const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
   BatchStripMemory strip;
@@ -220,14 +220,7 @@ TEXTPLANE_SIMD_INLINE void batch_any(const simd::BatchArgs& a, int parameters) n
     const int members = a.count - first < kBatchStep ? a.count - first : static_cast<int>(kBatchStep);
     float* out = a.out + static_cast<std::ptrdiff_t>(group) * entries * kBatchStep;
     BatchFrame frame;
-    const simd::BatchObject nobody = simd::BatchObject();
-    for (int l = 0; l < kBatchStep; ++l) {
-      if (l < members) {
-        a.status[first + l] = batch_lane(a, a.objects[first + l], a.pose + (first + l) * a.pose_step, l, &frame);
-      } else {
-        batch_lane(a, nobody, a.pose + first * a.pose_step, l, &frame);
-      }
-    }
+    batch_group(a, a.groups[group], first, members, &frame);
     for (int lane = 0; lane < kBatchStep; lane += kLanes) {
       int n = 0;
       for (int l = lane; l < lane + kLanes; ++l) n = frame.n[l] > n ? frame.n[l] : n;
@@ -236,7 +229,7 @@ TEXTPLANE_SIMD_INLINE void batch_any(const simd::BatchArgs& a, int parameters) n
         for (int entry = 0; entry < entries; ++entry) batch_put(out + lane, entry, zero());
         continue;
       }
-      batch_vector(a, frame, lane, parameters, a.pixels + a.group_start[group], n, a.status + first + lane, lanes, out + lane);
+      batch_vector(a, frame, lane, parameters, a.pixels + a.groups[group].start, n, a.status + first + lane, lanes, out + lane);
     }
   }
 }

@@ -5,71 +5,108 @@ enum : int { kBatchStep = simd::kBatchLanes, kBatchFields = 12, kBatchStrip = 16
 // Where things lie in the scratch of one pixel, in vectors: rows of dI, then the rest. Weight: 1 where visible.
 enum : int { kBatchRow = 0, kBatchTarget = 9, kBatchHost = 10, kBatchWeight = 11 };
 
-TEXTPLANE_SIMD_INLINE double batch_abs(double x) noexcept { return x < 0 ? -x : x; }
 // The most that f0 u + f1 v + f2 reaches for |u| <= ru, |v| <= rv.
-TEXTPLANE_SIMD_INLINE double batch_most(double f0, double f1, double f2, double ru, double rv) noexcept {
-  return f2 + batch_abs(f0) * ru + batch_abs(f1) * rv;
+TEXTPLANE_SIMD_INLINE vp batch_most(vp f0, vp f1, vp f2, vp ru, vp rv) noexcept {
+  return madd_p(abs_p(f0), ru, madd_p(abs_p(f1), rv, f2));
 }
 
-// Lane `l` of the frame. A status that is not ok says that no pixel need be looked at.
-TEXTPLANE_SIMD_INLINE Status batch_lane(const simd::BatchArgs& a, const simd::BatchObject& o, const double* pose, int l,
-                                        BatchFrame* f) noexcept {
-  const double fx = a.camera[0], fy = a.camera[1], cx = a.camera[2], cy = a.camera[3];
-  const double *R = pose, *t = pose + a.t_offset;
-  double S[3][3];
+// What decides about a lane before its pixels are looked at. `size` is below 1e30 for finite input; the others are the most and
+// the least that the depths reach, and the most of the distances from the image's borders, times the depth.
+struct BatchVerdict {
+  double size[simd::kBatchLanes], most[simd::kBatchLanes], least[simd::kBatchLanes], inside[simd::kBatchLanes];
+};
+
+// kDoubles lanes of the frame from `l` on. R and t of the lanes in `pose`, R column by column.
+TEXTPLANE_SIMD_INLINE void batch_lanes(const simd::BatchArgs& a, const simd::BatchGroup& o,
+                                       const double (*pose)[simd::kBatchLanes], int l, BatchFrame* f, BatchVerdict* verdict) noexcept {
+  const vp fx = set_p(a.camera[0]), fy = set_p(a.camera[1]), cx = set_p(a.camera[2]), cy = set_p(a.camera[3]);
+  const vp one = set_p(1.0), none = set_p(0.0), ifx = load_p(o.ifx + l), ify = load_p(o.ify + l), mu = load_p(o.mu + l), mv = load_p(o.mv + l);
+  const vp p0 = load_p(o.theta[0] + l), p1 = load_p(o.theta[1] + l), p2 = load_p(o.theta[2] + l);
+  const vp ru = load_p(o.ru + l), rv = load_p(o.rv + l);
+  vp S[3][3], t[3];
   for (int r = 0; r < 3; ++r) {
-    const double h0 = R[r] + t[r] * o.theta[0], h1 = R[3 + r] + t[r] * o.theta[1], h2 = R[6 + r] + t[r] * o.theta[2];
-    S[r][0] = h0 * o.ifx;
-    S[r][1] = h1 * o.ify;
-    S[r][2] = h0 * o.mu + h1 * o.mv + h2;
+    t[r] = load_p(pose[9 + r] + l);
+    const vp h0 = madd_p(t[r], p0, load_p(pose[r] + l)), h1 = madd_p(t[r], p1, load_p(pose[3 + r] + l));
+    S[r][0] = mul_p(h0, ifx);
+    S[r][1] = mul_p(h1, ify);
+    S[r][2] = madd_p(h0, mu, madd_p(h1, mv, madd_p(t[r], p2, load_p(pose[6 + r] + l))));
   }
-  const double size = batch_abs(S[2][2]) + 50 * (batch_abs(S[2][0]) + batch_abs(S[2][1]));
-  const double scale = 1 / size, z = S[2][2];
-  const double inverse = z > 0 ? 1 / z : 0, px = fx * S[0][2] * inverse + cx, py = fy * S[1][2] * inverse + cy;
-  const double w1 = a.target.width - 1, h1 = a.target.height - 1;
-  const int ox = static_cast<int>(px > 0 ? (px < w1 ? px : w1) : 0), oy = static_cast<int>(py > 0 ? (py < h1 ? py : h1) : 0);
-  double g[9];
+  const vp z = S[2][2], size = madd_p(set_p(50.0), add_p(abs_p(S[2][0]), abs_p(S[2][1])), abs_p(z)), scale = div_p(one, size);
+  const vp inverse = positive_p(z, div_p(one, z), none);
+  const vp w1 = set_p(a.target.width - 1), h1 = set_p(a.target.height - 1);
+  // The origin; in this order a NaN becomes 0.
+  const vp ox = trunc_p(min_p(max_p(madd_p(mul_p(fx, S[0][2]), inverse, cx), none), w1));
+  const vp oy = trunc_p(min_p(max_p(madd_p(mul_p(fy, S[1][2]), inverse, cy), none), h1));
+  const vp du = sub_p(cx, ox), dv = sub_p(cy, oy);
+  vp g[9];
   for (int k = 0; k < 3; ++k) {
-    g[k] = (fx * S[0][k] + (cx - ox) * S[2][k]) * scale;
-    g[3 + k] = (fy * S[1][k] + (cy - oy) * S[2][k]) * scale;
-    g[6 + k] = S[2][k] * scale;
+    g[k] = mul_p(madd_p(fx, S[0][k], mul_p(du, S[2][k])), scale);
+    g[3 + k] = mul_p(madd_p(fy, S[1][k], mul_p(dv, S[2][k])), scale);
+    g[6 + k] = mul_p(S[2][k], scale);
   }
-  const double r0 = o.theta[0] * o.ifx * scale, r1 = o.theta[1] * o.ify * scale;
-  const double r2 = (o.theta[0] * o.mu + o.theta[1] * o.mv + o.theta[2]) * scale;
-  for (int k = 0; k < 9; ++k) f->g[k][l] = static_cast<float>(g[k]);
-  f->rho[0][l] = static_cast<float>(r0);
-  f->rho[1][l] = static_cast<float>(r1);
-  f->rho[2][l] = static_cast<float>(r2);
-  for (int k = 0; k < 3; ++k) f->t[k][l] = static_cast<float>(t[k] * scale);
-  f->u0[l] = static_cast<float>((ox - cx) / fx);
-  f->v0[l] = static_cast<float>((oy - cy) / fy);
-  f->hu[0][l] = static_cast<float>(o.ifx);
-  f->hu[1][l] = static_cast<float>(o.mu);
-  f->hv[0][l] = static_cast<float>(o.ify);
-  f->hv[1][l] = static_cast<float>(o.mv);
-  f->x_low[l] = static_cast<float>(-ox);
-  f->y_low[l] = static_cast<float>(-oy);
-  f->x_high[l] = static_cast<float>(a.target.width - 1 - ox);
-  f->y_high[l] = static_cast<float>(a.target.height - 1 - oy);
-  f->base[l] = oy * static_cast<int>(a.target.stride) + ox;
-  f->n[l] = 0;
-  // NaN and overflow: neither is below the bound.
-  double sum = size + batch_abs(r2) + batch_abs(r0) + batch_abs(r1) + 1 / size;
-  for (int k = 0; k < 9; ++k) sum += batch_abs(g[k]);
-  for (int k = 0; k < 3; ++k) sum += batch_abs(t[k]) * scale;
-  if (!(sum < 1e30)) return Status::non_finite;
-  // Whole patches behind a camera, or beside the image: what is tested is affine in u and v.
-  const double ru = o.ru, rv = o.rv, x0 = -ox - 1e-3, y0 = -oy - 1e-3, x1 = w1 - ox + 1e-3, y1 = h1 - oy + 1e-3;
-  if (o.n < 1) return Status::too_few;
-  if (!(batch_most(g[6], g[7], g[8], ru, rv) > 0) || !(batch_most(r0, r1, r2, ru, rv) > 0)) return Status::behind_camera;
-  if (-batch_most(-g[6], -g[7], -g[8], ru, rv) > 0 && -batch_most(-r0, -r1, -r2, ru, rv) > 0 &&
-      (!(batch_most(g[0] - x0 * g[6], g[1] - x0 * g[7], g[2] - x0 * g[8], ru, rv) > 0) ||
-       !(batch_most(x1 * g[6] - g[0], x1 * g[7] - g[1], x1 * g[8] - g[2], ru, rv) > 0) ||
-       !(batch_most(g[3] - y0 * g[6], g[4] - y0 * g[7], g[5] - y0 * g[8], ru, rv) > 0) ||
-       !(batch_most(y1 * g[6] - g[3], y1 * g[7] - g[4], y1 * g[8] - g[5], ru, rv) > 0)))
-    return Status::out_of_view;
-  f->n[l] = o.n;
-  return Status::ok;
+  const vp r0 = mul_p(mul_p(p0, ifx), scale), r1 = mul_p(mul_p(p1, ify), scale), r2 = mul_p(madd_p(p0, mu, madd_p(p1, mv, p2)), scale);
+  vp sum = add_p(add_p(size, div_p(one, size)), add_p(abs_p(r0), add_p(abs_p(r1), abs_p(r2))));
+  for (int k = 0; k < 9; ++k) {
+    store_as_float(f->g[k] + l, g[k]);
+    sum = add_p(sum, abs_p(g[k]));
+  }
+  for (int k = 0; k < 3; ++k) {
+    store_as_float(f->t[k] + l, mul_p(t[k], scale));
+    sum = madd_p(abs_p(t[k]), scale, sum);
+  }
+  store_as_float(f->rho[0] + l, r0);
+  store_as_float(f->rho[1] + l, r1);
+  store_as_float(f->rho[2] + l, r2);
+  store_as_float(f->u0 + l, div_p(sub_p(none, du), fx));
+  store_as_float(f->v0 + l, div_p(sub_p(none, dv), fy));
+  store_as_float(f->hu[0] + l, ifx);
+  store_as_float(f->hu[1] + l, mu);
+  store_as_float(f->hv[0] + l, ify);
+  store_as_float(f->hv[1] + l, mv);
+  store_as_float(f->x_low + l, sub_p(none, ox));
+  store_as_float(f->y_low + l, sub_p(none, oy));
+  store_as_float(f->x_high + l, sub_p(w1, ox));
+  store_as_float(f->y_high + l, sub_p(h1, oy));
+  // What is tested is affine in u and v.
+  const vp margin = set_p(1e-3), x0 = add_p(ox, margin), y0 = add_p(oy, margin);
+  const vp x1 = add_p(sub_p(w1, ox), margin), y1 = add_p(sub_p(h1, oy), margin);
+  const vp left = batch_most(madd_p(x0, g[6], g[0]), madd_p(x0, g[7], g[1]), madd_p(x0, g[8], g[2]), ru, rv);
+  const vp upper = batch_most(madd_p(y0, g[6], g[3]), madd_p(y0, g[7], g[4]), madd_p(y0, g[8], g[5]), ru, rv);
+  const vp right = batch_most(sub_p(mul_p(x1, g[6]), g[0]), sub_p(mul_p(x1, g[7]), g[1]), sub_p(mul_p(x1, g[8]), g[2]), ru, rv);
+  const vp lower = batch_most(sub_p(mul_p(y1, g[6]), g[3]), sub_p(mul_p(y1, g[7]), g[4]), sub_p(mul_p(y1, g[8]), g[5]), ru, rv);
+  const vp front = batch_most(g[6], g[7], g[8], ru, rv), front_h = batch_most(r0, r1, r2, ru, rv);
+  const vp back = batch_most(sub_p(none, g[6]), g[7], sub_p(none, g[8]), ru, rv);
+  const vp back_h = batch_most(sub_p(none, r0), r1, sub_p(none, r2), ru, rv);
+  store_p(verdict->size + l, sum);
+  store_p(verdict->most + l, min_p(front, front_h));
+  store_p(verdict->least + l, sub_p(none, max_p(back, back_h)));
+  store_p(verdict->inside + l, min_p(min_p(left, right), min_p(upper, lower)));
+}
+
+// The frame of a group, and what is known of its objects already. A status that is not ok: its pixels need not be looked at.
+TEXTPLANE_SIMD_INLINE void batch_group(const simd::BatchArgs& a, const simd::BatchGroup& o, int first, int members,
+                                       BatchFrame* f) noexcept {
+  double pose[12][simd::kBatchLanes];
+  for (int l = 0; l < simd::kBatchLanes; ++l) {
+    const double* p = a.pose + (first + (l < members ? l : 0)) * a.pose_step;
+    for (int k = 0; k < 9; ++k) pose[k][l] = p[k];
+    for (int k = 0; k < 3; ++k) pose[9 + k][l] = p[a.t_offset + k];
+  }
+  BatchVerdict verdict;
+  for (int l = 0; l < simd::kBatchLanes; l += kDoubles) batch_lanes(a, o, pose, l, f, &verdict);
+  for (int l = 0; l < simd::kBatchLanes; ++l) {
+    f->n[l] = 0;
+    // x_low and y_low are exact.
+    f->base[l] = -(static_cast<int>(f->y_low[l]) * static_cast<int>(a.target.stride) + static_cast<int>(f->x_low[l]));
+    if (l >= members) continue;
+    Status status = Status::ok;
+    if (!(verdict.size[l] < 1e30)) status = Status::non_finite;
+    else if (o.n[l] < 1) status = Status::too_few;
+    else if (!(verdict.most[l] > 0)) status = Status::behind_camera;
+    else if (verdict.least[l] > 0 && !(verdict.inside[l] > 0)) status = Status::out_of_view;
+    else f->n[l] = o.n[l];
+    a.status[first + l] = status;
+  }
 }
 
 // Between the loops over a strip of pixels of each lane.
