@@ -5,6 +5,8 @@
 // SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two
 // translation units built with different flags therefore keep their own copies, and passing a type from one to the other
 // is a link error instead of a corrupt heap.
+// It protects textplane's own functions. Those of Eigen and of the standard library that a compiler does not inline stay
+// shared, whichever copy the linker keeps; so kernels and small solvers call none (tests/simd/isa).
 //
 // This header and simd/targets are the only ones that read compiler macros.
 #ifndef TEXTPLANE_CONFIG_HPP

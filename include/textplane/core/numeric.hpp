@@ -36,6 +36,22 @@ template <class S>
 using Wide = typename WideScalar<S>::type;
 }  // namespace detail
 
+/// A B of fixed-size matrices, written out: Eigen's loop over such a product can stay a function of its own, with the
+/// instructions of whichever translation unit the linker takes it from.
+template <class S, int Rows, int Inner, int Columns>
+Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
+                                        const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
+  Eigen::Matrix<S, Rows, Columns> c;
+  for (int j = 0; j < Columns; ++j) {
+    for (int i = 0; i < Rows; ++i) {
+      S sum = a(i, 0) * b(0, j);
+      for (int k = 1; k < Inner; ++k) sum += a(i, k) * b(k, j);
+      c(i, j) = sum;
+    }
+  }
+  return c;
+}
+
 /// Neither NaN nor infinite, decided on the bits so that -ffast-math cannot fold it away.
 inline bool is_finite(double x) noexcept {
   std::uint64_t bits;

@@ -27,8 +27,8 @@ struct SE3 {
   Matrix3<S> R = Matrix3<S>::Identity();
   Vector3<S> t = Vector3<S>::Zero();
 
-  Vector3<S> operator*(const Vector3<S>& p) const noexcept { return R * p + t; }
-  SE3 operator*(const SE3& b) const noexcept { return {R * b.R, R * b.t + t}; }
+  Vector3<S> operator*(const Vector3<S>& p) const noexcept { return product(R, p) + t; }
+  SE3 operator*(const SE3& b) const noexcept { return {product(R, b.R), product(R, b.t) + t}; }
   SE3 inverse() const noexcept { return {R.transpose(), -(R.transpose() * t)}; }
 
   template <class U>
@@ -75,7 +75,7 @@ template <class S>
 Matrix3<S> so3_exp(const Vector3<S>& w) noexcept {
   const auto k = detail::exp_coefficients<S>(w.squaredNorm());
   const Matrix3<S> W = hat(w);
-  return Matrix3<S>::Identity() + k.a * W + k.b * (W * W);
+  return Matrix3<S>::Identity() + k.a * W + k.b * product(W, W);
 }
 
 /// Rotation vector of R, of length at most pi. R must be orthonormal with determinant 1. Near pi the sign of the axis is
@@ -130,8 +130,8 @@ template <class S>
 SE3<S> se3_exp(const Vector6<S>& xi) noexcept {
   const Vector3<S> v = xi.template head<3>(), w = xi.template tail<3>();
   const auto k = detail::exp_coefficients<S>(w.squaredNorm());
-  const Matrix3<S> W = hat(w), W2 = W * W;
-  return {Matrix3<S>::Identity() + k.a * W + k.b * W2, v + k.b * (W * v) + k.c * (W2 * v)};
+  const Matrix3<S> W = hat(w), W2 = product(W, W);
+  return {Matrix3<S>::Identity() + k.a * W + k.b * W2, v + k.b * product(W, v) + k.c * product(W2, v)};
 }
 
 /// Twist xi = (v, omega) with se3_exp(xi) = T, for rotations by less than pi.
@@ -159,7 +159,7 @@ template <class S>
 Eigen::Matrix<S, 6, 6> adjoint(const SE3<S>& T) noexcept {
   Eigen::Matrix<S, 6, 6> a;
   a.template block<3, 3>(0, 0) = T.R;
-  a.template block<3, 3>(0, 3) = hat(T.t) * T.R;
+  a.template block<3, 3>(0, 3) = product(hat(T.t), T.R);
   a.template block<3, 3>(3, 0).setZero();
   a.template block<3, 3>(3, 3) = T.R;
   return a;

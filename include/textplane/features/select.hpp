@@ -97,7 +97,7 @@ inline std::vector<Corner> corners_in_region(const ImageView8& image, const Conv
 
 // Takes corners in rounds, at most one more from each cell a round, strongest first.
 inline void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, int max_pixels,
-                           std::vector<Vector2<float>>* out) {
+                           std::vector<Corner>* out) {
   sort_by_score(&corners);
   std::vector<int> taken(grid.size(), 0);
   for (int round = 0; !corners.empty(); ++round) {
@@ -109,7 +109,7 @@ inline void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, i
         continue;
       }
       if (static_cast<int>(out->size()) >= max_pixels) return;
-      out->push_back({c.x, c.y});
+      out->push_back(c);
       ++n;
     }
     corners.resize(left);
@@ -118,9 +118,9 @@ inline void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, i
 
 // The pixel of largest gradient of every cell without a pixel in `out`, strongest cells first.
 inline void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
-                               const CellGrid& grid, const SelectOptions& options, std::vector<Vector2<float>>* out) {
+                               const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
   std::vector<Corner> best(grid.size());
-  for (const Vector2<float>& p : *out) best[grid.index(p[0], p[1])].score = -1.0F;
+  for (const Corner& p : *out) best[grid.index(p.x, p.y)].score = -1.0F;
   const int x0 = std::max(box.x0, 1), y0 = std::max(box.y0, 1);
   const int x1 = std::min(box.x1, image.width() - 1), y1 = std::min(box.y1, image.height() - 1);
   const float least = 4.0F * options.min_gradient * options.min_gradient;  // the differences below are doubled
@@ -141,7 +141,7 @@ inline void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<doub
   sort_by_score(&best);
   for (const Corner& c : best) {
     if (static_cast<int>(out->size()) >= options.max_pixels) return;
-    out->push_back({c.x, c.y});
+    out->push_back(c);
   }
 }
 
@@ -170,8 +170,12 @@ inline Status select_pixels(const ImageView8& image, const Quad<double>& quad, c
   };
 
   std::vector<Corner> corners = detail::corners_in_region(image, region, box, options, (options.max_pixels + 1) / 2);
-  detail::take_in_rounds(corners, grid(coarse), options.max_pixels, &out);
-  detail::top_up_by_gradient(image, region, box, grid(fine), options, &out);
+  std::vector<Corner> chosen;
+  detail::take_in_rounds(corners, grid(coarse), options.max_pixels, &chosen);
+  detail::top_up_by_gradient(image, region, box, grid(fine), options, &chosen);
+  // Made at its full size: the function that grows a vector of a shared type is itself shared (see config.hpp).
+  out = std::vector<Vector2<float>>(chosen.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i) out[i] = {chosen[i].x, chosen[i].y};
   return static_cast<int>(out.size()) < options.min_pixels ? Status::too_few : Status::ok;
 }
 

@@ -96,21 +96,22 @@ inline TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double
   std::size_t most = 0;
   for (std::size_t l = 0; l < patch.levels.size(); ++l) {
     PatchLevel& level = patch.levels[l];
-    level.x.reserve(pixels[l].size());
-    level.y.reserve(pixels[l].size());
-    level.intensity.reserve(pixels[l].size());
-    level.gx.reserve(pixels[l].size());
-    level.gy.reserve(pixels[l].size());
+    // Made at their full size and cut: an append that grows is a function of the standard library, shared between
+    // translation units with different instruction sets.
+    const std::size_t candidates = pixels[l].size();
+    for (std::vector<float>* values : {&level.x, &level.y, &level.intensity, &level.gx, &level.gy}) {
+      *values = std::vector<float>(candidates);
+    }
+    std::size_t n = 0;
     for (const Vector2<float>& px : pixels[l]) {
-      float value;
-      if (!sample_bilinear(host.level[l], px[0], px[1], &value)) continue;
-      level.x.push_back(px[0]);
-      level.y.push_back(px[1]);
-      level.intensity.push_back(value);
-      float gx, gy;
-      host_gradient(host.level[l], px[0], px[1], &gx, &gy);
-      level.gx.push_back(gx);
-      level.gy.push_back(gy);
+      if (!sample_bilinear(host.level[l], px[0], px[1], &level.intensity[n])) continue;
+      level.x[n] = px[0];
+      level.y[n] = px[1];
+      host_gradient(host.level[l], px[0], px[1], &level.gx[n], &level.gy[n]);
+      ++n;
+    }
+    for (std::vector<float>* values : {&level.x, &level.y, &level.intensity, &level.gx, &level.gy}) {
+      values->erase(values->begin() + static_cast<std::ptrdiff_t>(n), values->end());
     }
     level.find_bounds();
     most = std::max(most, level.x.size());
