@@ -17,7 +17,7 @@ namespace detail {
 /// Fills the arguments of the kernels. False where the reference must take the call. The input has passed check_input().
 inline bool kernel_args(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
                         const PhotometricOptions& options, PhotometricWorkspace& workspace, simd::ResidualArgs* a) noexcept {
-  if (options.robust.kind != RobustKind::huber && options.robust.kind != RobustKind::l2) return false;
+  if (options.precise || (options.robust.kind != RobustKind::huber && options.robust.kind != RobustKind::l2)) return false;
   a->target.data = in.target.data();
   a->target.stride = in.target.stride();
   a->target.width = in.target.width();

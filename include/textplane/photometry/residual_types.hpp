@@ -35,6 +35,7 @@ struct PhotometricOptions {
   Robust robust{RobustKind::huber, 0.5};
   int min_visible = 15;       ///< The paper's minimum; fewer visible pixels are Status::too_few.
   double min_contrast = 1.0;  ///< Least population standard deviation of either side, in intensity units.
+  bool precise = false;       ///< All in double, by the reference, whatever the input: slow.
 
   bool valid() const noexcept { return robust.valid() && is_finite(min_contrast); }
 };

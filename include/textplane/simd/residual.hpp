@@ -122,6 +122,8 @@ TEXTPLANE_END_NAMESPACE
 #include "textplane/simd/foreach_target.inl"
 #define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_large.inl"
 #include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_small.inl"
+#include "textplane/simd/foreach_target.inl"
 #define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual.inl"
 #include "textplane/simd/foreach_target.inl"
 

@@ -124,7 +124,7 @@ class PlaneProblem {
     for (int i = 0; i < count_; ++i) {
       const auto input = level_input(patch_, level_, targets_[i].image, camera_, targets_[i].scale_shift);
       const NormalEquations<3> n =
-          reference::linearise_plane(input, theta, targets_[i].T_t_h, options_.photometric, memory_.photometric_);
+          textplane::linearise_plane(input, theta, targets_[i].T_t_h, options_.photometric, memory_.photometric_);
       int& visible = memory_.counts_[static_cast<std::size_t>(i)];
       visible = is_ok(n.status) ? n.visible : 0;
       if (visible == 0) {
@@ -152,7 +152,7 @@ class PlaneProblem {
       const int visible = memory_.counts_[static_cast<std::size_t>(i)];
       if (visible == 0) continue;
       const PhotometricCost c =
-          reference::evaluate(level_input(patch_, level_, targets_[i].image, camera_, targets_[i].scale_shift), theta,
+          textplane::evaluate(level_input(patch_, level_, targets_[i].image, camera_, targets_[i].scale_shift), theta,
                               targets_[i].T_t_h, options_.photometric, memory_.photometric_, visible_set(i));
       // A target that is lost as a whole costs what an uncorrelated patch would.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));

@@ -186,7 +186,7 @@ class PoseProblem {
       const PoseTextState& state = text(i);
       if (state.visible == 0) continue;
       const PoseTextTerm& term = texts_[i];
-      const PhotometricCost c = reference::evaluate(
+      const PhotometricCost c = textplane::evaluate(
           level_input(*term.patch, level_, target_, camera_, term.scale_shift), term.theta, T_t_w * term.T_w_h,
           options_.photometric, memory_.photometric_, memory_.visible_.data() + state.offset);
       // An object that is lost as a whole costs what two uncorrelated patches would.
@@ -226,7 +226,7 @@ class PoseProblem {
     if (!term.patch || !(term.weight > 0) || !is_finite(term.weight)) return Status::invalid_argument;
     const auto input = level_input(*term.patch, level_, target_, camera_, term.scale_shift);
     const NormalEquations<6> n =
-        reference::linearise_pose(input, term.theta, T_t_w * term.T_w_h, options_.photometric, memory_.photometric_);
+        textplane::linearise_pose(input, term.theta, T_t_w * term.T_w_h, options_.photometric, memory_.photometric_);
     if (!is_ok(n.status)) return n.status;
     state.visible = n.visible;
     state.zncc = n.zncc;

@@ -129,7 +129,7 @@ class WindowTerms {
       const WindowTextObservation& ob = at(w.text_observations, k);
       const WindowText& t = at(w.texts, ob.text);
       const int visible = at(text_, k).visible;
-      const PhotometricCost c = reference::evaluate(
+      const PhotometricCost c = textplane::evaluate(
           photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera, ob.scale_shift),
           at(y.landmark, count(w.points) + ob.text), relative_pose(t, ob, y), o.photometric, photometric_, mask(k));
       pixels += visible;
@@ -208,7 +208,7 @@ class WindowTerms {
     NormalEquations<9>& out = at(text_, k);
     const PhotometricInput input =
         photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera, ob.scale_shift);
-    out = reference::linearise_pose_plane(input, at(x.landmark, count(w.points) + ob.text), relative_pose(t, ob, x),
+    out = textplane::linearise_pose_plane(input, at(x.landmark, count(w.points) + ob.text), relative_pose(t, ob, x),
                                           o.photometric, photometric_);
     if (is_ok(out.status))
       std::copy_n(photometric_.visible(), input.patch.n,

@@ -15,8 +15,9 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
-    info->status = parameters == 0 ? evaluate_pixels(a, f, pixels, s, info)
-                                   : linearise_large(parameters, a, f, pixels, s, info, H, b);
+    info->status = parameters == 0          ? evaluate_pixels(a, f, pixels, s, info)
+                   : pixels.n <= kRowPixels ? linearise_small(parameters, a, f, pixels, s, info, H, b)
+                                            : linearise_large(parameters, a, f, pixels, s, info, H, b);
     if (info->status != Status::non_finite) return;
   }
   info->status = Status::rank_deficient;

@@ -36,8 +36,8 @@ TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
 }
 
 // Closes up the visible pixels into hx, hy, h; counts; flags.
-TEXTPLANE_SIMD_INLINE void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
-                                    simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
+                                   simd::ResidualInfo* info) noexcept {
   int candidates = 0, front = 0, visible = 0;
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
@@ -99,8 +99,8 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
 
 // Strip of n host pixels from `begin` on: target coordinates, intensities, gradients (unless `values` alone are wanted). Whole
 // vectors are written, zero beyond n.
-TEXTPLANE_SIMD_INLINE void collect_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
-                                         const ResidualArrays& s, SampleStrip* strip) noexcept {
+TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
+                                       const ResidualArrays& s, SampleStrip* strip) noexcept {
   warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
   fetch_taps(f.sample, n, strip);
   const bool paired = f.sample.pairs != nullptr;
@@ -116,4 +116,12 @@ TEXTPLANE_SIMD_INLINE void collect_strip(const HostPixels& host, const ResidualF
     zero_tail(s.b + begin, n);
   }
   zero_tail(s.i + begin, n);
+}
+TEXTPLANE_SIMD_ENTRY void collect_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n, const ResidualArrays& s,
+                                        SampleStrip* strip) noexcept {
+  collect_any(host, f, begin, n, false, s, strip);
+}
+TEXTPLANE_SIMD_ENTRY void collect_values(const HostPixels& host, const ResidualFrame& f, int begin, int n, const ResidualArrays& s,
+                                         SampleStrip* strip) noexcept {
+  collect_any(host, f, begin, n, true, s, strip);
 }

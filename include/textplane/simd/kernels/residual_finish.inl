@@ -11,7 +11,7 @@ TEXTPLANE_SIMD_INLINE void unpack_block(const double* p, int at, double (*S)[8])
   S[at + 2][at + 2] = p[5];
 }
 TEXTPLANE_SIMD_INLINE void set_pair(double (*S)[8], int r, int c, double value) noexcept { S[r][c] = S[c][r] = value; }
-TEXTPLANE_SIMD_INLINE void unpack_products(int form, const double* p, double (*S)[8]) noexcept {
+                                    TEXTPLANE_SIMD_ENTRY void unpack_products(int form, const double* p, double (*S)[8]) noexcept {
   unpack_block(p, 0, S);
   if (form == 3) return;
   unpack_block(p + 6, 3, S);
@@ -56,7 +56,7 @@ struct WeightedSums {
 };
 
 // S and wr become H and b of the rows: exact through mean and s, or with both held.
-TEXTPLANE_SIMD_INLINE void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
+TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
   const double scale = 1 / (s * s);
   if (exact) {
     double p[8] = {0, 0, 0, 0, 0, 0, 0, 0}, q[8] = {0, 0, 0, 0, 0, 0, 0, 0};
@@ -79,7 +79,7 @@ TEXTPLANE_SIMD_INLINE void project_sums(int form, bool exact, double s, Weighted
 
 // d j / d parameter: columns v, omega, theta of the matrix M, which takes rows of the pixel homography to rows of the parameters.
 // Rows 0 to 7 of the result hold columns 0 to 7; row 8 holds column 8.
-TEXTPLANE_SIMD_INLINE void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
+TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
   const double fx = a.target_camera[0], fy = a.target_camera[1], ix = 1 / fx, iy = 1 / fy, c = f.c, d = f.d;
   const double fxy = fx * iy, fyx = fy * ix, cx = c * ix, dy = d * iy;
   for (int k = 0; k < 9; ++k) {
@@ -125,8 +125,8 @@ TEXTPLANE_SIMD_INLINE vd row_product(const double* left, std::ptrdiff_t step, co
 }
 
 // H = M^T S M (9 x 9) and b = M^T g.
-TEXTPLANE_SIMD_INLINE void change_parameters(const double (*M)[8], const double (*S)[8], const double* g, double* H,
-                                             double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (*S)[8], const double* g, double* H,
+                                            double* b) noexcept {
   double T[8][8], last[8], row[8];
   for (int r = 0; r < 8; ++r) stored(T[r], row_product(S[r], 1, M));
   stored(last, row_product(M[8], 1, S));  // column 8 of S M

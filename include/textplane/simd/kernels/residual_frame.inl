@@ -1,14 +1,14 @@
 // Geometry of one residual call, in double: see simd/residual.hpp.
 
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
-
-// The least value of f0 u + f1 v + f2 for |u| <= ru, |v| <= rv.
-TEXTPLANE_SIMD_INLINE double least_in_box(double f0, double f1, double f2, double ru, double rv) noexcept {
+                                   
+                                   // The least value of f0 u + f1 v + f2 for |u| <= ru, |v| <= rv.
+                                   TEXTPLANE_SIMD_INLINE double least_in_box(double f0, double f1, double f2, double ru, double rv) noexcept {
   return f2 - abs_d(f0) * ru - abs_d(f1) * rv;
 }
 
 // False where float or H^-1 do not carry the case.
-TEXTPLANE_SIMD_INLINE bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
+TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
   const double* p = a.theta;
   double H[9];
   for (int r = 0; r < 3; ++r)

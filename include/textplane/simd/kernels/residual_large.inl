@@ -5,9 +5,9 @@
 // for weighted ones.
 
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
-
-// Everything one strip needs besides its pixels.
-struct RowStrip {
+                                        
+                                        // Everything one strip needs besides its pixels.
+                                        struct RowStrip {
   float row[6][kStrip];
 };
 
@@ -55,7 +55,7 @@ TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float*
 }
 
 // Adds the partial sums to the totals and clears them; `sums` is rounded up to a multiple of four.
-TEXTPLANE_SIMD_INLINE void fold(float* acc, int sums, double* total) noexcept {
+TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
   for (int k = 0; k < sums; k += 4) {
     float* p = acc + k * kLanes;
     float four[4];
@@ -67,11 +67,12 @@ TEXTPLANE_SIMD_INLINE void fold(float* acc, int sums, double* total) noexcept {
   }
 }
 
-// The target's and the host's offsets and kappa, from the first strip.
+// The target's and the host's offsets, their means over the first strip; and kappa, the ratio of their contrasts there, with which
+// kappa h - i is about as small as the residuals are: its products with rows lose nothing.
 struct Offsets {
   float target, host, kappa;
 };
-TEXTPLANE_SIMD_INLINE Offsets first_offsets(const float* i, const float* h, int n) noexcept {
+TEXTPLANE_SIMD_ENTRY Offsets plain_offsets(const float* i, const float* h, int n) noexcept {
   Offsets o;
   vf t = zero(), s = zero();
   for (int k = 0; k < n; k += kLanes) {
@@ -80,7 +81,12 @@ TEXTPLANE_SIMD_INLINE Offsets first_offsets(const float* i, const float* h, int 
   }
   o.target = static_cast<float>(hsum_d(t) / n);
   o.host = static_cast<float>(hsum_d(s) / n);
-  t = s = zero();
+  o.kappa = 1.0F;
+  return o;
+}
+TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n) noexcept {
+  Offsets o = plain_offsets(i, h, n);
+  vf t = zero(), s = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf p = sub(load(i + k), set1(o.target)), q = sub(load_part(h + k, n - k), set1(o.host));
     if (n - k < kLanes) {
@@ -99,9 +105,9 @@ TEXTPLANE_SIMD_INLINE Offsets first_offsets(const float* i, const float* h, int 
 struct SideSums {
   double i, ii, h, hh;
 };
-TEXTPLANE_SIMD_INLINE void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
-                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
-                                        SideSums* sums) noexcept {
+TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
+                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
+                                       SideSums* sums) noexcept {
   vf si = zero(), sii = zero(), sh = zero(), shh = zero();
   const vf kappa = set1(o.kappa);
   for (int k = 0; k < n; k += kLanes) {
@@ -130,7 +136,7 @@ struct Residual {
 
 // From the sums of both sides, for N pixels. no_contrast where there is none on either; non_finite for host intensities that are
 // not, or whose squares are not in float.
-TEXTPLANE_SIMD_INLINE Status make_residual(const simd::ResidualArgs& a, const Offsets& o, const SideSums& sums, int n, Residual* r, simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Offsets& o, const SideSums& sums, int n, Residual* r, simd::ResidualInfo* info) noexcept {
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
@@ -153,8 +159,8 @@ TEXTPLANE_SIMD_INLINE Status make_residual(const simd::ResidualArgs& a, const Of
 
 // Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta; returns
 // how many.
-TEXTPLANE_SIMD_INLINE int add_costs(const float* d, const float* i, int n, const Residual& r, bool huber, float delta,
-                                    std::int32_t* list, double* squares, double* rho) noexcept {
+TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const Residual& r, bool huber, float delta,
+                                   std::int32_t* list, double* squares, double* rho) noexcept {
   const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
   const vf shift = set1(static_cast<float>(r.shift)), limit = set1(delta);
   int listed = 0;
@@ -192,8 +198,8 @@ struct WeightedStrip {
 
 // Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is Huber's w, or
 // (complement) 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
-TEXTPLANE_SIMD_INLINE void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n, const Residual& k,
-                                       double root, float delta, bool complement, WeightedStrip* w, double* sums) noexcept {
+TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n, const Residual& k,
+                                      double root, float delta, bool complement, WeightedStrip* w, double* sums) noexcept {
   if (list) {
     for (int j = 0; j < n; ++j) {
       const std::ptrdiff_t at = list[j];
@@ -250,15 +256,15 @@ TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, c
 }
 
 // The cost of the host pixels, of which there are at least a.min_visible.
-TEXTPLANE_SIMD_INLINE Status evaluate_pixels(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
-                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY Status evaluate_pixels(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
+                                            const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
   SampleStrip strip;
   Offsets offsets;
   SideSums sides = {0, 0, 0, 0};
   const int n = host.n;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
-    collect_strip(host, f, begin, count, true, s, &strip);
+    collect_values(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
     centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
   }
@@ -292,7 +298,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   int terms = 0;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
-    collect_strip(host, f, begin, count, false, s, &strip);
+    collect_strip(host, f, begin, count, s, &strip);
     const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
     float *i = s.i + begin, *d = s.d + begin;
     if (begin == 0) offsets = first_offsets(i, host.h, count);
