@@ -16,8 +16,10 @@ namespace detail {
 
 /// Fills the arguments of the kernels. False where the reference must take the call. The input has passed check_input().
 inline bool kernel_args(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
-                        const PhotometricOptions& options, PhotometricWorkspace& workspace, simd::ResidualArgs* a) noexcept {
-  if (options.precise || (options.robust.kind != RobustKind::huber && options.robust.kind != RobustKind::l2)) return false;
+                        const PhotometricOptions& options, PhotometricWorkspace& workspace,
+                        simd::ResidualArgs* a) noexcept {
+  if (options.precise || (options.robust.kind != RobustKind::huber && options.robust.kind != RobustKind::l2))
+    return false;
   a->target.data = in.target.data();
   a->target.stride = in.target.stride();
   a->target.width = in.target.width();
@@ -66,41 +68,37 @@ inline Status kernel_status(const simd::ResidualInfo& info, int min_visible) noe
 }
 
 template <int P>
-simd::ResidualSums kernel_sums(const simd::ResidualArgs& args) noexcept {
-  if constexpr (P == 3) return simd::linearise_plane(args);
-  if constexpr (P == 6) return simd::linearise_pose(args);
-  if constexpr (P == 9) return simd::linearise_pose_plane(args);
+simd::ResidualInfo kernel_sums(const simd::ResidualArgs& args, double* H, double* b) noexcept {
+  if constexpr (P == 3) return simd::linearise_plane(args, H, b);
+  if constexpr (P == 6) return simd::linearise_pose(args, H, b);
+  if constexpr (P == 9) return simd::linearise_pose_plane(args, H, b);
 }
 
-/// linearise() by the kernels; false where they declined, and then nothing was written but the workspace.
+/// linearise() by the kernels; false where they declined, and then *out is to be made anew.
 template <int P>
 bool kernel_linearise(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
-                      const PhotometricOptions& options, PhotometricWorkspace& workspace, NormalEquations<P>* out) noexcept {
+                      const PhotometricOptions& options, PhotometricWorkspace& workspace,
+                      NormalEquations<P>* out) noexcept {
   simd::ResidualArgs args;
   if (!kernel_args(in, theta, T_t_h, options, workspace, &args)) return false;
   args.flags = workspace.visible_flags();
-  const simd::ResidualSums sums = kernel_sums<P>(args);
-  if (declined(sums.info)) return false;
-  out->status = kernel_status(sums.info, options.min_visible);
+  const simd::ResidualInfo info = kernel_sums<P>(args, out->H.data(), out->b.data());
+  if (declined(info)) return false;
+  out->status = kernel_status(info, options.min_visible);
   if (!is_ok(out->status)) return true;
-  for (int c = 0; c < P; ++c) {
-    out->b[c] = sums.b[c];
-    for (int r = 0; r < P; ++r) out->H(r, c) = sums.H[P * r + c];
-  }
-  if (!all_finite(out->H) || !all_finite(out->b) || !is_finite(sums.info.cost)) return false;
-  out->cost = sums.info.cost;
-  out->error = sums.info.error;
-  out->zncc = 1.0 - 0.5 * sums.info.error;
-  out->visible = sums.info.visible;
-  out->mean = sums.info.mean;
-  out->s = sums.info.s;
+  out->cost = info.cost;
+  out->error = info.error;
+  out->zncc = 1.0 - 0.5 * info.error;
+  out->visible = info.visible;
+  out->mean = info.mean;
+  out->s = info.s;
   return true;
 }
 
 /// evaluate() by the kernels; false where they declined.
 inline bool kernel_evaluate(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
-                            const PhotometricOptions& options, PhotometricWorkspace& workspace, const std::uint8_t* on_set,
-                            PhotometricCost* out) noexcept {
+                            const PhotometricOptions& options, PhotometricWorkspace& workspace,
+                            const std::uint8_t* on_set, PhotometricCost* out) noexcept {
   simd::ResidualArgs args;
   if (!kernel_args(in, theta, T_t_h, options, workspace, &args)) return false;
   args.on_set = on_set;

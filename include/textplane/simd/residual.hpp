@@ -32,22 +32,22 @@ struct ResidualArgs {
   const float* y = nullptr;
   const float* intensity = nullptr;
   int n = 0;
-  const std::uint8_t* mask = nullptr;    ///< If not null: pixels with 0 here do not exist.
-  const std::uint8_t* on_set = nullptr;  ///< Another such mask.
-  PointBounds bounds;                    ///< Of all n pixels, or none.
-  Image8 target;                         ///< readable().
+  const std::uint8_t* mask = nullptr;         ///< If not null: pixels with 0 here do not exist.
+  const std::uint8_t* on_set = nullptr;       ///< Another such mask.
+  PointBounds bounds;                         ///< Of all n pixels, or none.
+  Image8 target;                              ///< readable().
   double R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< Host to target, row-major.
   double t[3] = {};
-  double theta[3] = {};          ///< Plane in the host frame, theta^T p = 1.
-  double host_camera[4] = {};    ///< fx, fy, cx, cy.
+  double theta[3] = {};        ///< Plane in the host frame, theta^T p = 1.
+  double host_camera[4] = {};  ///< fx, fy, cx, cy.
   double target_camera[4] = {};
-  bool exact = true;             ///< Derivatives through mean and s; else both are held.
-  bool huber = true;             ///< Huber's weights, else none.
-  double delta = 0.5;            ///< Of Huber, on r sqrt(N).
-  double min_contrast = 0;       ///< Least standard deviation of either side, in intensity units.
-  int min_visible = 1;           ///< Sums are taken from this many visible pixels on.
-  std::uint8_t* flags = nullptr; ///< If not null: n bytes, 1 for visible pixels, 0 for others.
-  float* scratch = nullptr;      ///< residual_scratch(n) floats.
+  bool exact = true;              ///< Derivatives through mean and s; else both are held.
+  bool huber = true;              ///< Huber's weights, else none.
+  double delta = 0.5;             ///< Of Huber, on r sqrt(N).
+  double min_contrast = 0;        ///< Least standard deviation of either side, in intensity units.
+  int min_visible = 1;            ///< Sums are taken from this many visible pixels on.
+  std::uint8_t* flags = nullptr;  ///< If not null: n bytes, 1 for visible pixels, 0 for others.
+  float* scratch = nullptr;       ///< residual_scratch(n) floats.
 };
 
 /// Floats of scratch memory for n pixels: ten arrays with room for whole vectors, whose starts differ modulo 4 KiB.
@@ -55,7 +55,7 @@ constexpr std::size_t residual_scratch(int n) noexcept {
   return 10 * ((static_cast<std::size_t>(n > 0 ? n : 0) + 159) / 256 * 256 + 112);
 }
 
-/// What is known about the residuals. All zero but for the counts unless the status is ok.
+/// What is known about the residuals. Only the counts mean anything unless the status is ok.
 struct ResidualInfo {
   int candidates = 0;  ///< Pixels that the masks let through.
   int behind = 0;      ///< Of these, behind one of the cameras.
@@ -69,20 +69,13 @@ struct ResidualInfo {
   Status status = Status::invalid_argument;
 };
 
-/// Normal equations, parameters as the functions say. H is P x P, row by row and symmetric; b has P entries.
-struct ResidualSums {
-  double H[81] = {};
-  double b[9] = {};
-  ResidualInfo info;
-};
-
 }  // namespace simd
 
 namespace detail {
 enum : int {
-  kRowPixels = 160,   // up to here rows of the parameters, from here on sums that are corrected
-  kFoldTerms = 256,   // terms of a lane before a sum goes to double
-  kMostSums = 52,     // 27 + 3 * 8, and a multiple of four
+  kRowPixels = 160,  // up to here rows of the parameters, from here on sums that are corrected
+  kFoldTerms = 256,  // terms of a lane before a sum goes to double
+  kMostSums = 52,    // 27 + 3 * 8, and a multiple of four
   kMostLanes = 16,
 };
 
@@ -90,20 +83,20 @@ enum : int {
 struct ResidualFrame {
   simd::Warp8 warp;
   SampleFrame sample;
-  float rho[3];            // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
-  double inverse[9];       // H^-1, row-major
-  double q[3];             // theta^T H^-1
+  float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
+  double inverse[9];  // H^-1, row-major
+  double q[3];        // theta^T H^-1
   double c, d;
-  bool inside;             // every pixel of the patch is visible
+  bool inside;  // every pixel of the patch is visible
 };
 
 // The caller's scratch: one array of each.
 struct ResidualArrays {
-  float *x, *y;            // target coordinates relative to the origin
-  float *a, *b;            // gradient there
-  float *i;                // target intensity, less an offset
-  float *d;                // host intensity, less an offset; later kappa times that, less i
-  float *hx, *hy, *h;      // visible host pixels, closed up
+  float *x, *y;        // target coordinates relative to the origin
+  float *a, *b;        // gradient there
+  float* i;            // target intensity, less an offset
+  float* d;            // host intensity, less an offset; later kappa times that, less i
+  float *hx, *hy, *h;  // visible host pixels, closed up
   std::int32_t* list;
 };
 }  // namespace detail
@@ -130,14 +123,17 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-inline void linearise_plane_sums(const simd::ResidualArgs& args, simd::ResidualSums* out) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_plane_sums(args, out));
+inline void linearise_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                 double* b) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(linearise_plane_sums(args, out, H, b));
 }
-inline void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualSums* out) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_pose_sums(args, out));
+inline void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                double* b) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(linearise_pose_sums(args, out, H, b));
 }
-inline void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualSums* out) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_pose_plane_sums(args, out));
+inline void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                      double* b) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(linearise_pose_plane_sums(args, out, H, b));
 }
 inline void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept {
   TEXTPLANE_SIMD_DISPATCH(evaluate_cost(args, out));
@@ -146,24 +142,24 @@ inline void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* ou
 
 namespace simd {
 
-/// Normal equations for theta, P = 3.
-inline ResidualSums linearise_plane(const ResidualArgs& args) noexcept {
-  ResidualSums out;
-  detail::linearise_plane_sums(args, &out);
+/// Normal equations for theta: H (3 x 3, symmetric) and b (3), of which nothing may be used unless the status is ok.
+inline ResidualInfo linearise_plane(const ResidualArgs& args, double* H, double* b) noexcept {
+  ResidualInfo out;
+  detail::linearise_plane_sums(args, &out, H, b);
   return out;
 }
 
-/// Normal equations for the pose, (v, omega), P = 6.
-inline ResidualSums linearise_pose(const ResidualArgs& args) noexcept {
-  ResidualSums out;
-  detail::linearise_pose_sums(args, &out);
+/// The same for the pose, (v, omega): 6 x 6 and 6.
+inline ResidualInfo linearise_pose(const ResidualArgs& args, double* H, double* b) noexcept {
+  ResidualInfo out;
+  detail::linearise_pose_sums(args, &out, H, b);
   return out;
 }
 
-/// Normal equations for both, (v, omega, theta), P = 9.
-inline ResidualSums linearise_pose_plane(const ResidualArgs& args) noexcept {
-  ResidualSums out;
-  detail::linearise_pose_plane_sums(args, &out);
+/// The same for both, (v, omega, theta): 9 x 9 and 9.
+inline ResidualInfo linearise_pose_plane(const ResidualArgs& args, double* H, double* b) noexcept {
+  ResidualInfo out;
+  detail::linearise_pose_plane_sums(args, &out, H, b);
   return out;
 }
 

@@ -24,7 +24,7 @@ namespace simd {
 /// An 8-bit image of at least 2 x 2 pixels with height * stride below 2^31, and optionally its pairs.
 struct Image8 {
   const std::uint8_t* data = nullptr;
-  std::ptrdiff_t stride = 0;             ///< Bytes from row to row.
+  std::ptrdiff_t stride = 0;  ///< Bytes from row to row.
   int width = 0, height = 0;
   const std::uint16_t* pairs = nullptr;  ///< prepare_pair16() of it, or null.
   std::ptrdiff_t pair_stride = 0;        ///< 16-bit words from row to row.
@@ -34,7 +34,8 @@ struct Image8 {
 inline bool readable(const Image8& image) noexcept {
   return image.data != nullptr && image.width >= 2 && image.height >= 2 && image.stride >= image.width &&
          image.stride <= 0x7fffffff / image.height &&
-         (image.pairs == nullptr || (image.pair_stride >= image.width && image.pair_stride <= 0x3fffffff / image.height));
+         (image.pairs == nullptr ||
+          (image.pair_stride >= image.width && image.pair_stride <= 0x3fffffff / image.height));
 }
 
 /// A homography between recentred coordinates, in float: with u = x - hx and v = y - hy the target pixel is

@@ -45,8 +45,10 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
 // Copies n floats.
 TEXTPLANE_SIMD_INLINE void copy_part(float* to, const float* from, int n) noexcept {
   for (int i = 0; i < n; i += kLanes) {
-    if (n - i >= kLanes) store(to + i, load(from + i));
-    else store_n(to + i, load(from + i), n - i);
+    if (n - i >= kLanes)
+      store(to + i, load(from + i));
+    else
+      store_n(to + i, load(from + i), n - i);
   }
 }
 

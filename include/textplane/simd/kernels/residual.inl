@@ -1,8 +1,15 @@
 // Entry points of the residual kernels: see simd/residual.hpp.
 
-// `parameters` 3, 6, 9: normal equations; 0: the cost alone, and `out` is null.
-TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
-                                        double* b) noexcept {
+// No number among n is a NaN or infinite (nor their sum, which for entries of H would be as bad).
+TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += p[i];
+  return finite_d(sum);
+}
+
+// `parameters` 3, 6, 9: normal equations; 0: the cost alone, and H and b are null.
+TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs& a, simd::ResidualInfo* info,
+                                        double* H, double* b) noexcept {
   simd::PointBounds bounds = a.bounds;
   if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
   ResidualFrame f;
@@ -18,19 +25,25 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     info->status = parameters == 0          ? evaluate_pixels(a, f, pixels, s, info)
                    : pixels.n <= kRowPixels ? linearise_small(parameters, a, f, pixels, s, info, H, b)
                                             : linearise_large(parameters, a, f, pixels, s, info, H, b);
+    if (info->status == Status::ok &&
+        !(finite_d(info->cost) && finite_sum(H, parameters * parameters) && finite_sum(b, parameters)))
+      info->status = Status::rank_deficient;
     if (info->status != Status::non_finite) return;
   }
   info->status = Status::rank_deficient;
 }
 
-TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualSums* out) noexcept {
-  residual_any(3, a, &out->info, out->H, out->b);
+TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                               double* b) noexcept {
+  residual_any(3, a, info, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualSums* out) noexcept {
-  residual_any(6, a, &out->info, out->H, out->b);
+TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                              double* b) noexcept {
+  residual_any(6, a, info, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualSums* out) noexcept {
-  residual_any(9, a, &out->info, out->H, out->b);
+TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                                    double* b) noexcept {
+  residual_any(9, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
   residual_any(0, a, info, nullptr, nullptr);

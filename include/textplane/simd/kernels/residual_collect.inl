@@ -53,7 +53,8 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
     const vm finite = le(abs_(h), set1(3.0e38F));
-    const unsigned in_front = b & bits(ahead), seen = in_front & bits(and_(inside_vector(f.sample, x, y, divisor), finite));
+    const unsigned in_front = b & bits(ahead),
+                   seen = in_front & bits(and_(inside_vector(f.sample, x, y, divisor), finite));
     if (seen == (1U << kLanes) - 1U) {
       store(s.hx + visible, px);
       store(s.hy + visible, py);
@@ -105,11 +106,15 @@ TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFra
   fetch_taps(f.sample, n, strip);
   const bool paired = f.sample.pairs != nullptr;
   if (values) {
-    if (paired) interpolate_values(*strip, n, true, s.i + begin);
-    else interpolate_values(*strip, n, false, s.i + begin);
+    if (paired)
+      interpolate_values(*strip, n, true, s.i + begin);
+    else
+      interpolate_values(*strip, n, false, s.i + begin);
   } else {
-    if (paired) interpolate_strip(*strip, n, true, s.i + begin, s.a + begin, s.b + begin);
-    else interpolate_strip(*strip, n, false, s.i + begin, s.a + begin, s.b + begin);
+    if (paired)
+      interpolate_strip(*strip, n, true, s.i + begin, s.a + begin, s.b + begin);
+    else
+      interpolate_strip(*strip, n, false, s.i + begin, s.a + begin, s.b + begin);
     zero_tail(s.x + begin, n);
     zero_tail(s.y + begin, n);
     zero_tail(s.a + begin, n);
@@ -117,11 +122,11 @@ TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFra
   }
   zero_tail(s.i + begin, n);
 }
-TEXTPLANE_SIMD_ENTRY void collect_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n, const ResidualArrays& s,
-                                        SampleStrip* strip) noexcept {
+TEXTPLANE_SIMD_ENTRY void collect_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n,
+                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
   collect_any(host, f, begin, n, false, s, strip);
 }
-TEXTPLANE_SIMD_ENTRY void collect_values(const HostPixels& host, const ResidualFrame& f, int begin, int n, const ResidualArrays& s,
-                                         SampleStrip* strip) noexcept {
+TEXTPLANE_SIMD_ENTRY void collect_values(const HostPixels& host, const ResidualFrame& f, int begin, int n,
+                                         const ResidualArrays& s, SampleStrip* strip) noexcept {
   collect_any(host, f, begin, n, true, s, strip);
 }

@@ -11,7 +11,7 @@ TEXTPLANE_SIMD_INLINE void unpack_block(const double* p, int at, double (*S)[8])
   S[at + 2][at + 2] = p[5];
 }
 TEXTPLANE_SIMD_INLINE void set_pair(double (*S)[8], int r, int c, double value) noexcept { S[r][c] = S[c][r] = value; }
-                                    TEXTPLANE_SIMD_ENTRY void unpack_products(int form, const double* p, double (*S)[8]) noexcept {
+TEXTPLANE_SIMD_ENTRY void unpack_products(int form, const double* p, double (*S)[8]) noexcept {
   unpack_block(p, 0, S);
   if (form == 3) return;
   unpack_block(p + 6, 3, S);
@@ -79,7 +79,8 @@ TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedS
 
 // d j / d parameter: columns v, omega, theta of the matrix M, which takes rows of the pixel homography to rows of the parameters.
 // Rows 0 to 7 of the result hold columns 0 to 7; row 8 holds column 8.
-TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
+TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f,
+                                           double (*M)[8]) noexcept {
   const double fx = a.target_camera[0], fy = a.target_camera[1], ix = 1 / fx, iy = 1 / fy, c = f.c, d = f.d;
   const double fxy = fx * iy, fyx = fy * ix, cx = c * ix, dy = d * iy;
   for (int k = 0; k < 9; ++k) {

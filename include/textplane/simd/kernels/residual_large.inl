@@ -5,21 +5,24 @@
 // for weighted ones.
 
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
-                                        
-                                        // Everything one strip needs besides its pixels.
-                                        struct RowStrip {
+
+// Everything one strip needs besides its pixels.
+struct RowStrip {
   float row[6][kStrip];
 };
 
 // Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too.
-TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x, const float* y,
-                                              const float* a, const float* b, int n, RowStrip* rows, float* acc) noexcept {
+TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
+                                              const float* y, const float* a, const float* b, int n, RowStrip* rows,
+                                              float* acc) noexcept {
   float(*r)[kStrip] = rows->row;
   float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;  // or where nobody reads
   if (form == 3) {
     plane_rows(k, x, y, a, b, n, r);
-    if (plain) add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
-    else add_squares3(r[0], r[1], r[2], n, acc);
+    if (plain)
+      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+    else
+      add_squares3(r[0], r[1], r[2], n, acc);
   } else if (form == 6) {
     pose_rows(k, x, y, a, b, n, r);
     if (plain) {
@@ -40,8 +43,8 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
 }
 
 // Sums of the rows with the factors p and q, to the sums `first` and `second` of three.
-TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows, const float* p,
-                                          const float* q, int n, float* first, float* second) noexcept {
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
+                                          const float* p, const float* q, int n, float* first, float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
     add_products3(r[0], r[1], r[2], p, q, n, first, second);
@@ -136,14 +139,16 @@ struct Residual {
 
 // From the sums of both sides, for N pixels. no_contrast where there is none on either; non_finite for host intensities that are
 // not, or whose squares are not in float.
-TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Offsets& o, const SideSums& sums, int n, Residual* r, simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Offsets& o, const SideSums& sums, int n,
+                                          Residual* r, simd::ResidualInfo* info) noexcept {
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
   // What rounding leaves of a constant side is no contrast either.
   const double least = a.min_contrast > 0 ? a.min_contrast : 0, floor = 1e-6;
   const double i_size = abs_d(i_mean + o.target), h_size = abs_d(h_mean + o.host);
-  const double i_sigma = i_squares > 0 ? sqrt_d(i_squares / count) : 0, h_sigma = h_squares > 0 ? sqrt_d(h_squares / count) : 0;
+  const double i_sigma = i_squares > 0 ? sqrt_d(i_squares / count) : 0,
+               h_sigma = h_squares > 0 ? sqrt_d(h_squares / count) : 0;
   if (!(i_sigma > least) || !(i_sigma > floor * i_size)) return Status::no_contrast;
   if (!(h_sigma > least) || !(h_sigma > floor * h_size)) return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
@@ -159,47 +164,56 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
 
 // Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta; returns
 // how many.
+struct CostSums {
+  vf squares, rho;
+};
+TEXTPLANE_SIMD_INLINE unsigned cost_vector(const Residual& r, const float* d, const float* i, vf limit, int left,
+                                           CostSums* sums) noexcept {
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  vf e = madd(load(d), on_d, madd(load(i), on_i, set1(static_cast<float>(r.shift))));
+  if (left < kLanes) e = keep(first_n(left), e);
+  const vf size = abs_(e), m = min_(size, limit);
+  sums->squares = madd(e, e, sums->squares);
+  sums->rho = madd(m, add(size, sub(size, m)), sums->rho);
+  return bits(gt(size, limit));
+}
 TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const Residual& r, bool huber, float delta,
                                    std::int32_t* list, double* squares, double* rho) noexcept {
-  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
-  const vf shift = set1(static_cast<float>(r.shift)), limit = set1(delta);
+  const vf limit = set1(huber ? delta : 3.0e38F);
   int listed = 0;
   for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
     const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
-    vf s = zero(), c = zero();
-    std::uint64_t word = 0;
-    int first = begin, filled = 0;
-    for (int k = begin; k < end; k += kLanes) {
-      vf e = madd(load(d + k), on_d, madd(load(i + k), on_i, shift));
-      if (end - k < kLanes) e = keep(first_n(end - k), e);
-      s = madd(e, e, s);
-      if (!huber) continue;
-      const vf size = abs_(e), m = min_(size, limit);
-      c = madd(m, add(size, sub(size, m)), c);
-      if (!list) continue;
-      word |= static_cast<std::uint64_t>(bits(gt(size, limit))) << filled;
-      filled += kLanes;
-      if (filled == 64 || k + kLanes >= end) {
-        for (; word != 0; word &= word - 1) list[listed++] = first + lowest_bit(word);
-        first += filled;
-        filled = 0;
+    CostSums sums = {zero(), zero()};
+    // 64 pixels at a time: their outliers are the bits of a word.
+    for (int k = begin; k < end; k += 64) {
+      std::uint64_t word = 0;
+      if (end - k >= 64) {
+        for (int j = 0; j < 64; j += kLanes)
+          word |= static_cast<std::uint64_t>(cost_vector(r, d + k + j, i + k + j, limit, kLanes, &sums)) << j;
+      } else {
+        for (int j = 0; k + j < end; j += kLanes)
+          word |= static_cast<std::uint64_t>(cost_vector(r, d + k + j, i + k + j, limit, end - k - j, &sums)) << j;
       }
+      if (!list) continue;
+      for (; word != 0; word &= word - 1) list[listed++] = k + lowest_bit(word);
     }
-    *squares += hsum_d(s);
-    *rho += huber ? hsum_d(c) : hsum_d(s);
+    *squares += hsum_d(sums.squares);
+    *rho += hsum_d(sums.rho);
   }
   return listed;
 }
 
 // n <= kStrip pixels that are given weights: coordinates, and gradient and factors times the root of the weight.
 struct WeightedStrip {
-  float x[kStrip], y[kStrip], a[kStrip], b[kStrip], p[kStrip], q[kStrip], r[kStrip];  // p = 1, q = n, r = r, times the root
+  float x[kStrip], y[kStrip], a[kStrip], b[kStrip], p[kStrip], q[kStrip],
+      r[kStrip];  // p = 1, q = n, r = r, times the root
 };
 
 // Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is Huber's w, or
 // (complement) 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
-TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n, const Residual& k,
-                                      double root, float delta, bool complement, WeightedStrip* w, double* sums) noexcept {
+TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
+                                      const Residual& k, double root, float delta, bool complement, WeightedStrip* w,
+                                      double* sums) noexcept {
   if (list) {
     for (int j = 0; j < n; ++j) {
       const std::ptrdiff_t at = list[j];
@@ -223,8 +237,8 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
     const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
     vf weight = div(min_(size, limit), max_(size, set1(1e-30F)));  // w; 1 - w below
-    weight = complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F)))
-                        : select(gt(size, limit), weight, one);
+    weight =
+        complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F))) : select(gt(size, limit), weight, one);
     if (n - j < kLanes) weight = keep(first_n(n - j), weight);
     const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
     const vf q = mul(p, nn), r = mul(p, rr);
@@ -249,7 +263,8 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 }
 
 // Sums of the rows with the factors p, q and r of the strip, one after the other.
-TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, float* acc) noexcept {
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n,
+                                             float* acc) noexcept {
   add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
   add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, last, last);  // twice the same, stored once more
@@ -280,7 +295,8 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_pixels(const simd::ResidualArgs& a, const R
 
 // Normal equations of `parameters` (3, 6 or 9) for the host pixels, of which there are at least a.min_visible.
 TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
-                                             const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info, double* H, double* b) noexcept {
+                                             const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info,
+                                             double* H, double* b) noexcept {
   const int form = parameters == 9 ? 8 : parameters, products = product_count(form), all = products + 3 * form;
   const int n = host.n;
   float acc[(kMostSums + 8) * kMostLanes];

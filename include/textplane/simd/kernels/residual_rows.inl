@@ -24,7 +24,8 @@ struct RowConstants {
   float p0, p1, t3;              // a.t q_z = A (p0 - t3 x) + B (p1 - t3 y)
   float ray[9];                  // m~ / q_z, row by row
 };
-TEXTPLANE_SIMD_ENTRY void make_row_constants(const simd::ResidualArgs& a, const ResidualFrame& f, RowConstants* k) noexcept {
+TEXTPLANE_SIMD_ENTRY void make_row_constants(const simd::ResidualArgs& a, const ResidualFrame& f,
+                                             RowConstants* k) noexcept {
   const double fx = a.target_camera[0], fy = a.target_camera[1];
   k->c = static_cast<float>(f.c);
   k->d = static_cast<float>(f.d);
@@ -47,8 +48,8 @@ TEXTPLANE_SIMD_ENTRY void make_row_constants(const simd::ResidualArgs& a, const 
 }
 
 // Rows of v and omega, each less the factor that pose_scale() gives.
-TEXTPLANE_SIMD_ENTRY void pose_rows(const RowConstants& k, const float* x, const float* y, const float* a, const float* b, int n,
-                                    float (*TEXTPLANE_SIMD_RESTRICT row)[kStrip]) noexcept {
+TEXTPLANE_SIMD_ENTRY void pose_rows(const RowConstants& k, const float* x, const float* y, const float* a,
+                                    const float* b, int n, float (*TEXTPLANE_SIMD_RESTRICT row)[kStrip]) noexcept {
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf X = sub(u, set1(k.c)), Y = sub(v, set1(k.d)), D = madd(A, X, mul(B, Y));
@@ -72,8 +73,8 @@ TEXTPLANE_SIMD_INLINE void pose_scale(const simd::ResidualArgs& a, double* scale
 }
 
 // Rows of theta.
-TEXTPLANE_SIMD_ENTRY void plane_rows(const RowConstants& k, const float* x, const float* y, const float* a, const float* b,
-                                     int n, float (*TEXTPLANE_SIMD_RESTRICT row)[kStrip]) noexcept {
+TEXTPLANE_SIMD_ENTRY void plane_rows(const RowConstants& k, const float* x, const float* y, const float* a,
+                                     const float* b, int n, float (*TEXTPLANE_SIMD_RESTRICT row)[kStrip]) noexcept {
   const float* r = k.ray;
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), t3 = set1(k.t3);

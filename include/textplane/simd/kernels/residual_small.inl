@@ -20,8 +20,8 @@ TEXTPLANE_SIMD_ENTRY void row_means(const float* r0, const float* r1, const floa
 }
 
 // Row j becomes root (j - e - n c), for three rows.
-TEXTPLANE_SIMD_ENTRY void project_rows(float* r0, float* r1, float* r2, const float* normalised, const float* root, int n,
-                                       const float* e, const float* c) noexcept {
+TEXTPLANE_SIMD_ENTRY void project_rows(float* r0, float* r1, float* r2, const float* normalised, const float* root,
+                                       int n, const float* e, const float* c) noexcept {
   const vf e0 = set1(e[0]), e1 = set1(e[1]), e2 = set1(e[2]), c0 = set1(c[0]), c1 = set1(c[1]), c2 = set1(c[2]);
   for (int i = 0; i < n; i += kLanes) {
     const vf x = load(normalised + i), w = load(root + i);
@@ -66,6 +66,27 @@ TEXTPLANE_SIMD_ENTRY void weigh_few(const Residual& r, bool huber, float delta, 
   }
   info->error = hsum_d(s) / count;
   info->cost = hsum_d(c) / count;
+}
+
+// Entries of H (`size` columns) times the scales of their row and column: the square at (at, at), and the block at (r, c) with its
+// mirror image.
+TEXTPLANE_SIMD_INLINE void put_pair(double value, int r, int c, int size, const double* scale, double* H) noexcept {
+  H[size * r + c] = H[size * c + r] = scale[r] * scale[c] * value;
+}
+TEXTPLANE_SIMD_INLINE void put_square(const float* p, int at, int size, const double* scale, double* H) noexcept {
+  put_pair(p[0], at, at, size, scale, H);
+  put_pair(p[1], at, at + 1, size, scale, H);
+  put_pair(p[2], at, at + 2, size, scale, H);
+  put_pair(p[3], at + 1, at + 1, size, scale, H);
+  put_pair(p[4], at + 1, at + 2, size, scale, H);
+  put_pair(p[5], at + 2, at + 2, size, scale, H);
+}
+TEXTPLANE_SIMD_INLINE void put_block(const float* p, int r, int c, int size, const double* scale, double* H) noexcept {
+  for (int j = 0; j < 3; ++j) {
+    put_pair(p[3 * j], r + j, c, size, scale, H);
+    put_pair(p[3 * j + 1], r + j, c + 1, size, scale, H);
+    put_pair(p[3 * j + 2], r + j, c + 2, size, scale, H);
+  }
 }
 
 // Normal equations of `parameters` (3, 6 or 9) for at most kRowPixels host pixels.
@@ -120,19 +141,9 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
     scale[k] *= is;
     b[k] = -scale[k] * static_cast<double>(total[products + k]);
   }
-  int at = 0;
+  const float* next = total;
+  for (int g = 0; g < groups; ++g, next += 6) put_square(next, 3 * g, parameters, scale, H);
   for (int g = 0; g < groups; ++g)
-    for (int j = 0; j < 3; ++j)
-      for (int k = j; k < 3; ++k, ++at) {
-        const int u = 3 * g + j, v = 3 * g + k;
-        H[parameters * u + v] = H[parameters * v + u] = scale[u] * scale[v] * static_cast<double>(total[at]);
-      }
-  for (int g = 0; g < groups; ++g)
-    for (int h = g + 1; h < groups; ++h)
-      for (int j = 0; j < 3; ++j)
-        for (int k = 0; k < 3; ++k, ++at) {
-          const int u = 3 * g + j, v = 3 * h + k;
-          H[parameters * u + v] = H[parameters * v + u] = scale[u] * scale[v] * static_cast<double>(total[at]);
-        }
+    for (int k = g + 1; k < groups; ++k, next += 9) put_block(next, 3 * g, 3 * k, parameters, scale, H);
   return Status::ok;
 }

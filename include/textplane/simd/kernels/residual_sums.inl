@@ -52,8 +52,8 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
 }
 
 // r_j q_k, j the slower index.
-TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0, const float* q1,
-                                         const float* q2, int n, float* acc) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0,
+                                         const float* q1, const float* q2, int n, float* acc) noexcept {
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
@@ -81,8 +81,8 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
 }
 
 // r_j p to `acc`, r_j q to `acc2`, for the three rows of j.
-TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p, const float* q, int n,
-                                        float* acc, float* acc2) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p,
+                                        const float* q, int n, float* acc, float* acc2) noexcept {
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
@@ -103,8 +103,8 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
 }
 
 // r_j p to `acc`, r_j q to `acc2`, for four rows.
-TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
+                                        const float* p, const float* q, int n, float* acc, float* acc2) noexcept {
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {

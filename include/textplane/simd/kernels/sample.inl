@@ -2,7 +2,9 @@
 // (see simd/sample.hpp). Output arrays have room for whole vectors.
 
 // kLanes floats of an array of which `left` remain; the others are 0 and not touched.
-TEXTPLANE_SIMD_INLINE vf load_part(const float* p, int left) noexcept { return left >= kLanes ? load(p) : load_n(p, left); }
+TEXTPLANE_SIMD_INLINE vf load_part(const float* p, int left) noexcept {
+  return left >= kLanes ? load(p) : load_n(p, left);
+}
 
 // Zeroes what the last vector of an array of n holds beyond it.
 TEXTPLANE_SIMD_INLINE void zero_tail(float* p, int n) noexcept {
@@ -46,7 +48,8 @@ TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { retu
 
 // The homography h (row-major, host pixel to target pixel) around the host centre (hx, hy) and the target pixel nearest to
 // where that goes; the middle of the image where it lies behind. False where it cannot be written in float.
-TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height, simd::Warp8* w) noexcept {
+TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
+                                     simd::Warp8* w) noexcept {
   const double u = hx, v = hy;
   const double x = h[0] * u + h[1] * v + h[2], y = h[3] * u + h[4] * v + h[5], z = h[6] * u + h[7] * v + h[8];
   const double iz = 1 / z, px = x * iz, py = y * iz;
@@ -57,19 +60,25 @@ TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int wi
   // Any positive scale will do; this one keeps the divisor of a patch of 100 px near 1.
   const double size = (z < 0 ? -z : z) + 50 * ((h[6] < 0 ? -h[6] : h[6]) + (h[7] < 0 ? -h[7] : h[7]));
   const double scale = size > 0 ? 1 / size : 1, ox = w->ox, oy = w->oy;
-  const double g[9] = {(h[0] - ox * h[6]) * scale, (h[1] - ox * h[7]) * scale, (x - ox * z) * scale,
-                       (h[3] - oy * h[6]) * scale, (h[4] - oy * h[7]) * scale, (y - oy * z) * scale,
-                       h[6] * scale,               h[7] * scale,               z * scale};
-  bool good = finite_d(size);
-  for (int i = 0; i < 9; ++i) {
-    good = good && finite_d(g[i]) && g[i] < 1e30 && g[i] > -1e30;
-    w->g[i] = good ? static_cast<float>(g[i]) : 0.0F;
-  }
-  return good;
+  const double g[9] = {(h[0] - ox * h[6]) * scale,
+                       (h[1] - ox * h[7]) * scale,
+                       (x - ox * z) * scale,
+                       (h[3] - oy * h[6]) * scale,
+                       (h[4] - oy * h[7]) * scale,
+                       (y - oy * z) * scale,
+                       h[6] * scale,
+                       h[7] * scale,
+                       z * scale};
+  double squares = 0;
+  for (int i = 0; i < 9; ++i) squares += g[i] * g[i];
+  if (!finite_d(size) || !finite_d(squares) || squares > 1e60) return false;
+  for (int i = 0; i < 9; ++i) w->g[i] = static_cast<float>(g[i]);
+  return true;
 }
 
 // How `image` is read around the origin of `warp`.
-TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const simd::Warp8& warp, SampleFrame* f) noexcept {
+TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const simd::Warp8& warp,
+                                             SampleFrame* f) noexcept {
   const long long ox = warp.ox, oy = warp.oy;
   f->pairs = image.pairs ? image.pairs + (oy * image.pair_stride + ox) : nullptr;
   f->bytes = image.data + (oy * image.stride + ox);
@@ -114,9 +123,10 @@ TEXTPLANE_SIMD_INLINE void cell_vector(const SampleFrame& f, vf x, vf y, SampleS
 }
 
 // Warp of the n <= kStrip host pixels px, py: target coordinates to x and y, cells to the strip.
-TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f, const float* TEXTPLANE_SIMD_RESTRICT px,
-                                      const float* TEXTPLANE_SIMD_RESTRICT py, int n, float* TEXTPLANE_SIMD_RESTRICT x,
-                                      float* TEXTPLANE_SIMD_RESTRICT y, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
+                                      const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
+                                      int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                      SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   for (int i = 0; i < n; i += kLanes) {
     vf tx, ty, divisor;
     warp_vector(w, load_part(px + i, n - i), load_part(py + i, n - i), &tx, &ty, &divisor);
@@ -161,13 +171,16 @@ TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip*
 }
 TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
   // Whole vectors of words are read later: those beyond n repeat the first.
-  if (f.pairs) fetch_pairs(f, n, s);
-  else fetch_rows(f, n, s);
+  if (f.pairs)
+    fetch_pairs(f, n, s);
+  else
+    fetch_rows(f, n, s);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 
 // Value and gradient of kLanes cells of the strip. `paired`: the words are from pairs.
-TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx, vf* gy) noexcept {
+TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
+                                              vf* gy) noexcept {
   const taps_t t = load_taps(s.taps + i);
   const vf fx = load(s.fx + i), fy = load(s.fy + i), dxy = tap_dxy(t);
   const vf dx = paired ? tap_dy(t) : tap_dx(t), dy = paired ? tap_dx(t) : tap_dy(t);
@@ -176,8 +189,9 @@ TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool 
   *value = madd(fy, *gy, madd(fx, dx, tap_value(t)));
 }
 // n values and gradients to arrays.
-TEXTPLANE_SIMD_INLINE void interpolate_strip(const SampleStrip& s, int n, bool paired, float* TEXTPLANE_SIMD_RESTRICT value,
-                                             float* TEXTPLANE_SIMD_RESTRICT gx, float* TEXTPLANE_SIMD_RESTRICT gy) noexcept {
+TEXTPLANE_SIMD_INLINE void interpolate_strip(const SampleStrip& s, int n, bool paired,
+                                             float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT gx,
+                                             float* TEXTPLANE_SIMD_RESTRICT gy) noexcept {
   for (int i = 0; i < n; i += kLanes) {
     vf v, a, b;
     interpolate_vector(s, i, paired, &v, &a, &b);
@@ -187,7 +201,8 @@ TEXTPLANE_SIMD_INLINE void interpolate_strip(const SampleStrip& s, int n, bool p
   }
 }
 // n values alone.
-TEXTPLANE_SIMD_INLINE void interpolate_values(const SampleStrip& s, int n, bool paired, float* TEXTPLANE_SIMD_RESTRICT value) noexcept {
+TEXTPLANE_SIMD_INLINE void interpolate_values(const SampleStrip& s, int n, bool paired,
+                                              float* TEXTPLANE_SIMD_RESTRICT value) noexcept {
   for (int i = 0; i < n; i += kLanes) {
     vf v, a, b;
     interpolate_vector(s, i, paired, &v, &a, &b);
