@@ -133,6 +133,12 @@ class TemplatePatch {
       model_.c[k] = with_host[k];
       for (int l = 0; l < k; ++l) model_.S[l][k] = model_.S[k][l];
     }
+    const double scale = 1 / (model_.s * model_.s);
+    for (int k = 0; k < 8; ++k)
+      for (int l = 0; l < 8; ++l) {
+        model_.H_frozen[k][l] = scale * model_.S[k][l];
+        model_.H_exact[k][l] = scale * (model_.S[k][l] - model_.n * model_.e[k] * model_.e[l] - model_.c[k] * model_.c[l]);
+      }
   }
 
   // [A, Au, Av, B, Bu, Bv, Cu, Cv] with A = gx, B = gy, C = Au + Bv.

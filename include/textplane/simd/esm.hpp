@@ -14,6 +14,13 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace simd {
 
+/// Normal equations for (v, omega, theta). H is 9 x 9, row by row and symmetric.
+struct ResidualSums {
+  double H[81];
+  double b[9];
+  ResidualInfo info;  ///< H and b may be used where its status is ok.
+};
+
 /// As ResidualArgs, with the host's gradients.
 struct EsmArgs {
   ResidualArgs base;          ///< base.flags must be given.

@@ -70,6 +70,8 @@ struct TemplateModel {
   double e[8] = {};     ///< sum j / n.
   double c[8] = {};     ///< sum h j.
   double S[8][8] = {};  ///< sum j j^T.
+  /// Without weights, for a homography in host coordinates: (S - n e e^T - c c^T) / s^2, and S / s^2.
+  double H_exact[8][8] = {}, H_frozen[8][8] = {};
 };
 
 }  // namespace simd

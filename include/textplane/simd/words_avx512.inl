@@ -48,10 +48,10 @@ TEXTPLANE_SIMD_INLINE __m128i gather_words8(const std::uint8_t* p, const int* of
 }
 TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
   const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
-  __m128i v = _mm_cvtsi32_si128(static_cast<int>(two_pairs(p + first_offset(a))));
-  v = _mm_insert_epi32(v, static_cast<int>(two_pairs(p + second_offset(a))), 1);
-  v = _mm_insert_epi32(v, static_cast<int>(two_pairs(p + first_offset(b))), 2);
-  return _mm_insert_epi32(v, static_cast<int>(two_pairs(p + second_offset(b))), 3);
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(word_pair(p + first_offset(a))));
+  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(a))), 1);
+  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + first_offset(b))), 2);
+  return _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(b))), 3);
 }
 TEXTPLANE_SIMD_INLINE v16 gather16(const std::uint8_t* p, const int* offset) noexcept {
   const __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(gather_words8(p, offset)), gather_words8(p, offset + 8), 1);

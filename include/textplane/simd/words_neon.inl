@@ -27,7 +27,7 @@ TEXTPLANE_SIMD_INLINE v16 gather16(const std::uint8_t* p, const int* offset) noe
 }
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
   std::uint32_t w[4];
-  for (int i = 0; i < 4; ++i) w[i] = two_pairs(p + offset[i]);
+  for (int i = 0; i < 4; ++i) w[i] = word_pair(p + offset[i]);
   return vreinterpretq_s32_u32(vld1q_u32(w));
 }
 TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {

@@ -1,7 +1,7 @@
 // The int16 vectors of the region that includes this file (see foreach_target.inl), after what they share.
 
 // Two words as a number, the first one low. Compilers make one load of it.
-TEXTPLANE_SIMD_INLINE unsigned two_pairs(const std::uint16_t* p) noexcept {
+TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
   return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
 }
 // Zeroes the words from..to-1, fewer than 32.

@@ -39,7 +39,7 @@ TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return make16(a, b); }
 TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return make16(a >> 16, b >> 16); }
 // Lane i: the two words at p + offset[i], the first of them low. Reads these words alone.
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  return static_cast<int>(two_pairs(p + offset[0]));
+  return static_cast<int>(word_pair(p + offset[0]));
 }
 // The words' first and second half as int32.
 TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return v.a; }

@@ -72,9 +72,9 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   SideSums sides = {0, 0, 0, 0};
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
-    collect_strip(host, f, begin, count, false, s, &strip);
-    if (begin == 0) offsets = first_offsets(s.i, s.d, count);
-    centre_strip(s.i + begin, s.d + begin, count, offsets, &sides);
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
     pull_back(f.warp, host.x + begin, host.y + begin, count, s.x + begin, s.y + begin, s.a + begin, s.b + begin);
   }
   Residual r;
@@ -84,12 +84,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const float on_target = e.average ? static_cast<float>(0.5 / r.i_s) : 0.0F;
   const float on_host = static_cast<float>((e.average ? 0.5 : 1.0) / host_s);
 
-  float acc[kMostSums * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
+  float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
-  for (int k = 0; k < kAll; ++k) {
-    total[k] = other[k] = 0;
-    store(acc + k * kLanes, zero());
-  }
+  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
+  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
   for (int k = 0; k < 32; ++k) {
     total_host[k] = 0;
     store(acc_host + k * kLanes, zero());
@@ -146,7 +144,6 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
       add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      for (int k = kProducts; k < kAll; ++k) store(acc + k * kLanes, zero());
       add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
       add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, acc_host);
       fold(acc, kAll, other);
@@ -162,7 +159,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     }
   }
   if (a.exact) project_esm(c, &sums);
-  double g[8], M[8][9];
+  double g[8], M[9][8];
   for (int k = 0; k < 8; ++k) g[k] = -sums.X[2][k];
   host_matrix(a, f, M);
   change_parameters(M, sums.S, g, H, b);

@@ -78,12 +78,10 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
 TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root, float delta,
                                              WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };
-  float acc[kMostSums * kMostLanes], unused_sums[8 * kMostLanes];
+  float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
-  for (int k = 0; k < kAll; ++k) {
-    other[k] = 0;
-    store(acc + k * kLanes, zero());
-  }
+  for (int k = 0; k < kMostSums; ++k) other[k] = 0;
+  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
   for (int k = 0; k < 8; ++k) store(unused_sums + k * kLanes, zero());
   WeightedStrip ws;
   RowStrip rows;
@@ -92,7 +90,6 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-    for (int k = kProducts; k < kProducts + 8; ++k) store(acc + k * kLanes, zero());  // used by the products' form 8
     add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
     add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, other);
@@ -145,6 +142,20 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   }
   if (!derivatives) return;
 
+  double M[9][8];
+  host_matrix(a, f, M);
+  if (outliers == 0) {
+    // H is the model's, and K^T r = K^T h - K^T n.
+    double g[8];
+    const double unit = 1 / m.s, on_c = a.exact ? 1 - 0.5 * info->error : 1.0;
+    for (int k = 0; k < 8; ++k) {
+      const double with_n = (static_cast<double>(exact.column[k + 1]) * m.step[k] - mean * count * m.e[k]) / norm;
+      g[k] = (with_n - on_c * m.c[k]) * unit;
+    }
+    change_parameters(M, a.exact ? m.H_exact : m.H_frozen, g, H, b);
+    return;
+  }
+
   WeightedSums sums;
   for (int k = 0; k < 8; ++k) {
     const double with_n = (static_cast<double>(exact.column[k + 1]) * m.step[k] - mean * count * m.e[k]) / norm;
@@ -158,10 +169,8 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   sums.w[1] = sums.w[3] = 0;
   sums.w[2] = 1;
   sums.w[4] = 0.5 * info->error;
-  if (outliers > 0) template_outliers(s, outliers, r, root, static_cast<float>(a.delta), &sums);
+  template_outliers(s, outliers, r, root, static_cast<float>(a.delta), &sums);
   project_sums(8, a.exact, m.s, &sums);
-  double M[8][9];
-  host_matrix(a, f, M);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
 

@@ -1,0 +1,48 @@
+// ZNCC of one patch under many candidate poses: relocalisation, verification of detections, coarse search.
+#ifndef TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
+#define TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
+
+#include "textplane/photometry/template_patch.hpp"
+#include "textplane/simd/zncc.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// zncc[i] = ZNCC of the patch in the target under the pose T_t_h[i], over the pixels visible then; -1 where there are fewer
+/// than options.min_visible or no contrast. `prepared`, of in.patch, makes it several times faster where all of the patch is
+/// visible, and then the bound of simd/zncc.hpp holds; else that of evaluate(). options.robust has no influence.
+///
+/// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1 then. A
+/// candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.
+inline Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
+                              const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
+                              const TemplatePatch* prepared = nullptr) noexcept {
+  if (count < 0 || (count > 0 && (!T_t_h || !zncc))) return Status::invalid_argument;
+  for (int i = 0; i < count; ++i) zncc[i] = -1.0F;
+  const Status status = detail::check_input(in, theta, SE3d(), options, workspace);
+  if (!is_ok(status)) return status;
+  PhotometricOptions plain = options;
+  plain.robust = Robust{RobustKind::l2, 1.0};
+
+  simd::ZnccArgs args;
+  const bool fast = prepared && prepared->size() == in.patch.n && !in.patch.mask &&
+                    detail::kernel_args(in, theta, SE3d(), plain, workspace, &args.base);
+  if (fast) {
+    static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
+    args.model = prepared->model();
+    args.pose = count > 0 ? T_t_h->R.data() : nullptr;
+    args.count = count;
+    args.values = reinterpret_cast<std::int16_t*>(workspace.more_scratch());
+    args.zncc = zncc;
+    simd::zncc_candidates(args);
+  }
+  for (int i = 0; i < count; ++i) {
+    if (fast && zncc[i] > simd::kZnccUnknown) continue;
+    const PhotometricCost cost = evaluate(in, theta, T_t_h[i], plain, workspace);
+    zncc[i] = is_ok(cost.status) ? static_cast<float>(cost.zncc) : -1.0F;
+  }
+  return Status::ok;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
