@@ -79,6 +79,15 @@ inline float round(float value, int mode) {
   }
 }
 
+/// Quarters of a, a, b and b, each chosen by two bits of `order`.
+inline __m512 shuffle_quarters(std::uint64_t mask, const __m512& a, const __m512& b, int order) {
+  const auto low = lanes<float>(a), high = lanes<float>(b);
+  return masked<float, __m512>(mask, [&](std::size_t i) {
+    const std::size_t source = 4 * (static_cast<std::size_t>(order) >> (2 * (i / 4)) & 3u) + i % 4;
+    return i < 8 ? low[source] : high[source];
+  });
+}
+
 }  // namespace emulated
 
 #undef _mm512_maskz_loadu_ps
@@ -103,12 +112,23 @@ inline float round(float value, int mode) {
 #define _mm512_maskz_cvtepi32_epi8(m, a) (emulated::convert<std::int8_t, std::int32_t, __m128i>((m), (a)))
 #undef _mm512_maskz_cvtps_pd
 #define _mm512_maskz_cvtps_pd(m, a) (emulated::convert<double, float, __m512d>((m), (a)))
+#undef _mm512_maskz_cvtepi16_epi32
+#define _mm512_maskz_cvtepi16_epi32(m, a) (emulated::convert<std::int32_t, std::int16_t, __m512i>((m), (a)))
+#undef _mm512_maskz_cvtepi32_epi16
+#define _mm512_maskz_cvtepi32_epi16(m, a) (emulated::convert<std::int16_t, std::int32_t, __m256i>((m), (a)))
+#undef _mm512_maskz_cvtpd_ps
+#define _mm512_maskz_cvtpd_ps(m, a) (emulated::convert<float, double, __m256>((m), (a)))
 #undef _mm512_maskz_cvttps_epi32
 #define _mm512_maskz_cvttps_epi32(m, a) \
   (emulated::masked<std::int32_t, __m512i>((m), [&](std::size_t i) { return emulated::truncate(emulated::lanes<float>(a)[i]); }))
 #undef _mm512_maskz_extractf32x8_ps
 #define _mm512_maskz_extractf32x8_ps(m, a, half) \
   (emulated::masked<float, __m256>((m), [&](std::size_t i) { return emulated::lanes<float>(a)[8 * (half) + i]; }))
+#undef _mm512_maskz_shuffle_f32x4
+#define _mm512_maskz_shuffle_f32x4(m, a, b, order) (emulated::shuffle_quarters((m), (a), (b), (order)))
+#undef _mm512_maskz_srli_epi32
+#define _mm512_maskz_srli_epi32(m, a, bits) (emulated::masked<std::uint32_t, __m512i>( \
+    (m), [&](std::size_t i) { return emulated::lanes<std::uint32_t>(a)[i] >> (bits); }))
 #undef _mm512_maskz_sqrt_ps
 #define _mm512_maskz_sqrt_ps(m, a) \
   (emulated::masked<float, __m512>((m), [&](std::size_t i) { return std::sqrt(emulated::lanes<float>(a)[i]); }))

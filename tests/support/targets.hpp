@@ -53,6 +53,16 @@ class TargetScope {
   simd::Target former_;
 };
 
+/// AVX-512 on emulated intrinsics is not the real thing.
+inline const char* emulation(simd::Target target) {
+#if defined(TEXTPLANE_EMULATED_AVX512)
+  return target == simd::Target::avx512 ? "(emulated)" : "";
+#else
+  static_cast<void>(target);
+  return "";
+#endif
+}
+
 /// The closing lines of a test program.
 class TargetReport : public ::testing::Environment {
  public:
@@ -60,7 +70,7 @@ class TargetReport : public ::testing::Environment {
     std::string run, skipped;
     for (int i = 0; i < simd::kTargetCount; ++i) {
       const auto target = static_cast<simd::Target>(i);
-      if (targets_run()[static_cast<std::size_t>(i)]) run += std::string(" ") + simd::to_string(target);
+      if (targets_run()[static_cast<std::size_t>(i)]) run += std::string(" ") + simd::to_string(target) + emulation(target);
       if (!simd::supported(target)) skipped += std::string(" ") + simd::to_string(target);
     }
     if (run.empty()) return;
