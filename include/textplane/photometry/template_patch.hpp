@@ -158,7 +158,7 @@ class TemplatePatch {
 namespace detail {
 // The block of P parameters out of (v, omega, theta).
 template <int P>
-bool take_sums(const simd::ResidualSums& sums, NormalEquations<P>* out) noexcept {
+bool take_sums(const simd::PolicySums& sums, NormalEquations<P>* out) noexcept {
   const int at = P == 3 ? 6 : 0;
   for (int c = 0; c < P; ++c) {
     out->b[c] = sums.b[at + c];
@@ -181,7 +181,7 @@ bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, con
   simd::EsmArgs args;
   if (!kernel_args(in, theta, T_t_h, options, workspace, &args.base)) return false;
   args.base.flags = workspace.visible_flags();
-  simd::ResidualSums sums;
+  simd::PolicySums sums;
   sums.info.status = Status::out_of_view;
   const bool esm = policy == LinearisePolicy::esm;
   if (!esm && prepared && prepared->size() == in.patch.n && !in.patch.mask)

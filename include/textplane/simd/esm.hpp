@@ -15,7 +15,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
 /// Normal equations for (v, omega, theta). H is 9 x 9, row by row and symmetric.
-struct ResidualSums {
+struct PolicySums {
   double H[81];
   double b[9];
   ResidualInfo info;  ///< H and b may be used where its status is ok.
@@ -45,7 +45,7 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-inline void linearise_esm(const simd::EsmArgs& args, simd::ResidualSums* out) noexcept {
+inline void linearise_esm(const simd::EsmArgs& args, simd::PolicySums* out) noexcept {
   TEXTPLANE_SIMD_DISPATCH(linearise_esm(args, out));
 }
 }  // namespace detail
@@ -53,8 +53,8 @@ inline void linearise_esm(const simd::EsmArgs& args, simd::ResidualSums* out) no
 namespace simd {
 
 /// Normal equations for (v, omega, theta), P = 9; status as linearise_pose_plane().
-inline ResidualSums linearise_esm(const EsmArgs& args) noexcept {
-  ResidualSums out;
+inline PolicySums linearise_esm(const EsmArgs& args) noexcept {
+  PolicySums out;
   detail::linearise_esm(args, &out);
   return out;
 }

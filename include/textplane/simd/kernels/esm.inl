@@ -166,7 +166,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   return Status::ok;
 }
 
-TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualSums* out) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::PolicySums* out) noexcept {
   const simd::ResidualArgs& a = e.base;
   simd::PointBounds bounds = a.bounds;
   if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);

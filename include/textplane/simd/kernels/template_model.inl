@@ -175,7 +175,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
 }
 
 TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                             simd::ResidualSums* out) noexcept {
+                                             simd::PolicySums* out) noexcept {
   template_any(m, a, values, true, &out->info, out->H, out->b);
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
