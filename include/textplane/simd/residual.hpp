@@ -69,6 +69,13 @@ struct ResidualInfo {
   Status status = Status::invalid_argument;
 };
 
+/// Sums of normal equations, P x P row by row and symmetric, and P, with what is known about the residuals.
+struct ResidualSums {
+  double H[81] = {};
+  double b[9] = {};
+  ResidualInfo info;
+};
+
 }  // namespace simd
 
 namespace detail {

@@ -167,11 +167,7 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
 struct CostSums {
   vf squares, rho;
 };
-TEXTPLANE_SIMD_INLINE unsigned cost_vector(const Residual& r, const float* d, const float* i, vf limit, int left,
-                                           CostSums* sums) noexcept {
-  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
-  vf e = madd(load(d), on_d, madd(load(i), on_i, set1(static_cast<float>(r.shift))));
-  if (left < kLanes) e = keep(first_n(left), e);
+TEXTPLANE_SIMD_INLINE unsigned cost_vector(vf e, vf limit, CostSums* sums) noexcept {
   const vf size = abs_(e), m = min_(size, limit);
   sums->squares = madd(e, e, sums->squares);
   sums->rho = madd(m, add(size, sub(size, m)), sums->rho);
@@ -179,7 +175,8 @@ TEXTPLANE_SIMD_INLINE unsigned cost_vector(const Residual& r, const float* d, co
 }
 TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const Residual& r, bool huber, float delta,
                                    std::int32_t* list, double* squares, double* rho) noexcept {
-  const vf limit = set1(huber ? delta : 3.0e38F);
+  const vf limit = set1(huber ? delta : 3.0e38F), shift = set1(static_cast<float>(r.shift));
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
   int listed = 0;
   for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
     const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
@@ -188,11 +185,15 @@ TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const 
     for (int k = begin; k < end; k += 64) {
       std::uint64_t word = 0;
       if (end - k >= 64) {
-        for (int j = 0; j < 64; j += kLanes)
-          word |= static_cast<std::uint64_t>(cost_vector(r, d + k + j, i + k + j, limit, kLanes, &sums)) << j;
+        for (int j = k; j < k + 64; j += kLanes) {
+          const vf e = madd(load(d + j), on_d, madd(load(i + j), on_i, shift));
+          word |= static_cast<std::uint64_t>(cost_vector(e, limit, &sums)) << (j - k);
+        }
       } else {
-        for (int j = 0; k + j < end; j += kLanes)
-          word |= static_cast<std::uint64_t>(cost_vector(r, d + k + j, i + k + j, limit, end - k - j, &sums)) << j;
+        for (int j = k; j < end; j += kLanes) {
+          const vf e = madd(load(d + j), on_d, madd(load(i + j), on_i, shift));
+          word |= static_cast<std::uint64_t>(cost_vector(keep(first_n(end - j), e), limit, &sums)) << (j - k);
+        }
       }
       if (!list) continue;
       for (; word != 0; word &= word - 1) list[listed++] = k + lowest_bit(word);
@@ -392,7 +393,8 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     if (form == 6) pose_scale(a, scale);
     for (int i = 0; i < form; ++i) {
       b[i] = scale[i] * sums.wr[i];
-      for (int j = 0; j < form; ++j) H[form * i + j] = scale[i] * scale[j] * sums.S[i][j];
+      // The two of an off-diagonal pair round differently.
+      for (int j = i; j < form; ++j) H[form * i + j] = H[form * j + i] = scale[i] * scale[j] * sums.S[i][j];
     }
   }
   return Status::ok;

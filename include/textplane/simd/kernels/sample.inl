@@ -91,12 +91,6 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
 
-// A number in every lane, kept in memory: a load, where a register that held it would have to be spilt.
-struct Constant {
-  float lane[kLanes];
-};
-TEXTPLANE_SIMD_INLINE void set_constant(Constant* c, float value) noexcept { store(c->lane, set1(value)); }
-
 // Target coordinates, relative to the origin, and divisors of kLanes host pixels.
 TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
   const vf u = sub(px, set1(w.hx)), v = sub(py, set1(w.hy));
