@@ -11,9 +11,10 @@
 // unweighted sums and correct them for the outliers of Huber's cost, which alone have weights other than 1; all 9 parameters then
 // go through the 8 of the pixel homography.
 //
-// Error against the double reference, sigma being the standard deviation of the target's intensities and samples kept clear of
-// pixel lines (1e-4 px), where the gradient jumps: coordinates 1e-5 px for patches of 128 px. r sqrt(N): 1e-5 + 1e-5 |g| / sigma.
-// Entries of H and b: 3e-5 of sqrt(H_ii H_jj) and sqrt(H_ii); cost and E: 1e-5 of their size plus 1e-6.
+// Error against the double reference, while samples keep clear of pixel lines by 1e-4 px, where the gradient jumps, and patches do
+// not exceed some 128 px: coordinates 1e-5 px; r sqrt(N) 1e-5 (1 + |g| / sigma), sigma being the standard deviation of the
+// target's intensities; entries of H and b 3e-5 of sqrt(F_ii F_jj) and sqrt(F_ii), F being H with the normalisation frozen, and
+// for delta < 0.1 more in proportion to 1 / delta, since weights are ratios to delta; cost and E 1e-5 of themselves and 1e-6.
 #ifndef TEXTPLANE_SIMD_RESIDUAL_HPP
 #define TEXTPLANE_SIMD_RESIDUAL_HPP
 
