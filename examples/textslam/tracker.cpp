@@ -124,9 +124,11 @@ TrackReport Tracker::track(const Frame& frame) {
     predicted.t = -(predicted.R * centre);
   }
 
+  // Points of the map are expected where the predicted pose sees them, corners without depth where the turn takes them.
   std::vector<Vec2f> guesses;
   for (const Track& track : tracks_) {
-    const Vec3 m = turn * map_.camera.unproject(track.px.cast<double>());
+    const Vec3 turned = turn * map_.camera.unproject(track.px.cast<double>());
+    const Vec3 m = track.point >= 0 && track.inlier ? predicted * map_.point(track.point).p_w : turned;
     guesses.push_back(m.z() > 0.1 ? map_.camera.project(m).cast<float>() : track.px);
   }
   advance_tracks(frame_, frame, guesses, parameters_, tracks_);
