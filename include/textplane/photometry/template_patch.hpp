@@ -42,8 +42,8 @@ class TemplatePatch {
       if (!is_finite(patch.intensity[i]) || !is_finite(patch.gx[i]) || !is_finite(patch.gy[i])) return Status::non_finite;
     const std::size_t room = (static_cast<std::size_t>(patch.n) + simd::kTemplateBlock - 1) / simd::kTemplateBlock *
                              simd::kTemplateBlock;
-    floats_.assign(5 * room, 0.0F);
-    rows_.assign(room * simd::kTemplateColumns, 0);
+    floats_ = std::vector<float>(5 * room);
+    rows_ = std::vector<std::int16_t>(room * simd::kTemplateColumns);
     set_pixels(patch, room);
     if (!set_intensity(patch)) return Status::no_contrast;
     set_derivatives();
@@ -84,8 +84,11 @@ class TemplatePatch {
   // Column 0: centred on the middle of its range, in 1/64 of the intensity's unit, or coarser for ranges above 255. Exact for
   // 8-bit hosts at integer positions.
   bool set_intensity(const PatchView& patch) {
-    const auto range = std::minmax_element(patch.intensity, patch.intensity + patch.n);
-    const double low = static_cast<double>(*range.first), high = static_cast<double>(*range.second);
+    double low = static_cast<double>(patch.intensity[0]), high = low;
+    for (int i = 0; i < patch.n; ++i) {
+      low = std::min(low, static_cast<double>(patch.intensity[i]));
+      high = std::max(high, static_cast<double>(patch.intensity[i]));
+    }
     const double middle = std::floor(low + high) / 2, reach = std::max(high - middle, middle - low);
     if (!(reach > 0)) return false;
     const double scale = std::min(64.0, kRange / reach);

@@ -36,13 +36,19 @@ class TextBatch {
   /// invalid_argument for null items or a negative count: the batch is then empty.
   Status build(const TextBatchItem* items, int count) {
     groups_.clear();
-    valid_.clear();
-    pixels_.clear();
+    valid_ = std::vector<std::uint8_t>();
+    pixels_ = std::vector<float>();
     most_ = 0;
     if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
-    valid_.assign(static_cast<std::size_t>(count), 0);
+    // Vectors of numbers do not grow, they are made: growing ones would share weak symbols with files built for other CPUs.
+    valid_ = std::vector<std::uint8_t>(static_cast<std::size_t>(count));
+    std::size_t total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
-      add_group(items + first, first, std::min(count - first, simd::kBatchLanes));
+      total += count_group(items + first, first, std::min(count - first, simd::kBatchLanes));
+    pixels_ = std::vector<float>(total);
+    total = 0;
+    for (int first = 0; first < count; first += simd::kBatchLanes)
+      total = add_group(items + first, first, std::min(count - first, simd::kBatchLanes), total);
     return Status::ok;
   }
 
@@ -68,8 +74,23 @@ class TextBatch {
     return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) && is_finite(patch.intensity[i]);
   }
 
-  void add_group(const TextBatchItem* items, int first, int members) {
-    const std::size_t start = pixels_.size();
+  // Floats that a group needs.
+  std::size_t count_group(const TextBatchItem* items, int first, int members) {
+    int most = 0;
+    for (int l = 0; l < members; ++l) {
+      const PatchView& p = items[l].patch;
+      const bool valid = p.x && p.y && p.intensity && p.n >= 0 && items[l].host_camera.valid();
+      valid_[static_cast<std::size_t>(first + l)] = valid;
+      int n = 0;
+      for (int i = 0; valid && i < p.n; ++i) n += usable(p, i);
+      most = std::max(most, n);
+    }
+    most_ = std::max(most_, most);
+    return static_cast<std::size_t>(most) * 3 * simd::kBatchLanes;
+  }
+
+  // Packs a group from float `start` on; returns where the next one starts.
+  std::size_t add_group(const TextBatchItem* items, int first, int members, std::size_t start) {
     simd::BatchGroup group = {};
     group.start = static_cast<std::ptrdiff_t>(start);
     int most = 0;
@@ -77,7 +98,6 @@ class TextBatch {
       const TextBatchItem& item = items[l];
       const PatchView& p = item.patch;
       const auto at = static_cast<std::size_t>(first + l);
-      valid_[at] = p.x && p.y && p.intensity && p.n >= 0 && item.host_camera.valid();
       if (!valid_[at]) continue;
       int& n = group.n[l];
       float x0 = 0, x1 = 0, y0 = 0, y1 = 0;
@@ -99,7 +119,6 @@ class TextBatch {
       group.mv[l] = (hy - item.host_camera.cy) * group.ify[l];
       for (int k = 0; k < 3; ++k) group.theta[k][l] = item.theta[k];
       most = std::max(most, n);
-      pixels_.resize(start + static_cast<std::size_t>(most) * 3 * simd::kBatchLanes, 0.0F);
       float* out = pixels_.data() + start + l;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;
@@ -110,7 +129,7 @@ class TextBatch {
       }
     }
     groups_.push_back(group);
-    most_ = std::max(most_, most);
+    return start + static_cast<std::size_t>(most) * 3 * simd::kBatchLanes;
   }
 
   std::vector<simd::BatchGroup> groups_;
@@ -129,10 +148,10 @@ class TextBatchResult {
   void reserve(const TextBatch& batch) {
     const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
     const std::size_t out = groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9));
-    if (out_.size() < out) out_.resize(out);
+    if (out_.size() < out) out_ = std::vector<float>(out);
     if (status_.size() < static_cast<std::size_t>(batch.size())) status_.resize(static_cast<std::size_t>(batch.size()));
     const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
-    if (scratch_.size() < scratch) scratch_.resize(scratch);
+    if (scratch_.size() < scratch) scratch_ = std::vector<float>(scratch);
   }
   bool fits(const TextBatch& batch) const noexcept {
     const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
