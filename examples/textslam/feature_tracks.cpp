@@ -1,6 +1,7 @@
 #include "textslam/feature_tracks.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "textplane/features/fast.hpp"
 #include "textplane/features/klt.hpp"
@@ -9,7 +10,8 @@
 namespace textslam {
 namespace {
 
-constexpr int kTextCell = 6;  // px between the corners of a text
+constexpr int kTextCell = 6;    // px between the corners of a text
+constexpr int kFineLevels = 2;  // pyramid levels that a good guess needs
 
 textplane::KltOptions klt_options(const Parameters& parameters) {
   textplane::KltOptions options;
@@ -20,16 +22,34 @@ textplane::KltOptions klt_options(const Parameters& parameters) {
   return options;
 }
 
+// Good guesses need the fine levels alone; what fails there is looked for from the coarsest on.
+std::vector<textplane::KltResult> follow(const Frame& from, const Frame& to, const std::vector<Vec2f>& start,
+                                         const std::vector<Vec2f>& guesses, textplane::KltOptions options) {
+  const textplane::PyramidView from_view = from.image->view(), to_view = to.image->view();
+  std::vector<textplane::KltResult> results(start.size());
+  if (guesses.empty()) {
+    textplane::track_klt(from_view, to_view, start.data(), nullptr, static_cast<int>(start.size()), options,
+                         results.data());
+    return results;
+  }
+  textplane::KltOptions fine = options;
+  fine.levels = std::min(kFineLevels, options.levels);
+  textplane::track_klt(from_view, to_view, start.data(), guesses.data(), static_cast<int>(start.size()), fine,
+                       results.data());
+  for (std::size_t i = 0; i < start.size(); ++i)
+    if (!textplane::is_ok(results[i].status))
+      textplane::track_klt(from_view, to_view, &start[i], &guesses[i], 1, options, &results[i]);
+  return results;
+}
+
 }  // namespace
 
 void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>& guesses, const Parameters& parameters,
                     std::vector<Track>& tracks) {
   if (tracks.empty()) return;
-  std::vector<Vec2f> start(tracks.size());
-  for (std::size_t i = 0; i < tracks.size(); ++i) start[i] = tracks[i].px;
-  std::vector<textplane::KltResult> results(tracks.size());
-  textplane::track_klt(from.image->view(), to.image->view(), start.data(), guesses.empty() ? nullptr : guesses.data(),
-                       static_cast<int>(tracks.size()), klt_options(parameters), results.data());
+  std::vector<Vec2f> start;
+  for (const Track& track : tracks) start.push_back(track.px);
+  const std::vector<textplane::KltResult> results = follow(from, to, start, guesses, klt_options(parameters));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (!textplane::is_ok(results[i].status)) continue;
@@ -45,11 +65,15 @@ void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double
   const textplane::ImageView8 image = frame.image->level(0);
   const int border = parameters.klt_half_window + 2;
   std::vector<textplane::Corner> corners;
+  // The score is the largest threshold that finds a corner, suppressed or not: one pass serves all thresholds.
+  textplane::detect_fast(image, std::min(parameters.fast_threshold, parameters.min_fast_threshold), true, corners);
   for (int threshold = parameters.fast_threshold;; threshold /= 2) {
     threshold = std::max(threshold, parameters.min_fast_threshold);
-    textplane::detect_fast(image, threshold, true, corners);
-    if (static_cast<int>(corners.size()) >= 4 * parameters.max_tracks || threshold == parameters.min_fast_threshold)
-      break;
+    const auto weak = [threshold](const textplane::Corner& c) { return c.score < static_cast<float>(threshold); };
+    const auto strong = std::count_if(corners.begin(), corners.end(), std::not_fn(weak));
+    if (strong < 4 * parameters.max_tracks && threshold > parameters.min_fast_threshold) continue;
+    corners.erase(std::remove_if(corners.begin(), corners.end(), weak), corners.end());
+    break;
   }
   const auto inside = [&](const Vec2f& px) {
     return px.x() >= static_cast<float>(border) && px.y() >= static_cast<float>(border) &&
