@@ -18,7 +18,8 @@ constexpr int kTemplateHalf = 5;        // px: half width of a re-observed patch
 constexpr double kMinViewCosine = 0.6;  // between the rays of a point's host and of the frame
 constexpr double kMaxDrift = 1.5;       // px that a tracked corner may be moved back onto its host's patch
 
-// How a fronto-parallel patch at p_w of the host's view shows in the target: px displacement of the host per px of target.
+// How a fronto-parallel patch at p_w of the host's view shows in the target: px displacement of the host per px of
+// target.
 bool affine_to_host(const Pinhole<double>& camera, const SE3d& T_t_h, const Vec2& host_px, double host_depth,
                     Eigen::Matrix2f* A) {
   const Vec3 theta(0, 0, 1 / host_depth);
@@ -116,7 +117,8 @@ TrackReport Tracker::track(const Frame& frame) {
   const bool aligned = prior.zncc > kPriorZncc;
   const Eigen::Matrix3d turn = aligned ? prior.R_b_a : last_turn;
 
-  // The whole-image turn takes sideways motion for rotation, so it replaces the velocity only where the two are far apart.
+  // The whole-image turn takes sideways motion for rotation, so it replaces the velocity only where the two are far
+  // apart.
   SE3d predicted = (moving_ ? velocity_ : SE3d{}) * T_c_w_;
   if (aligned && textplane::so3_log<double>(turn * last_turn.transpose()).norm() > 3 * M_PI / 180) {
     const Vec3 centre = predicted.inverse().t;

@@ -123,7 +123,8 @@ TEST(FastKernel, FindsTheMaximaOfTheDefinition) {
   EXPECT_GT(total, 1000);
 }
 
-// Through the detector: sizes around those of vectors and of the parts that rows are judged in, sub-images at odd addresses.
+// Through the detector: sizes around those of vectors and of the parts that rows are judged in, sub-images at odd
+// addresses.
 TEST(FastKernel, TheDetectorAgreesOnAllTargets) {
   std::size_t total = 0;
   for (const int width : {7, 8, 20, 39, 70, 133, 517, 518, 519, 1040}) {

@@ -1,5 +1,5 @@
-// The kernels of KLT on every target: samples within their rounding of the bilinear interpolant, the gradients and sums that
-// follow from them exactly, and not a byte beyond what may be read.
+// The kernels of KLT on every target: samples within their rounding of the bilinear interpolant, the gradients and sums
+// that follow from them exactly, and not a byte beyond what may be read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -114,8 +114,8 @@ TEST(KltKernel, ExtractsTheRoundedInterpolantAndItsGradients) {
       const auto pixels = noise(static_cast<std::size_t>(width * (rows + 3)), seed++);
       const KltWindow window{pixels.data(), width, width, columns + 2, rows + 2, fraction[0], fraction[1]};
       KltPatch expected, found;
-      const KltPatchSums sums =
-          plain_patch(columns, rows, [&window](int x, int y) { return sample(window, x, y); }, &expected);
+      const KltPatchSums sums = plain_patch(
+          columns, rows, [&window](int x, int y) { return sample(window, x, y); }, &expected);
       for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x) {  // off by -3/128 to 1/128
           const double off = value(expected, x, y) / 32.0 + 128 - interpolated(window, x + 1, y + 1);
@@ -124,7 +124,8 @@ TEST(KltKernel, ExtractsTheRoundedInterpolantAndItsGradients) {
         }
       for (const simd::Target target : testable_targets()) {
         const TargetScope scope(target);
-        SCOPED_TRACE(std::string(simd::to_string(target)) + ", " + std::to_string(columns) + " x " + std::to_string(rows));
+        SCOPED_TRACE(std::string(simd::to_string(target)) + ", " + std::to_string(columns) + " x " +
+                     std::to_string(rows));
         expect_equal(simd::klt_extract(window, found), sums);
         expect_equal(found, expected, columns, rows);
       }
@@ -136,7 +137,8 @@ TEST(KltKernel, TakesGreyLevelsThatWereSampledElsewhere) {
   for (const Size& size : sizes()) {
     const int columns = size.columns, rows = size.rows;
     std::vector<float> grey(simd::kKltPadded);
-    for (float& g : grey) g = random() % 4 ? static_cast<float>(random() % 65281) / 256.0F : (random() % 2 ? 0.0F : 255.0F);
+    for (float& g : grey)
+      g = random() % 4 ? static_cast<float>(random() % 65281) / 256.0F : (random() % 2 ? 0.0F : 255.0F);
     KltPatch expected, found;
     const KltPatchSums sums = plain_patch(
         columns, rows,
@@ -178,11 +180,13 @@ TEST(KltKernel, SumsAreExactToTheLargestThereAre) {
         }
       for (const simd::Target target : testable_targets()) {
         const TargetScope scope(target);
-        SCOPED_TRACE(std::string(simd::to_string(target)) + ", " + std::to_string(columns) + " x " + std::to_string(rows));
+        SCOPED_TRACE(std::string(simd::to_string(target)) + ", " + std::to_string(columns) + " x " +
+                     std::to_string(rows));
         // What lies past the last column of a patch counts for nothing.
         KltPatch dirty = patch;
         for (int y = 0; y < rows; ++y)
-          for (int x = columns; x < kKltStride; ++x) dirty.value[y * kKltStride + x] = dirty.gx[y * kKltStride + x] = 4000;
+          for (int x = columns; x < kKltStride; ++x)
+            dirty.value[y * kKltStride + x] = dirty.gx[y * kKltStride + x] = 4000;
         const KltSums found = simd::klt_sums(window, dirty);
         EXPECT_EQ(found.v, expected.v);
         EXPECT_EQ(found.vv, expected.vv);
@@ -193,7 +197,8 @@ TEST(KltKernel, SumsAreExactToTheLargestThereAre) {
     }
 }
 
-// The window is the last one of an image whose last pixel touches a forbidden page, and the first one of one that follows one.
+// The window is the last one of an image whose last pixel touches a forbidden page, and the first one of one that
+// follows one.
 TEST(KltKernel, ReadsWhatMayBeRead) {
   for (const Size& size : sizes())
     for (const int more : {0, 1, 8, 40}) {  // readable bytes beyond the window

@@ -48,7 +48,8 @@ struct Correlation {
   Status status = Status::out_of_view;
 };
 
-inline Correlation correlate(const PatchTemplate& t, const ImageView8& image, float x, float y, float min_contrast) noexcept {
+inline Correlation correlate(const PatchTemplate& t, const ImageView8& image, float x, float y,
+                             float min_contrast) noexcept {
   Correlation c;
   const float left = x - t.dx - static_cast<float>(t.left), top = y - t.dy - static_cast<float>(t.top);
   PlacedWindow placed;
@@ -108,8 +109,8 @@ inline Alignment align_translation(const PatchTemplate& t, const ImageView8& ima
       step_x *= scale;
       step_y *= scale;
     }
-    // Done where the step is short, rounds to none, or where the one before was short and led no further up: between a few
-    // neighbours on the grid the iteration may go round for ever.
+    // Done where the step is short, rounds to none, or where the one before was short and led no further up: between a
+    // few neighbours on the grid the iteration may go round for ever.
     constexpr float kCell = 1.0F / simd::kKltSubpixels;
     const float longer = std::abs(step_x) > std::abs(step_y) ? std::abs(step_x) : std::abs(step_y);
     const bool done = length2 < options.epsilon * options.epsilon || longer <= 0.5F * kCell ||

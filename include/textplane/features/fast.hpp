@@ -67,7 +67,7 @@ inline int fast_score(const std::uint8_t* p, const FastCircle& circle) noexcept 
   return best - 1;
 }
 
-// Calls emit(x, y, score) for every corner in raster order. `scratch`: fast_scratch_size() bytes, used where `suppress`.
+// Calls emit(x, y, score) for every corner in raster order. `scratch`: fast_scratch_size() bytes where `suppress`.
 template <class Emit>
 void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8_t* scratch, Emit emit) {
   constexpr int kPart = 512;  // pixels of a row judged at a time

@@ -4,8 +4,8 @@
 // of the normalised patch is J~ = (1/s) (I - 1 1^T/N - T~ T~^T) grad T. J~ is orthogonal to 1 and to T~, so in the
 // inverse-compositional step sum J~ (I~ - T~) = (1/s_I) sum J~ I: neither gain nor bias of the target enters.
 //
-// Neither T~ nor J~ is ever formed: T and grad T are kept as int16 (simd/klt.hpp), and mean, norm and projection are applied
-// to their sums, which are exact integers.
+// Neither T~ nor J~ is ever formed: T and grad T are kept as int16 (simd/klt.hpp), and mean, norm and projection are
+// applied to their sums, which are exact integers.
 #ifndef TEXTPLANE_FEATURES_PATCH_TEMPLATE_HPP
 #define TEXTPLANE_FEATURES_PATCH_TEMPLATE_HPP
 
@@ -27,8 +27,8 @@ constexpr int kMaxPatchHalf = 10;
 /// A normalised patch with gradients, ready to be aligned: a rectangle of columns x rows samples, of which the one at
 /// (left, top) is the point itself, up to (dx, dy). Fixed capacity (4 KB), no allocation, freely copied.
 ///
-/// Samples are rounded to 1/32 grey level, and those of extract_upright_template() taken on a grid of 1/64 px; (dx, dy),
-/// at most half of that, is how far the point is from its sample.
+/// Samples are rounded to 1/32 grey level, and upright ones are taken on a grid of 1/64 px: (dx, dy), at most half of
+/// that, is how far the point is from its sample.
 struct PatchTemplate {
   int left = 0, top = 0, columns = 0, rows = 0;
   float dx = 0, dy = 0;             ///< px.
@@ -81,7 +81,7 @@ inline bool place_window(const ImageView8& image, float left, float top, int col
   const int qx = static_cast<int>(left * kGrid + 0.5F), qy = static_cast<int>(top * kGrid + 0.5F);
   // On the last column or row the interpolation uses the cell before it, with weight one.
   const int x = qx / kGrid < last_x ? qx / kGrid : last_x, y = qy / kGrid < last_y ? qy / kGrid : last_y;
-  // Bytes behind the window's last row may be read where they belong to the image: other rows', or the gap between rows.
+  // Bytes behind a row of the window may be read where they belong to the image: its other rows, or gaps between them.
   const std::ptrdiff_t behind = (image.height() - 1 - y - rows) * image.stride() + image.width() - x;
   const int readable = behind < 4096 ? static_cast<int>(behind) : 4096;
   placed->window = {image.row(y) + x, image.stride(), readable, columns, rows, qx - kGrid * x, qy - kGrid * y};
@@ -129,8 +129,8 @@ inline Status extract_upright_template(const ImageView8& image, float x, float y
   return t->status;
 }
 
-// Samples at centre + A (i, j), |i|, |j| <= reach, all of which lie inside the image or a hair outside. `out` begins with that
-// of (-reach, -reach), its rows are simd::kKltStride floats apart.
+// Samples at centre + A (i, j), |i|, |j| <= reach, all of which lie inside the image or a hair outside. `out` begins
+// with that of (-reach, -reach), its rows are simd::kKltStride floats apart.
 inline void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int reach,
                           float* out) noexcept {
   const int side = 2 * reach + 1;
@@ -143,7 +143,7 @@ inline void sample_affine(const ImageView8& image, const Vector2<float>& centre,
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
       const Vector2<double> p = first + A.cast<double>() * Vector2<double>(i, j);
-      const double x = p[0] > 0 ? p[0] : 0, y = p[1] > 0 ? p[1] : 0;  // beyond the far borders the last cell is extended
+      const double x = p[0] > 0 ? p[0] : 0, y = p[1] > 0 ? p[1] : 0;  // beyond the far ones the last cell is extended
       double v = 0;
       sample_inside(image, x, y, &v, static_cast<double*>(nullptr), static_cast<double*>(nullptr));
       out[j * simd::kKltStride + i] = static_cast<float>(v > 0 ? (v < 255 ? v : 255) : 0);

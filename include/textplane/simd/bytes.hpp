@@ -1,8 +1,8 @@
-// Vectors of bytes and of int16 for the bodies of integer kernels: `vb` with kBytes lanes, `vh` with kShorts lanes and the int32
-// sums `vw`, in every target namespace.
+// Vectors of bytes and of int16 for the bodies of integer kernels: `vb` with kBytes lanes, `vh` with kShorts lanes and
+// the int32 sums `vw`, in every target namespace.
 //
-// The operations and their meaning are defined once, in plain C++, in bytes_scalar.inl; the other bytes_*.inl files say the
-// same in intrinsics. All of them are exact: whatever is built of them gives the same result on every target.
+// The operations and their meaning are defined once, in plain C++, in bytes_scalar.inl; the other bytes_*.inl files say
+// the same in intrinsics. All of them are exact: whatever is built of them gives the same result on every target.
 #ifndef TEXTPLANE_SIMD_BYTES_HPP
 #define TEXTPLANE_SIMD_BYTES_HPP
 

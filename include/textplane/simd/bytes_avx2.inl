@@ -72,8 +72,7 @@ TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
   const __m128i* later = reinterpret_cast<const __m128i*>(p + 8);
   const __m256i bytes =
       _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(words)), _mm_loadu_si128(later), 1);
-  const __m256i neighbours =
-      _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8));
+  const __m256i neighbours = _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8));
   const __m256i centred = _mm256_xor_si256(bytes, _mm256_set1_epi8(-128));
   return _mm256_maddubs_epi16(weights, _mm256_shuffle_epi8(centred, neighbours));
 }
@@ -85,7 +84,6 @@ TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
   return _mm256_sub_epi16(_mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xD8), seth(4096));
 }
 
-constexpr int kWords = 8;
 using vw = __m256i;
 
 TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return _mm256_setzero_si256(); }

@@ -72,7 +72,6 @@ TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
   return vsubq_s16(vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)), seth(4096));
 }
 
-constexpr int kWords = 4;
 using vw = int32x4_t;
 
 TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return vdupq_n_s32(0); }

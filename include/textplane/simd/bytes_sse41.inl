@@ -7,7 +7,9 @@ TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return _mm_set1_epi8(static_
 TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept {
   return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
 }
-TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a); }
+TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a);
+}
 TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
   std::uint8_t bytes[16] = {0};
   for (int i = 0; i < n; ++i) bytes[i] = p[i];
@@ -35,7 +37,9 @@ TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noex
 
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return _mm_cmpeq_epi8(_mm_max_epu8(a, b), a); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return _mm_testz_si128(a, a) == 0; }
-TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept { return static_cast<std::uint32_t>(_mm_movemask_epi8(mask)); }
+TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
+  return static_cast<std::uint32_t>(_mm_movemask_epi8(mask));
+}
 TEXTPLANE_SIMD_INLINE int lowest_lane(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
 
 constexpr int kShorts = 8;
@@ -46,7 +50,9 @@ TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return _mm_set1_epi16(static
 TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept {
   return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
 }
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a); }
+TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a);
+}
 TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return _mm_add_epi16(a, b); }
 TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return _mm_sub_epi16(a, b); }
 TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return _mm_and_si128(a, b); }
@@ -70,7 +76,6 @@ TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
   return _mm_sub_epi16(_mm_packs_epi32(low, high), seth(4096));
 }
 
-constexpr int kWords = 4;
 using vw = __m128i;
 
 TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return _mm_setzero_si128(); }

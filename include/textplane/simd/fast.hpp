@@ -1,4 +1,5 @@
-// FAST-9/16 by rows: the score of every pixel of a row, and the pixels of a row whose score exceeds those of their neighbours.
+// FAST-9/16 by rows: the score of every pixel of a row, and the pixels of a row whose score exceeds those of their
+// neighbours.
 #ifndef TEXTPLANE_SIMD_FAST_HPP
 #define TEXTPLANE_SIMD_FAST_HPP
 
@@ -13,10 +14,10 @@ constexpr int kFastRowPadding = 64;
 /// One row of an image, at least 3 rows from its first and from its last one.
 struct FastRowArgs {
   const std::uint8_t* row = nullptr;
-  std::ptrdiff_t stride = 0;  ///< Bytes from a row to the next.
-  int width = 0;              ///< Pixels of the row, at least 7.
-  int threshold = 0;          ///< In [0, 255].
-  int less = 0;               ///< Subtracted from every strength, 0 or 1.
+  std::ptrdiff_t stride = 0;       ///< Bytes from a row to the next.
+  int width = 0;                   ///< Pixels of the row, at least 7.
+  int threshold = 0;               ///< In [0, 255].
+  int less = 0;                    ///< Subtracted from every strength, 0 or 1.
   std::uint8_t* scores = nullptr;  ///< width bytes, of which the first and the last 3 stay as they are.
 };
 
@@ -39,16 +40,16 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
-/// The strength of a pixel p is the largest d for which 9 consecutive pixels of the circle of 16 round it are all >= I(p) + d or
-/// all <= I(p) - d. Sets scores[x] = strength - less where strength > threshold, 0 elsewhere, for 3 <= x < width - 3, and tells
-/// whether one of them is not 0. So pixel x
-/// is a FAST corner at `threshold` where its strength counts, and its score in the sense of fast_score() is strength - 1.
-/// The same bytes on every target. Reads the pixels of the row and of the 3 rows on either side alone. No allocation.
+/// The strength of a pixel p is the largest d for which 9 consecutive pixels of the circle of 16 round it are all >=
+/// I(p) + d or all <= I(p) - d. Sets scores[x] = strength - less where strength > threshold, 0 elsewhere, for 3 <= x <
+/// width - 3, and tells whether one of them is not 0. So pixel x is a FAST corner at `threshold` where its strength
+/// counts, and its score in the sense of fast_score() is strength - 1. The same bytes on every target. Reads the pixels
+/// of the row and of the 3 rows on either side alone. No allocation.
 inline bool fast_row(const FastRowArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(fast_row(args)); }
 
-/// Writes those x, ascending, at which row[x] is not 0 and, where `suppress`, exceeds its eight neighbours; returns their
-/// number. Of the rows of scores it reads kFastRowPadding bytes beyond `last`, whatever they hold; where `suppress`, scores are
-/// at most 254, and those of the 3 px at either end are 0.
+/// Writes those x, ascending, at which row[x] is not 0 and, where `suppress`, exceeds its eight neighbours; returns
+/// their number. Of the rows of scores it reads kFastRowPadding bytes beyond `last`, whatever they hold; where
+/// `suppress`, scores are at most 254, and those of the 3 px at either end are 0.
 inline int fast_maxima(const FastMaximaArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(fast_maxima(args)); }
 
 }  // namespace simd

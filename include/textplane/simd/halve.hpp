@@ -25,9 +25,9 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
-/// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). The same bytes on
-/// every target. Reads and writes those pixels alone; src and dst must not overlap. No checks, no allocation, any number of
-/// threads.
+/// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). The same
+/// bytes on every target. Reads and writes those pixels alone; src and dst must not overlap. No checks, no allocation,
+/// any number of threads.
 inline void halve(const HalveArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(halve(args)); }
 
 }  // namespace simd
