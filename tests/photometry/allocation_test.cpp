@@ -50,9 +50,12 @@ TEST(Allocation, KernelsMakeNone) {
   const auto cost = tp::reference::evaluate(input, scene.theta, scene.T_t_h, options, scene.workspace);
   const auto rows =
       tp::reference::residuals<9>(input, scene.theta, scene.T_t_h, options, scene.workspace, r.data(), J.data());
+  const auto fast = tp::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, scene.workspace);
+  const auto fast_cost = tp::evaluate(input, scene.theta, scene.T_t_h, options, scene.workspace);
   scene.workspace.reserve(scene.n());
   EXPECT_EQ(allocations, before);
-  for (const tp::Status status : {pose.status, plane.status, both.status, all.status, cost.status, rows.status})
+  for (const tp::Status status : {pose.status, plane.status, both.status, all.status, cost.status, rows.status,
+                                  fast.status, fast_cost.status})
     EXPECT_EQ(status, tp::Status::ok);
 }
 

@@ -48,6 +48,7 @@ struct General {
       o.scale_frame_a = 1;
       o.scale_frame_b = 3;
     }
+    o.photometric.precise = true;  // numeric derivatives, and a dense system from the double residuals
     x.read(w);
     terms.prepare(w, o, x);
     EXPECT_EQ(s.build(w, o), tp::Status::ok);

@@ -38,6 +38,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
                        s6,
                        s7,
                        s8};
+  // Larger patches, and those with a position at infinity, float cannot centre. (A NaN compares false.)
+  const double wide = static_cast<double>(bounds.x_high) - static_cast<double>(bounds.x_low);
+  const double high = static_cast<double>(bounds.y_high) - static_cast<double>(bounds.y_low);
+  if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;
   const float hx = middle_x(bounds), hy = middle_y(bounds);
   if (!make_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
   make_sample_frame(a.target, f->warp, &f->sample);
