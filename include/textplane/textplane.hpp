@@ -16,7 +16,10 @@
 #include "textplane/geometry/quad.hpp"
 #include "textplane/geometry/triangulate.hpp"
 
+#include "textplane/photometry/candidates.hpp"
+#include "textplane/photometry/linearise_policy.hpp"
 #include "textplane/photometry/patch.hpp"
+#include "textplane/photometry/prepared_target.hpp"
 #include "textplane/photometry/pyramid.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/photometry/residual_autodiff.hpp"
@@ -24,6 +27,9 @@
 #include "textplane/photometry/residual_types.hpp"
 #include "textplane/photometry/robust.hpp"
 #include "textplane/photometry/sample.hpp"
+#include "textplane/photometry/template_patch.hpp"
+#include "textplane/photometry/text_batch.hpp"
+#include "textplane/photometry/warp_patch.hpp"
 #include "textplane/photometry/zncc.hpp"
 
 #include "textplane/features/align.hpp"
@@ -38,6 +44,7 @@
 #include "textplane/solver/plane.hpp"
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/pose_problem.hpp"
+#include "textplane/solver/search.hpp"
 #include "textplane/solver/weighting.hpp"
 #include "textplane/solver/window.hpp"
 #include "textplane/solver/window_problem.hpp"

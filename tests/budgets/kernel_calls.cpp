@@ -10,7 +10,9 @@
 
 #include "textplane/features/align.hpp"
 #include "textplane/features/fast.hpp"
+#include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/residual.hpp"
+#include "textplane/photometry/text_batch.hpp"
 #include "textplane/photometry/warp_patch.hpp"
 #include "textplane/simd/sample.hpp"
 
@@ -56,46 +58,89 @@ struct Scene {
 
 // n scattered pixels of a rectangle of 100 x 40, one in ten of them an outlier.
 struct Pixels {
-  std::vector<float> x, y, value;
+  std::vector<float> x, y, value, gx, gy;
   explicit Pixels(int n) {
     for (int i = 0; i < n; ++i) {
       const int cell = static_cast<int>((static_cast<long>(i) * 2654435761L) % 4000);
       x.push_back(static_cast<float>(110 + cell % 100));
       y.push_back(static_cast<float>(100 + cell / 100));
       value.push_back(intensity(x.back(), y.back()) + (i % 10 == 9 ? 70.0F : 0.0F));
+      gx.push_back(intensity(x.back() + 0.5, y.back()) - intensity(x.back() - 0.5, y.back()));
+      gy.push_back(intensity(x.back(), y.back() + 0.5) - intensity(x.back(), y.back() - 0.5));
     }
+  }
+  tp::PhotometricInput input(const Scene& scene) const {
+    tp::PhotometricInput in;
+    in.patch.x = x.data();
+    in.patch.y = y.data();
+    in.patch.intensity = value.data();
+    in.patch.n = static_cast<int>(x.size());
+    in.patch.gx = gx.data();
+    in.patch.gy = gy.data();
+    in.patch.bounds = tp::simd::point_bounds(x.data(), y.data(), in.patch.n);
+    in.host_camera = in.target_camera = scene.camera;
+    in.target = scene.image.view();
+    return in;
   }
 };
 
 void count_residual(const Scene& scene, int n) {
   const Pixels pixels(n);
   tp::PhotometricWorkspace workspace(n);
-  tp::PhotometricInput input;
-  input.patch.x = pixels.x.data();
-  input.patch.y = pixels.y.data();
-  input.patch.intensity = pixels.value.data();
-  input.patch.n = n;
-  input.host_camera = input.target_camera = scene.camera;
-  input.target = scene.image.view();
+  const tp::PhotometricInput input = pixels.input(scene);
   const tp::PhotometricOptions options;
   const std::string size = "/" + std::to_string(n);
-  count("pose" + size, [&] {
-    return is_ok(tp::linearise_pose(input, scene.theta, scene.T_t_h, options, workspace).status);
+  count("pose" + size,
+        [&] { return is_ok(tp::linearise_pose(input, scene.theta, scene.T_t_h, options, workspace).status); });
+  count("plane" + size,
+        [&] { return is_ok(tp::linearise_plane(input, scene.theta, scene.T_t_h, options, workspace).status); });
+  count("pose_plane" + size,
+        [&] { return is_ok(tp::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, workspace).status); });
+  count("cost" + size, [&] { return is_ok(tp::evaluate(input, scene.theta, scene.T_t_h, options, workspace).status); });
+}
+
+void count_policies(const Scene& scene, int n) {
+  const Pixels pixels(n);
+  tp::PhotometricWorkspace workspace(n);
+  const tp::PhotometricInput input = pixels.input(scene);
+  tp::TemplatePatch prepared;
+  prepared.prepare(input.patch);
+  const std::string size = "/" + std::to_string(n);
+  tp::PhotometricOptions l2;
+  l2.robust.kind = tp::RobustKind::l2;
+  const auto by = [&](tp::LinearisePolicy policy, const tp::PhotometricOptions& options) {
+    return is_ok(tp::linearise_by<9>(policy, input, scene.theta, scene.T_t_h, options, workspace, &prepared).status);
+  };
+  count("template_l2" + size, [&] { return by(tp::LinearisePolicy::template_jacobian, l2); });
+  count("template_huber" + size, [&] { return by(tp::LinearisePolicy::template_jacobian, {}); });
+  count("esm" + size, [&] { return by(tp::LinearisePolicy::esm, {}); });
+  const std::vector<tp::SE3d> poses(16, scene.T_t_h);
+  std::vector<float> zncc(16);
+  count("zncc_16" + size, [&] {
+    return is_ok(tp::zncc_candidates(input, scene.theta, poses.data(), 16, l2, workspace, zncc.data(), &prepared));
   });
-  count("plane" + size, [&] {
-    return is_ok(tp::linearise_plane(input, scene.theta, scene.T_t_h, options, workspace).status);
+}
+
+void count_batch(const Scene& scene, int n) {
+  constexpr int kObjects = 16;
+  const Pixels pixels(n);
+  const std::vector<tp::TextBatchItem> items(kObjects, {pixels.input(scene).patch, scene.camera, scene.theta});
+  const std::vector<tp::SE3d> poses(kObjects, scene.T_t_h);
+  const tp::TextBatch batch(items.data(), kObjects);
+  tp::TextBatchResult result(batch);
+  const std::string size = "/" + std::to_string(n);
+  count("batch16_pose" + size, [&] {
+    return is_ok(tp::evaluate_batch<6>(batch, scene.image.view(), scene.camera, poses.data(), {}, result));
   });
-  count("pose_plane" + size, [&] {
-    return is_ok(tp::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, workspace).status);
-  });
-  count("cost" + size, [&] {
-    return is_ok(tp::evaluate(input, scene.theta, scene.T_t_h, options, workspace).status);
+  count("batch16_pose_plane" + size, [&] {
+    return is_ok(tp::evaluate_batch<9>(batch, scene.image.view(), scene.camera, poses.data(), {}, result));
   });
 }
 
 template <class S, class D>
 void count_warp(const char* name, const tp::Image<S>& image) {
-  const tp::Matrix3<double> H = (tp::Matrix3<double>() << 1.02, 0.05, 90.3, -0.03, 0.98, 80.7, 1e-4, -5e-5, 1).finished();
+  const tp::Matrix3<double> H =
+      (tp::Matrix3<double>() << 1.02, 0.05, 90.3, -0.03, 0.98, 80.7, 1e-4, -5e-5, 1).finished();
   tp::Image<D> out(100, 40);
   count(name, [&] { return is_ok(tp::warp_patch<S, D>(image.view(), H, out.view()).status); });
 }
@@ -125,6 +170,8 @@ void count_features(const Scene& scene) {
 int main() {
   const Scene scene;
   for (const int n : {15, 64, 256, 1000, 4000}) count_residual(scene, n);
+  for (const int n : {15, 256, 4000}) count_policies(scene, n);
+  count_batch(scene, 15);
   count_warp<std::uint8_t, float>("warp_u8_f32/100x40", scene.image);
   count_warp<std::uint8_t, std::uint8_t>("warp_u8_u8/100x40", scene.image);
   count_warp<float, float>("warp_f32_f32/100x40", scene.image_f);

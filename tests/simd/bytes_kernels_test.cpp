@@ -65,7 +65,7 @@ TEST(ByteVectors, PartsTouchNothingBeyondTheirEnd) {
     for (const simd::Target target : testable_targets()) {
       const TargetScope scope(target);
       SCOPED_TRACE(simd::to_string(target));
-      for (std::size_t i = 0; i < size; ++i) from.end()[i - size] = static_cast<std::uint8_t>(i * 37 + 11);
+      for (std::size_t i = 0; i < size; ++i) (from.end() - n)[i] = static_cast<std::uint8_t>(i * 37 + 11);
       std::fill(to.end() - n, to.end(), std::uint8_t{0});
       copy_parts(from.end() - n, n, to.end() - n);
       ASSERT_TRUE(std::equal(from.end() - n, from.end(), to.end() - n)) << n;

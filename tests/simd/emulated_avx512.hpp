@@ -141,6 +141,9 @@ inline __m512 shuffle_quarters(std::uint64_t mask, const __m512& a, const __m512
 #undef _mm512_maskz_roundscale_ps
 #define _mm512_maskz_roundscale_ps(m, a, mode) \
   (emulated::masked<float, __m512>((m), [&](std::size_t i) { return emulated::round(emulated::lanes<float>(a)[i], (mode)); }))
+// SIMDe's macro asks for the arguments of the masked form.
+#undef _mm512_madd_epi16
+#define _mm512_madd_epi16(a, b) simde_mm512_madd_epi16((a), (b))
 #undef _mm512_cmplt_epi32_mask
 #define _mm512_cmplt_epi32_mask(a, b) simde_mm512_cmpgt_epi32_mask((b), (a))
 

@@ -23,7 +23,7 @@ enum class LinearisePolicy : std::uint8_t {
   forward,            ///< Gradients of the target: the derivative of the cost itself.
   template_jacobian,  ///< Gradients of the host, prepared once: the cheapest iteration.
   esm,                ///< The mean of both: the widest basin.
-  automatic,          ///< One of the above, by size, scale and slant: see choose_policy().
+  automatic,          ///< A coarse-to-fine solver's choice by level: see PoseOptions::policy.
 };
 
 namespace detail {

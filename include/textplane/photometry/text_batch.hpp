@@ -212,7 +212,8 @@ class TextBatchResult {
 /// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega, theta).
 /// `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
 ///
-/// Each object's result is that of reference::linearise_*() within the bounds of simd/batch.hpp. ok, or invalid_argument, and
+/// Each object's result is that of reference::linearise_*() within the bounds of simd/batch.hpp; one whose geometry float does
+/// not hold (a number beyond 1e30) is non_finite. ok, or invalid_argument, and
 /// then all statuses are that: null poses, a target below 2 x 2, a camera that is not valid(), robust costs other than l2 and
 /// Huber, other bad options, a result without room.
 template <int P>

@@ -106,9 +106,10 @@ TEXTPLANE_SIMD_INLINE float hsum(vf a) noexcept {
   return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
 TEXTPLANE_SIMD_INLINE double hsum_d(vf a) noexcept {
-  const __m512d eight = _mm512_add_pd(_mm512_maskz_cvtps_pd(0xff, lower_half(a)),
-                                      _mm512_maskz_cvtps_pd(0xff, upper_half(a)));
-  const __m256d four = _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xf, eight, 0), _mm512_maskz_extractf64x4_pd(0xf, eight, 1));
+  const __m512d eight =
+      _mm512_add_pd(_mm512_maskz_cvtps_pd(0xff, lower_half(a)), _mm512_maskz_cvtps_pd(0xff, upper_half(a)));
+  const __m256d four =
+      _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xf, eight, 0), _mm512_maskz_extractf64x4_pd(0xf, eight, 1));
   const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
   return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
 }
@@ -155,12 +156,8 @@ TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept { return vd{_mm512_set1_pd(
 TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept { return vd{_mm512_mul_pd(a.all, b.all)}; }
 TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept { return vd{_mm512_fmadd_pd(a.all, b.all, c.all)}; }
 
-TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept {  // lane i + lane i + 8
-  const __m512d upper = _mm512_castps_pd(_mm512_maskz_shuffle_f32x4(0xffff, a, a, 0xee));
-  return _mm256_add_ps(_mm512_castps512_ps256(a), _mm512_castps512_ps256(_mm512_castpd_ps(upper)));
-}
+TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept { return _mm256_add_ps(lower_half(a), upper_half(a)); }
 TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
-  const __m256 s =
-      _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
+  const __m256 s = _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }

@@ -12,9 +12,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "textplane/photometry/residual.hpp"
+#include "textplane/photometry/template_patch.hpp"
 #include "textplane/solver/gauss_newton.hpp"
 #include "textplane/solver/levels.hpp"
 #include "textplane/solver/weighting.hpp"
@@ -28,6 +30,8 @@ struct PoseTextTerm {
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< On top of lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees it at another size.
+  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done without.
+  const TemplatePatch* prepared = nullptr;
 };
 
 /// A known 3D point and where it was seen.
@@ -52,6 +56,10 @@ struct PoseOptions {
                            ///< the latest.
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
   int finest_level = 0;
+  /// Whose gradients texts are linearised with (docs/policy.md); patches without gradients take forward. automatic: ESM on all
+  /// levels but the finest, where the derivative of the cost itself, forward, ends at its minimum. Whatever the policy, steps
+  /// are judged by the cost.
+  LinearisePolicy policy = LinearisePolicy::forward;
 };
 
 namespace detail {
@@ -225,8 +233,7 @@ class PoseProblem {
   Status add_text(const PoseTextTerm& term, const SE3d& T_t_w, PoseTextState& state, PoseSystem& system) noexcept {
     if (!term.patch || !(term.weight > 0) || !is_finite(term.weight)) return Status::invalid_argument;
     const auto input = level_input(*term.patch, level_, target_, camera_, term.scale_shift);
-    const NormalEquations<6> n =
-        textplane::linearise_pose(input, term.theta, T_t_w * term.T_w_h, options_.photometric, memory_.photometric_);
+    const NormalEquations<6> n = linearise_text(input, term, T_t_w * term.T_w_h);
     if (!is_ok(n.status)) return n.status;
     state.visible = n.visible;
     state.zncc = n.zncc;
@@ -238,6 +245,34 @@ class PoseProblem {
     }
     system.cost += state.weight * n.cost;
     return Status::ok;
+  }
+
+  LinearisePolicy policy() const noexcept {
+    if (options_.policy != LinearisePolicy::automatic) return options_.policy;
+    return level_ > options_.finest_level ? LinearisePolicy::esm : LinearisePolicy::forward;
+  }
+
+  template <class Input>
+  NormalEquations<6> linearise_text(const Input& input, const PoseTextTerm& term, const SE3d& T_t_h) noexcept {
+    const LinearisePolicy policy = this->policy();
+    PhotometricWorkspace& workspace = memory_.photometric_;
+    if (policy == LinearisePolicy::forward || !input.patch.gx || !input.patch.gy)
+      return textplane::linearise_pose(input, term.theta, T_t_h, options_.photometric, workspace);
+    if constexpr (std::is_same<Input, PhotometricInput>::value) {
+      const int host_level = term.scale_shift < 0 ? level_ - term.scale_shift : level_;
+      const TemplatePatch* prepared = term.prepared ? term.prepared + host_level : nullptr;
+      NormalEquations<6> n =
+          linearise_by<6>(policy, input, term.theta, T_t_h, options_.photometric, workspace, prepared);
+      // Trials are compared with this cost: it must be the one that evaluate() computes, to the last digit.
+      if (prepared && is_ok(n.status)) {
+        const PhotometricCost c =
+            textplane::evaluate(input, term.theta, T_t_h, options_.photometric, workspace, workspace.visible());
+        if (is_ok(c.status)) n.cost = c.cost;
+      }
+      return n;
+    } else {
+      return reference::linearise_by<6>(policy, input, term.theta, T_t_h, options_.photometric, workspace);
+    }
   }
 
   bool add_point(const PosePointTerm& term, const SE3d& T_t_w, PoseSystem& system) noexcept {

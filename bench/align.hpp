@@ -1,0 +1,67 @@
+// Pose and plane of one object: what our convergence benchmarks iterate.
+#ifndef TEXTPLANE_BENCH_ALIGN_HPP
+#define TEXTPLANE_BENCH_ALIGN_HPP
+
+#include <algorithm>
+#include <vector>
+
+#include "textplane/photometry/template_patch.hpp"
+
+namespace textplane_bench {
+
+namespace tp = textplane;
+
+struct Start {
+  tp::SE3d T_t_h;
+  tp::Vector3<double> theta;
+};
+
+/// Levenberg-Marquardt that linearises at each trial, and stops where a step promises less than `tolerance` of the cost. A
+/// trial that loses more than a tenth of the visible pixels is rejected. (The scale of t and 1 / theta is free, which minimise()
+/// would refuse.)
+inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch* prepared, tp::LinearisePolicy policy,
+                        double tolerance, tp::PhotometricWorkspace& workspace, Start* s) {
+  const auto linearise = [&](const Start& at) {
+    return tp::linearise_by<9>(policy, in, at.theta, at.T_t_h, {}, workspace, prepared);
+  };
+  double lambda = 1e-4, grow = 8;
+  auto e = linearise(*s);
+  for (int i = 0; i < 40 && is_ok(e.status); ++i) {
+    auto H = e.H;
+    H.diagonal() *= 1 + lambda;
+    const tp::Ldlt<double, 9> ldlt(H);
+    if (!ldlt.ok()) return;
+    const Eigen::Matrix<double, 9, 1> step = -ldlt.solve(e.b);
+    const double predicted = -step.dot(2 * e.b + e.H * step);
+    if (predicted < tolerance * e.cost) return;
+    const Start trial{tp::se3_exp<double>(step.head<6>()) * s->T_t_h, s->theta + step.tail<3>()};
+    const auto next = linearise(trial);
+    if (is_ok(next.status) && next.cost < e.cost && next.visible * 10 >= e.visible * 9) {
+      const double gain = (e.cost - next.cost) / predicted, cube = 2 * gain - 1;
+      lambda *= std::max(1.0 / 3, 1 - cube * cube * cube);
+      grow = 8;
+      *s = trial;
+      e = next;
+    } else {
+      lambda *= grow;
+      grow *= 2;
+    }
+  }
+}
+
+/// Coarse to fine; a coarse level is but the start of the next. LinearisePolicy::automatic as in PoseOptions.
+inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatch>& prepared, int levels,
+                  const tp::PyramidView& target, const tp::Pinhole<double>& camera, tp::LinearisePolicy policy,
+                  tp::PhotometricWorkspace& workspace, Start* s) {
+  for (int l = levels - 1; l >= 0; --l) {
+    const auto here = policy != tp::LinearisePolicy::automatic ? policy
+                      : l > 0                                  ? tp::LinearisePolicy::esm
+                                                               : tp::LinearisePolicy::forward;
+    align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)], here,
+                l > 0 ? 1e-2 : 1e-3, workspace, s);
+  }
+}
+
+}  // namespace textplane_bench
+
+#endif  // TEXTPLANE_BENCH_ALIGN_HPP

@@ -1,0 +1,16 @@
+// The straightforward way: double precision, fixed-size Eigen, two passes over the pixels.
+#ifndef TEXTPLANE_BENCH_BASELINE_EIGEN_HPP
+#define TEXTPLANE_BENCH_BASELINE_EIGEN_HPP
+
+#include "problem.hpp"
+
+namespace textplane_bench {
+
+/// Exact Huber normal equations of (v, omega, theta), as textplane::linearise_pose_plane().
+__attribute__((visibility("default"))) void baseline_pose_plane(const Problem& problem, Equations* out);
+/// Those of (v, omega), as textplane::linearise_pose().
+__attribute__((visibility("default"))) void baseline_pose(const Problem& problem, Equations* out);
+
+}  // namespace textplane_bench
+
+#endif  // TEXTPLANE_BENCH_BASELINE_EIGEN_HPP

@@ -1,0 +1,220 @@
+// Ours: normal equations by pose, pose and plane, both poses and plane; template Jacobian and ESM; cost alone; a batch of small
+// objects. Errors are the largest difference from the double reference, over sqrt(H_ii H_jj) for H and over
+// sqrt(H_ii) for b (E is at most 4).
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "registry.hpp"
+#include "scene.hpp"
+#include "textplane/photometry/prepared_target.hpp"
+#include "textplane/photometry/template_patch.hpp"
+#include "textplane/photometry/text_batch.hpp"
+
+namespace textplane_bench {
+
+namespace {
+
+// Scenes to cycle through, each with its start, and memory for the kernels.
+struct Cycle {
+  std::vector<Scene> scenes;
+  std::vector<tp::PhotometricInput> inputs;
+  std::vector<std::vector<float>> gradients;
+  std::vector<tp::TemplatePatch> prepared;
+  std::vector<tp::PreparedTarget> pairs;
+  tp::PhotometricWorkspace workspace;
+
+  Cycle(int n, int count, bool with_pairs) : workspace(n) {
+    for (int i = 0; i < count; ++i) scenes.push_back(make_scene(n, static_cast<unsigned>(i + 1)));
+    gradients.resize(scenes.size());
+    prepared.resize(scenes.size());
+    pairs.resize(scenes.size());
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      Scene& s = scenes[i];
+      tp::PhotometricInput in = s.input();
+      in.patch.bounds = tp::simd::point_bounds(s.x.data(), s.y.data(), s.n());
+      std::vector<float>& g = gradients[i];
+      for (const bool vertical : {false, true})
+        for (int k = 0; k < s.n(); ++k) {
+          const int x = static_cast<int>(s.x[static_cast<std::size_t>(k)]),
+                    y = static_cast<int>(s.y[static_cast<std::size_t>(k)]);
+          const int dx = vertical ? 0 : 1, dy = vertical ? 1 : 0;
+          g.push_back(0.5F * static_cast<float>(s.host(x + dx, y + dy) - s.host(x - dx, y - dy)));
+        }
+      in.patch.gx = g.data();
+      in.patch.gy = g.data() + s.n();
+      prepared[i].prepare(in.patch);
+      if (with_pairs) {
+        pairs[i].prepare(s.target_view());
+        in.pairs = pairs[i].view();
+      }
+      inputs.push_back(in);
+    }
+  }
+};
+
+template <int P>
+Errors errors(const tp::NormalEquations<P>& ours, const tp::NormalEquations<P>& reference) {
+  Errors e{{"error_H", 0}, {"error_b", 0}, {"error_cost", std::abs(ours.cost - reference.cost)}};
+  for (int i = 0; i < P; ++i) {
+    const double si = std::sqrt(reference.H(i, i));
+    if (!(si > 0)) continue;
+    e["error_b"] = std::max(e["error_b"], std::abs(ours.b[i] - reference.b[i]) / si);
+    for (int j = 0; j < P; ++j) {
+      const double sj = std::sqrt(reference.H(j, j));
+      if (sj > 0) e["error_H"] = std::max(e["error_H"], std::abs(ours.H(i, j) - reference.H(i, j)) / (si * sj));
+    }
+  }
+  return e;
+}
+
+void largest(const Errors& from, Errors* to) {
+  for (const auto& [key, value] : from) (*to)[key] = std::max((*to)[key], value);
+}
+
+tp::PhotometricOptions options(bool huber) {
+  tp::PhotometricOptions o;
+  o.min_visible = 1;
+  o.min_contrast = 0;
+  if (!huber) o.robust.kind = tp::RobustKind::l2;
+  return o;
+}
+
+// `linearise(cycle, i)` and `reference(cycle, i)` give normal equations for scene i.
+template <class Linearise, class Reference>
+std::function<Work()> equations(int n, int count, bool pairs, const Linearise& linearise, const Reference& reference) {
+  return [=] {
+    const auto cycle = std::make_shared<Cycle>(n, count, pairs);
+    Work work;
+    work.items = n;
+    for (std::size_t i = 0; i < cycle->scenes.size(); ++i)
+      largest(errors(linearise(*cycle, i), reference(*cycle, i)), &work.errors);
+    work.call = [=](std::size_t i) { keep(linearise(*cycle, i % cycle->scenes.size())); };
+    return work;
+  };
+}
+
+template <int P>
+void add_policy(const std::string& name, tp::LinearisePolicy policy, bool huber, int n) {
+  const auto ours = [=](Cycle& c, std::size_t i) {
+    const Scene& s = c.scenes[i];
+    return tp::linearise_by<P>(policy, c.inputs[i], s.theta_start, s.T_start, options(huber), c.workspace,
+                               &c.prepared[i]);
+  };
+  const auto reference = [=](Cycle& c, std::size_t i) {
+    const Scene& s = c.scenes[i];
+    return tp::reference::linearise_by<P>(policy, c.inputs[i], s.theta_start, s.T_start, options(huber), c.workspace);
+  };
+  add_targets(name, std::to_string(n), equations(n, 4, false, ours, reference));
+}
+
+template <int P>
+auto forward(Cycle& c, std::size_t i) {
+  const Scene& s = c.scenes[i];
+  if constexpr (P == 6) return tp::linearise_pose(c.inputs[i], s.theta_start, s.T_start, options(true), c.workspace);
+  if constexpr (P == 9)
+    return tp::linearise_pose_plane(c.inputs[i], s.theta_start, s.T_start, options(true), c.workspace);
+  if constexpr (P == 15)
+    return tp::linearise_host_target_plane(c.inputs[i], s.theta_start, tp::SE3d(), s.T_start.inverse(),
+                                           tp::PerturbationSide::right, options(true), c.workspace);
+}
+template <int P>
+auto forward_reference(Cycle& c, std::size_t i) {
+  const Scene& s = c.scenes[i];
+  namespace ref = tp::reference;
+  if constexpr (P == 6) return ref::linearise_pose(c.inputs[i], s.theta_start, s.T_start, options(true), c.workspace);
+  if constexpr (P == 9)
+    return ref::linearise_pose_plane(c.inputs[i], s.theta_start, s.T_start, options(true), c.workspace);
+  if constexpr (P == 15)
+    return ref::linearise_host_target_plane(c.inputs[i], s.theta_start, tp::SE3d(), s.T_start.inverse(),
+                                            tp::PerturbationSide::right, options(true), c.workspace);
+}
+
+template <int P>
+void add_forward(const std::string& name, int n, int count, bool pairs) {
+  add_targets(name, std::to_string(n), equations(n, count, pairs, forward<P>, forward_reference<P>));
+}
+
+void add_cost(int n) {
+  const auto cost = [=] {
+    const auto cycle = std::make_shared<Cycle>(n, 4, false);
+    Work work;
+    work.items = n;
+    const auto evaluate = [cycle](std::size_t i) {
+      const Scene& s = cycle->scenes[i];
+      return tp::evaluate(cycle->inputs[i], s.theta_start, s.T_start, options(true), cycle->workspace);
+    };
+    double worst = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Scene& s = cycle->scenes[i];
+      const auto want =
+          tp::reference::evaluate(cycle->inputs[i], s.theta_start, s.T_start, options(true), cycle->workspace);
+      worst = std::max(worst, std::abs(evaluate(i).cost - want.cost));
+    }
+    work.errors["error_cost"] = worst;
+    work.call = [=](std::size_t i) { keep(evaluate(i % 4)); };
+    return work;
+  };
+  add_targets("cost", std::to_string(n), cost);
+}
+
+// Sixteen objects of n pixels: one object a lane.
+template <int P>
+Work batch_work(int n) {
+  constexpr int kObjects = 16;
+  const auto cycle = std::make_shared<Cycle>(n, kObjects, false);
+  std::vector<tp::TextBatchItem> items(kObjects);
+  const auto poses = std::make_shared<std::vector<tp::SE3d>>();
+  const Scene& first = cycle->scenes[0];  // all in its image
+  for (std::size_t i = 0; i < kObjects; ++i) {
+    items[i].patch = cycle->inputs[i].patch;
+    items[i].host_camera = cycle->inputs[i].host_camera;
+    items[i].theta = cycle->scenes[i].theta_start;
+    poses->push_back(cycle->scenes[i].T_start);
+  }
+  const auto batch = std::make_shared<tp::TextBatch>(items.data(), kObjects);
+  const auto result = std::make_shared<tp::TextBatchResult>(*batch);
+  const auto run = [=, &first] {
+    return tp::evaluate_batch<P>(*batch, first.target_view(), first.camera, poses->data(), options(true), *result);
+  };
+  run();
+  Work work;
+  work.items = kObjects * n;
+  for (std::size_t i = 0; i < kObjects; ++i) {
+    tp::PhotometricInput in = cycle->inputs[i];
+    in.target = first.target_view();
+    const auto ours = result->normal_equations<P>(static_cast<int>(i));
+    if constexpr (P == 9)
+      largest(errors(ours, tp::reference::linearise_pose_plane(in, items[i].theta, (*poses)[i], options(true),
+                                                               cycle->workspace)),
+              &work.errors);
+    if constexpr (P == 6)
+      largest(
+          errors(ours, tp::reference::linearise_pose(in, items[i].theta, (*poses)[i], options(true), cycle->workspace)),
+          &work.errors);
+  }
+  work.call = [run, cycle](std::size_t) { keep(run()); };
+  return work;
+}
+
+}  // namespace
+
+void add_equations() {
+  for (const int n : {15, 64}) {
+    add_targets("batch16_pose_plane", std::to_string(n), [=] { return batch_work<9>(n); });
+    add_targets("batch16_pose", std::to_string(n), [=] { return batch_work<6>(n); });
+  }
+  for (const int n : {15, 64, 256, 1000, 4000}) {
+    add_forward<9>("pose_plane", n, 4, false);
+    add_forward<9>("pose_plane_prepared", n, 4, true);
+    add_forward<9>("pose_plane_cold", n, 24, false);
+    add_forward<6>("pose", n, 4, false);
+    add_forward<15>("host_target_plane", n, 4, false);
+    add_policy<9>("template_l2", tp::LinearisePolicy::template_jacobian, false, n);
+    add_policy<9>("template_huber", tp::LinearisePolicy::template_jacobian, true, n);
+    add_policy<9>("esm", tp::LinearisePolicy::esm, true, n);
+    add_cost(n);
+  }
+}
+
+}  // namespace textplane_bench

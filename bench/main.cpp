@@ -1,0 +1,30 @@
+// textplane_bench: ours and the peers in one process, single thread. Options are Google Benchmark's.
+#include <cstdio>
+
+#include "registry.hpp"
+
+int main(int argc, char** argv) {
+  using namespace textplane_bench;
+  add_equations();
+  add_images();
+  add_converge();
+  add_growth();
+  add_straightforward();
+#if defined(TEXTPLANE_BENCH_OPENCV)
+  add_opencv();
+#endif
+#if defined(TEXTPLANE_BENCH_VISP)
+  add_visp();
+#endif
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::AddCustomContext("target", textplane::simd::to_string(textplane::simd::best_target()));
+#if defined(__clang__)
+  benchmark::AddCustomContext("compiler", "clang++ " __clang_version__);
+#else
+  benchmark::AddCustomContext("compiler", "g++ " __VERSION__);
+#endif
+  benchmark::AddCustomContext("flags", TEXTPLANE_BENCH_FLAGS);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,74 @@
+// How benchmarks get their names and counters: `<kernel>/<target>/<N>`, time for one call, and counters
+//   ns_pixel   nanoseconds for one pixel (or `items` of whatever the name says)
+//   error, ... what the check before the timing found
+#ifndef TEXTPLANE_BENCH_REGISTRY_HPP
+#define TEXTPLANE_BENCH_REGISTRY_HPP
+
+#include <benchmark/benchmark.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "textplane/simd/dispatch.hpp"
+
+namespace textplane_bench {
+
+using Errors = std::map<std::string, double>;
+
+/// What a benchmark does: `call` once an iteration, with the number of the iteration to cycle operands by.
+struct Work {
+  std::function<void(std::size_t)> call;
+  double items = 1;
+  Errors errors;
+};
+
+/// Registers `make` under a name. The work is made, and its result checked, when its first repetition runs, and kept.
+inline benchmark::internal::Benchmark* add(const std::string& name, const std::function<Work()>& make,
+                                           const char* target = nullptr) {
+  const auto kept = std::make_shared<Work>();
+  textplane::simd::Target wanted = textplane::simd::Target::scalar;
+  const bool fixed = target && textplane::simd::target_from_string(target, wanted);
+  return benchmark::RegisterBenchmark(name.c_str(), [kept, make, fixed, wanted](benchmark::State& state) {
+    const textplane::simd::Target before = textplane::simd::active_target();
+    if (fixed) textplane::simd::set_target(wanted);
+    if (!kept->call) *kept = make();
+    std::size_t i = 0;
+    for (auto _ : state) kept->call(i++);
+    state.counters["ns_pixel"] = benchmark::Counter(
+        kept->items * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    for (const auto& [key, value] : kept->errors) state.counters[key] = value;
+    textplane::simd::set_target(before);
+  });
+}
+
+/// Registers `<kernel>/<target>/<size>` for every target that this machine has.
+inline void add_targets(const std::string& kernel, const std::string& size, const std::function<Work()>& make) {
+  for (int i = 0; i < textplane::simd::kTargetCount; ++i) {
+    const auto target = static_cast<textplane::simd::Target>(i);
+    if (!textplane::simd::supported(target)) continue;
+    const char* name = textplane::simd::to_string(target);
+    add(kernel + "/" + name + "/" + size, make, name);
+  }
+}
+
+/// Keeps the compiler from dropping a result.
+template <class T>
+void keep(T&& value) {
+  benchmark::DoNotOptimize(value);
+}
+
+void add_equations();        ///< equations.cpp: normal equations of all kinds, ours.
+void add_images();           ///< images.cpp: warp, FAST, KLT, pyramid, ours.
+void add_converge();         ///< converge.cpp: ours to convergence.
+void add_growth();           ///< growth.cpp: cost against pixels, objects and threads.
+void add_straightforward();  ///< peers_straightforward.cpp: Eigen double; Ceres and numeric differences where built.
+void add_opencv();           ///< peers_opencv.cpp
+void add_visp();             ///< peer_visp.cpp
+
+}  // namespace textplane_bench
+
+#endif  // TEXTPLANE_BENCH_REGISTRY_HPP

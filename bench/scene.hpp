@@ -1,0 +1,55 @@
+// What the benchmarks work on, made in code: a textured plane seen in two 640 x 480 images, with another exposure and noise in
+// the target and outliers in the host. The texture is a formula, so that the target is rendered without resampling.
+#ifndef TEXTPLANE_BENCH_SCENE_HPP
+#define TEXTPLANE_BENCH_SCENE_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "problem.hpp"
+#include "textplane/core/image_view.hpp"
+#include "textplane/core/se3.hpp"
+#include "textplane/photometry/residual.hpp"
+
+namespace textplane_bench {
+
+namespace tp = textplane;
+
+/// Grey level of the texture at host pixel (x, y): edges and strokes of 4 px and up, in [20, 235].
+double texture(double x, double y, unsigned seed);
+
+/// Change of light and noise of the target, outliers of the host.
+struct Light {
+  double gain = 0.85, bias = 18, noise = 2, outliers = 0.1;
+};
+
+/// Two views of the plane and n of its host pixels.
+struct Scene {
+  static constexpr int kWidth = 640, kHeight = 480;
+
+  tp::Image<std::uint8_t> host, target;
+  tp::Pinhole<double> camera{480, 480, 319.5, 239.5};
+  tp::Vector3<double> theta, theta_start;  ///< The truth, and where iterations begin.
+  tp::SE3d T_t_h, T_start;
+  std::vector<float> x, y, intensity;
+  int left = 0, top = 0, columns = 0, rows = 0;  ///< Rectangle that the pixels are from.
+
+  int n() const { return static_cast<int>(x.size()); }
+  tp::ImageView8 target_view() const { return target.view(); }
+  tp::ImageView8 host_view() const { return host.view(); }
+  tp::PhotometricInput input() const;
+  /// With theta and T_t_h of the start.
+  Problem problem() const;
+  /// Host pixels to target pixels, by the given pose and plane.
+  tp::Matrix3<double> pixel_homography(const tp::SE3d& T, const tp::Vector3<double>& plane) const;
+  /// Mean distance in px of the corners of the rectangle from where they truly are.
+  double corner_error(const tp::Matrix3<double>& H) const;
+};
+
+/// n scattered pixels of a rectangle of 100 x 40 (of all 4000 for n = 4000, of larger ones beyond); the start is off by `px`
+/// pixels of mean corner error.
+Scene make_scene(int n, unsigned seed, double px = 1.0, const Light& light = Light());
+
+}  // namespace textplane_bench
+
+#endif  // TEXTPLANE_BENCH_SCENE_HPP

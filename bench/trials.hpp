@@ -1,0 +1,45 @@
+// Trials of convergence: made scenes, a 100 x 40 patch, starts whose mean corner error is exact. The same for every method.
+#ifndef TEXTPLANE_BENCH_TRIALS_HPP
+#define TEXTPLANE_BENCH_TRIALS_HPP
+
+#include <vector>
+
+#include "align.hpp"
+#include "textplane/photometry/template_patch.hpp"
+
+namespace textplane_bench {
+
+/// Print of small and of large letters, smooth blobs, and print seen at a slant of 55 degrees and 0.8 of the host's scale.
+enum class Kind { print, large_print, blobs, slanted_print };
+constexpr Kind kKinds[] = {Kind::print, Kind::large_print, Kind::blobs, Kind::slanted_print};
+inline const char* to_string(Kind kind) {
+  constexpr const char* kNames[] = {"print", "large print", "blobs", "slanted print"};
+  return kNames[static_cast<int>(kind)];
+}
+
+/// Two 640 x 480 images of a plane with a texture that is a formula, so that none is resampled; another gain, bias and
+/// noise in the target. The patch is all pixels of a rectangle, on three levels.
+struct Trials {
+  static constexpr int kLevels = 3, kLeft = 270, kTop = 220, kColumns = 100, kRows = 40;
+
+  explicit Trials(Kind kind);
+
+  /// Host px to target px, level 0.
+  tp::Matrix3<double> homography(const Start& s) const;
+  /// Mean distance of the rectangle's corners under H from where they truly are, px.
+  double corner_error(const tp::Matrix3<double>& H) const;
+  /// A start near the truth with this corner error: a random direction of the pose, and of the plane too if `tilt`, followed
+  /// until it is reached.
+  Start start(double px, unsigned trial, bool tilt) const;
+
+  tp::Image<std::uint8_t> host, target;
+  tp::Pyramid host_pyramid, target_pyramid;
+  tp::Pinhole<double> camera{500, 500, 320, 240};
+  Start truth;
+  tp::TextPatch patch;
+  std::vector<tp::TemplatePatch> prepared;  ///< One a level.
+};
+
+}  // namespace textplane_bench
+
+#endif  // TEXTPLANE_BENCH_TRIALS_HPP
