@@ -1,4 +1,5 @@
-// Points to track from one image to another under known motion: the work of the KLT benchmarks.
+// Points to track from one image to another under a known motion of about 8 px, as between two frames of a video: the work of
+// the KLT benchmarks.
 #ifndef TEXTPLANE_BENCH_KLT_TASK_HPP
 #define TEXTPLANE_BENCH_KLT_TASK_HPP
 
@@ -21,7 +22,7 @@ struct KltTask {
 
   /// With `light` the second image has another gain and bias. Both have noise.
   explicit KltTask(bool light) {
-    const Scene s = make_scene(1, 5, 0, light ? Light{0.75, 25, 2, 0} : Light{1, 0, 2, 0});
+    const Scene s = make_scene(1, 5, 0, light ? Light{0.75, 25, 2, 0} : Light{1, 0, 2, 0}, 0.35);
     first = s.host;
     second = s.target;
     std::vector<tp::Corner> corners, spread;

@@ -114,12 +114,12 @@ double Scene::corner_error(const tp::Matrix3<double>& H) const {
   return sum;
 }
 
-Scene make_scene(int n, unsigned seed, double px, const Light& light) {
+Scene make_scene(int n, unsigned seed, double px, const Light& light, double motion) {
   Scene s;
   Random random(seed * 7919 + 17);
   const tp::Vector3<double> normal(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), -1);
   s.theta = -normal.normalized() / 2.0;
-  s.T_t_h = small_motion(random, 0.06, 0.03);
+  s.T_t_h = small_motion(random, 0.06 * motion, 0.03 * motion);
 
   // The rectangle: 100 x 40, or as much larger as the pixels need, around the middle and moved a little from scene to scene.
   s.columns = 100;

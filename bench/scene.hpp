@@ -47,8 +47,8 @@ struct Scene {
 };
 
 /// n scattered pixels of a rectangle of 100 x 40 (of all 4000 for n = 4000, of larger ones beyond); the start is off by `px`
-/// pixels of mean corner error.
-Scene make_scene(int n, unsigned seed, double px = 1.0, const Light& light = Light());
+/// pixels of mean corner error. `motion`: between the views, 1 for up to some 25 px.
+Scene make_scene(int n, unsigned seed, double px = 1.0, const Light& light = Light(), double motion = 1.0);
 
 }  // namespace textplane_bench
 

@@ -9,30 +9,14 @@
 #include <set>
 #include <sstream>
 
+#include "basin.hpp"
 #include "comparisons.hpp"
 #include "plot.hpp"
 #include "results.hpp"
+#include "text.hpp"
 
 namespace textplane_bench {
 namespace {
-
-std::string fixed(double v, int digits) {
-  char out[64];
-  std::snprintf(out, sizeof out, "%.*f", digits, v);
-  return out;
-}
-// Three significant digits.
-std::string short_number(double v) {
-  char out[64];
-  if (v >= 100) {
-    std::snprintf(out, sizeof out, "%.0f", v);
-  } else if (v >= 10) {
-    std::snprintf(out, sizeof out, "%.1f", v);
-  } else {
-    std::snprintf(out, sizeof out, v >= 0.01 || v == 0 ? "%.2f" : "%.1e", v);
-  }
-  return out;
-}
 
 // How an error reads in a cell, or nothing.
 std::string error_text(const std::map<std::string, double>& e) {
@@ -161,29 +145,6 @@ void write(const std::string& path, const std::string& content) {
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-std::string convergence_table(const Json& rows) {
-  std::string out =
-      "| method | levels | start, px | success | median error, px | median time, us |\n| --- | --- | --- | --- | --- | "
-      "--- |\n";
-  for (const Json& r : rows)
-    out += "| " + r.at("method").get<std::string>() + " | " + r.at("levels").dump() + " | " + r.at("px").dump() +
-           " | " + fixed(100 * r.at("success").get<double>(), 1) + " % | " +
-           short_number(r.at("median_error").get<double>()) + " | " + short_number(r.at("median_us").get<double>()) +
-           " |\n";
-  return out;
-}
-
-// Success at `px` of the recommended policy against its aim.
-std::string basin_line(const Json& rows, double px, double aim) {
-  for (const Json& r : rows)
-    if (r.value("recommended", false) && r.at("px").get<double>() == px) {
-      const double success = 100 * r.at("success").get<double>();
-      return "- " + short_number(px) + " px: " + fixed(success, 1) + " % of " + r.at("trials").dump() +
-             " trials, aim " + short_number(aim) + " %: " + (success >= aim ? "met" : "**not met**") + "\n";
-    }
-  return "";
-}
-
 // The file with what stands between two marks replaced. Unchanged where it has no such marks.
 void replace_block(const std::string& path, const std::string& mark, const std::string& content) {
   std::ifstream in(path);
@@ -251,7 +212,8 @@ int run(int argc, char** argv) {
     md +=
         "\n## Basin\n\nSuccess is a final corner error below 0.5 px, from starts that are off by so many px on "
         "average; a 100 x 40 patch.\n\n" +
-        basin_line(rows, 8, 99) + basin_line(rows, 12, 60) + "\n" + convergence_table(rows);
+        basin_line(rows, 8, 99) + basin_line(rows, 12, 60) + "\n" + basin_table(rows);
+    replace_block(docs + "policy.md", "policies", basin_table(rows));
     out["convergence"] = rows;
   }
   if (!textslam.empty()) {
