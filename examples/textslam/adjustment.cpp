@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "textplane/photometry/residual.hpp"
 #include "textplane/solver/window.hpp"
 #include "textslam/point_mapper.hpp"
 
@@ -16,7 +17,8 @@ struct Selection {
 
 class Adjustment {
  public:
-  Adjustment(Map& map, const Parameters& parameters, const Selection& selection) : map_(map), parameters_(parameters) {
+  Adjustment(Map& map, const Parameters& parameters, const Selection& selection, int text_targets)
+      : map_(map), parameters_(parameters), text_targets_(static_cast<std::size_t>(text_targets)) {
     slot_of_.assign(map.keyframes.size(), -1);
     window_.camera = map.camera;
     for (const int id : selection.free_frames) add_frame(id, false);
@@ -34,6 +36,30 @@ class Adjustment {
     options.scale_frame_b = scale_b < 0 ? -1 : slot_of_[static_cast<std::size_t>(scale_b)];
     textplane::WindowWorkspace workspace;
     textplane::solve_window(window_, options, workspace);
+  }
+
+  // A text is seen sharp here and blurred there. What its observations weigh goes with the inverse variance of a pixel's
+  // residual, 1 - zncc up to a factor; together they weigh as before.
+  void weigh_texts() {
+    constexpr double kLeastVariance = 0.02;  // below it, interpolation counts for more than the image
+    std::vector<double> sums(texts_.size(), 0), counts(texts_.size(), 0);
+    for (textplane::WindowTextObservation& o : window_.text_observations) {
+      const auto slot = static_cast<std::size_t>(o.text);
+      const TextObject& text = map_.texts[static_cast<std::size_t>(texts_[slot])];
+      const KeyFrame& keyframe = map_.keyframe(frames_[static_cast<std::size_t>(o.frame)]);
+      const auto input =
+          textplane::photometric_input(text.patch, 0, keyframe.frame.image->view(), map_.camera, o.scale_shift);
+      textplane::PhotometricWorkspace workspace(input.patch.n);
+      const auto cost = textplane::evaluate(input, text.theta, map_.T_c_h(keyframe.T_w_c.inverse(), text.host),
+                                            textplane::PhotometricOptions{}, workspace);
+      o.weight = 1 / std::max(kLeastVariance, 1 - (textplane::is_ok(cost.status) ? cost.zncc : 0));
+      sums[slot] += o.weight;
+      ++counts[slot];
+    }
+    for (textplane::WindowTextObservation& o : window_.text_observations) {
+      const auto slot = static_cast<std::size_t>(o.text);
+      o.weight *= counts[slot] / sums[slot];
+    }
   }
 
   void write_back() {
@@ -98,7 +124,7 @@ class Adjustment {
     for (const int id : text.targets)
       if (slot_of_[static_cast<std::size_t>(id)] >= 0) usable.push_back(id);
     if (usable.empty()) return;
-    for (const int id : spread(usable, static_cast<std::size_t>(parameters_.text_targets))) {
+    for (const int id : spread(usable, text_targets_)) {
       textplane::WindowTextObservation observation;
       observation.text = static_cast<int>(texts_.size());
       observation.frame = slot_of_[static_cast<std::size_t>(id)];
@@ -117,6 +143,7 @@ class Adjustment {
 
   Map& map_;
   const Parameters& parameters_;
+  std::size_t text_targets_;  // at most, of a text
   textplane::Window window_;
   std::vector<int> slot_of_;                  // key frame id -> frame of the window, -1: not in it
   std::vector<int> frames_, points_, texts_;  // index in the window -> id
@@ -176,7 +203,7 @@ void adjust_local(Map& map, const Parameters& parameters) {
     selection.free_frames.erase(oldest);
   }
 
-  Adjustment adjustment(map, parameters, selection);
+  Adjustment adjustment(map, parameters, selection, parameters.text_targets);
   adjustment.solve(parameters.window_iterations, -1, -1);
   adjustment.write_back();
   adjustment.remove_outliers();
@@ -200,7 +227,8 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
     }
   }
   for (int round = 0; round < 2; ++round) {
-    Adjustment adjustment(map, parameters, selection);
+    Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
+    adjustment.weigh_texts();
     adjustment.solve(iterations, 0, far);
     adjustment.write_back();
     if (adjustment.remove_outliers() == 0) break;

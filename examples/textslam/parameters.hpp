@@ -63,6 +63,7 @@ struct Parameters {
   double text_border = 4;          ///< px that a new quad keeps from the image border.
   double text_overlap = 0.1;       ///< Share of a new quad that may lie on a known text.
   double text_min_area = 200;      ///< px^2.
+  double text_min_share = 0.5;     ///< Of a quad, inside the image: less of it is no observation.
   double text_min_parallax = 1.0;  ///< Degrees, median over its corners, before theta is solved for.
   double text_min_zncc = 0.65;     ///< Of an observation that counts.
   double text_cull_zncc = 0.55;    ///< Below it, an observation counts against the object.
@@ -74,7 +75,8 @@ struct Parameters {
   int window_frames = 8;  ///< Free key frames of the local adjustment.
   int window_fixed = 12;  ///< Fixed key frames around them.
   int window_iterations = 8;
-  int final_iterations = 30;  ///< Of the adjustment over all key frames at the end.
+  int final_iterations = 30;    ///< Of the adjustment over all key frames at the end,
+  int final_text_targets = 64;  ///< in which a plane meets this many key frames.
 
   // Recovery
   int relocalise_candidates = 5;  ///< Key frames tried for a lost frame.

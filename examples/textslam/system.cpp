@@ -185,7 +185,13 @@ void System::fill_in(const std::function<Frame(int)>& load) {
 }
 
 void System::finish() {
-  if (tracker_) adjust_all(map_, parameters_, parameters_.final_iterations);
+  if (!tracker_) return;
+  adjust_all(map_, parameters_, parameters_.final_iterations);
+  if (parameters_.mode == Mode::points) return;
+  // Observations were judged with the plane of their time, a rough one at first: the adjusted planes are seen in more
+  // key frames, and a wider base settles their slant.
+  text_mapper_.observe_again();
+  adjust_all(map_, parameters_, parameters_.final_iterations);
 }
 
 }  // namespace textslam

@@ -182,13 +182,19 @@ bool TextMapper::refine(TextObject& text, const std::vector<int>& keyframes, Vec
   return true;
 }
 
-// Does key frame `keyframe` show the text where its plane says?
-void TextMapper::observe(TextObject& text, int keyframe) {
+// Does key frame `keyframe` show the text where its plane says? `min_share`: of the quad, inside the image. A plane that
+// is still rough asks for all of it: on a part it may agree with the image by chance.
+void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
   const SE3d T_c_w = map_.keyframe(keyframe).T_w_c.inverse();
   Quad<double> quad;
   if (facing(map_, text, T_c_w) < std::cos(parameters_.text_max_slant * M_PI / 180)) return;
-  if (!project_text(map_, text, T_c_w, &quad) || !textplane::inside_image(quad, map_.width, map_.height, 1.0)) return;
-  if (std::abs(textplane::area(quad)) < parameters_.text_min_area / 2) return;
+  if (!project_text(map_, text, T_c_w, &quad)) return;
+  const double whole = std::abs(textplane::area(quad));
+  if (whole < parameters_.text_min_area / 2) return;
+  const bool in_view =
+      min_share < 1 ? textplane::area(textplane::clip_to_image(quad, map_.width, map_.height)) >= min_share * whole
+                    : textplane::inside_image(quad, map_.width, map_.height, 1.0);
+  if (!in_view) return;
   const int level = text.patch.level_count() > 1 ? 1 : 0;
   const auto input = textplane::photometric_input(text.patch, level, map_.keyframe(keyframe).frame.image->view(),
                                                   map_.camera, scale_shift(text, quad));
@@ -204,6 +210,17 @@ void TextMapper::observe(TextObject& text, int keyframe) {
   }
 }
 
+void TextMapper::observe_again() {
+  for (TextObject& text : map_.texts) {
+    if (text.state != TextState::mapped) continue;
+    std::vector<int> before = std::move(text.targets);
+    text.targets.clear();
+    for (int id = 0; id < static_cast<int>(map_.keyframes.size()); ++id)
+      if (id != text.host) observe(text, id, parameters_.text_min_share);
+    if (static_cast<int>(text.targets.size()) + 1 < parameters_.text_min_observations) text.targets = std::move(before);
+  }
+}
+
 void TextMapper::update(int id, const std::vector<Track>& tracks) {
   for (TextObject& text : map_.texts) {
     if (text.host == id || text.state == TextState::dropped) continue;
@@ -211,7 +228,7 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
       Vec3 theta;
       if (initial_plane(text, id, tracks, &theta) && refine(text, {id}, theta, parameters_.text_min_zncc)) {
         text.state = TextState::tentative;
-        for (int other = text.host + 1; other < id; ++other) observe(text, other);
+        for (int other = text.host + 1; other < id; ++other) observe(text, other, 1);
       } else if (id - text.host > parameters_.text_patience) {
         text.state = TextState::dropped;
         continue;
@@ -219,7 +236,7 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     }
     if (!text.has_plane()) continue;
     const std::size_t before = text.targets.size();
-    observe(text, id);
+    observe(text, id, 1);
     if (text.targets.size() > before && text.state == TextState::tentative) {
       refine(text, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)), text.theta,
              parameters_.text_cull_zncc);

@@ -26,12 +26,14 @@ class TextMapper {
   void add_candidates(int id, const std::vector<Detection>& detections);
   /// After key frame `id` was added: planes for candidates, observations, refinement, promotion, culling.
   void update(int id, const std::vector<Track>& tracks);
+  /// After the planes and poses were adjusted: which key frames show the mapped texts, by what is known now.
+  void observe_again();
 
  private:
   bool locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks, Quad<double>* quad) const;
   bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
   bool refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc);
-  void observe(TextObject& text, int keyframe);
+  void observe(TextObject& text, int keyframe, double min_share);
 
   Map& map_;
   const Parameters& parameters_;
