@@ -80,7 +80,8 @@ Rows<P> by_dual(const Scene<T>& scene, const Step& step, const std::uint8_t* vis
   for (int j = 0; j < P; ++j) p[j] = Dual<P>(0.0, j);
   const auto r = residuals_at<Dual<P>>(scene, step(p), visible, frozen);
   Rows<P> J(scene.n(), P);
-  for (int i = 0; i < scene.n(); ++i) J.row(i) = r[static_cast<std::size_t>(i)].v.transpose();
+  for (int i = 0; i < scene.n(); ++i)
+    for (int j = 0; j < P; ++j) J(i, j) = r[static_cast<std::size_t>(i)].v[static_cast<std::size_t>(j)];
   return J;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -70,7 +71,8 @@ Eigen::Matrix<Dual<N>, N, 1> seed(const Eigen::Matrix<double, N, 1>& x) {
 template <int N, int M>
 Eigen::Matrix<double, M, N> derivative(const Eigen::Matrix<Dual<N>, M, 1>& y) {
   Eigen::Matrix<double, M, N> J;
-  for (int i = 0; i < M; ++i) J.row(i) = y[i].v.transpose();
+  for (int i = 0; i < M; ++i)
+    for (int j = 0; j < N; ++j) J(i, j) = y[i].v[static_cast<std::size_t>(j)];
   return J;
 }
 
