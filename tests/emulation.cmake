@@ -35,7 +35,8 @@ if(TEXTPLANE_SIMDE AND TEXTPLANE_RUNS_AVX2 AND CMAKE_CXX_COMPILER_ID STREQUAL "G
   # 64-byte vectors are passed in memory then: their layout in a call is of no concern within one program.
   target_compile_options(test_simd_avx512 PRIVATE -O1 -g0 -mavx2 -mfma -mpopcnt -Wno-psabi -Wno-error)
   target_compile_definitions(test_simd_avx512 PRIVATE "TEXTPLANE_EMULATED_AVX512=\"simd/emulated_avx512.hpp\"")
-  target_precompile_headers(test_simd_avx512 PRIVATE <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry> <${CMAKE_CURRENT_SOURCE_DIR}/simd/emulated_avx512.hpp>)
+  target_precompile_headers(test_simd_avx512 PRIVATE <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry> <${CMAKE_CURRENT_SOURCE_DIR}/simd/emulated_avx512.hpp>
+    <textplane/simd/residual.hpp> <textplane/simd/sample.hpp>)
   add_test(NAME emulation.avx512.simd COMMAND test_simd_avx512 --gtest_brief=1)
   set_tests_properties(emulation.avx512.simd PROPERTIES LABELS emulation TIMEOUT 600
     ENVIRONMENT TEXTPLANE_FORCE_TARGET=avx512 PASS_REGULAR_EXPRESSION "targets run:[a-z0-9 ]* avx512.emulated.[^|]*PASSED" FAIL_REGULAR_EXPRESSION "FAILED")
