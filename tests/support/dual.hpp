@@ -10,8 +10,8 @@
 
 namespace textplane_test {
 
-// Eigen unrolls products of Duals into hundreds of operations. As calls to functions with plain loops, and not as inlined
-// expressions of Eigen, they compile several times faster.
+// Eigen unrolls products of Duals into hundreds of operations: calls to functions with plain loops spare the compiler
+// inlining an expression of Eigen for each.
 #if defined(__GNUC__) || defined(__clang__)
 #define TEXTPLANE_TEST_CALLED __attribute__((noinline))
 #else
