@@ -28,7 +28,9 @@ template <class S>
 Status plane_homography_inverse(const Vector3<S>& theta, const SE3<S>& T_t_h, Matrix3<S>* H_h_t) noexcept {
   Vector3<S> theta_t;
   const Status status = reanchor_plane(theta, T_t_h, &theta_t);
-  if (is_ok(status)) *H_h_t = T_t_h.R.transpose() * (Matrix3<S>::Identity() - T_t_h.t * theta_t.transpose());
+  if (!is_ok(status)) return status;
+  const Matrix3<S> back = T_t_h.R.transpose(), shear = Matrix3<S>::Identity() - T_t_h.t * theta_t.transpose();
+  *H_h_t = product(back, shear);
   return status;
 }
 

@@ -79,7 +79,7 @@ Vector3<S> plane_point(const Vector3<S>& theta, const Vector3<S>& m) noexcept {
 template <class S>
 Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* out, Matrix3<S>* J_theta = nullptr,
                       Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {
-  const Vector3<S> a = T_t_h.R * theta;
+  const Vector3<S> a = product(T_t_h.R, theta);
   const S k = S(1) + a.dot(T_t_h.t);
   if (!is_finite(k) || !all_finite(a)) return Status::non_finite;
   // k is the plane's distance from the target over its distance from the host: a rounding error of zero counts as zero.

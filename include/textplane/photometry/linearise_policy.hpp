@@ -54,10 +54,11 @@ void add_template_rows(const BasicPhotometricInput<T>& in, const Vector3<double>
     double* out = workspace.rows();
     for (int i = 0, k = 0; i < in.patch.n; ++i) {
       if (!visible[i]) continue;
-      const Vector3<double> m = in.host_camera.unproject({in.patch.x[i], in.patch.y[i]}), q = H * m;
-      const double qs[3] = {q[0], q[1], q[2]}, h = residual[k] + normalised[k];
-      double row[P];
-      template_row<P>(in.host_camera, inv, m[0], m[1], qs, theta.dot(m), in.patch.gx[i], in.patch.gy[i], t, row);
+      const Vector3<double> m = in.host_camera.unproject({in.patch.x[i], in.patch.y[i]});
+      const double h = residual[k] + normalised[k];
+      double row[P], q[3];
+      for (int r = 0; r < 3; ++r) q[r] = H(r, 0) * m[0] + H(r, 1) * m[1] + H(r, 2);
+      template_row<P>(in.host_camera, inv, m[0], m[1], q, theta.dot(m), in.patch.gx[i], in.patch.gy[i], t, row);
       for (int j = 0; j < P; ++j) {
         if (pass == 0) {
           e[j] += row[j] / count;

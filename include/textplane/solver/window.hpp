@@ -147,8 +147,12 @@ class WindowSolver {
     cost_ = terms_.accumulate(w_, o_, x_, structure_, system_);
   }
 
-  // Costs below this are rounding: 1e-10 sigma an observation.
-  double noise() const noexcept { return 1e-20 * (count(w_.point_observations) + count(w_.text_observations)); }
+  // Costs below this are rounding: 1e-10 sigma an observation, and of texts the single precision of the kernels.
+  double noise() const noexcept {
+    const int texts = count(w_.text_observations);
+    const double rounding = 1e-20 * (count(w_.point_observations) + texts);
+    return texts > 0 && !o_.photometric.precise ? std::max(rounding, kSinglePrecision * cost_) : rounding;
+  }
 
   void finish() {
     sum_.final_cost = cost_;
@@ -184,6 +188,8 @@ class WindowSolver {
 
   // Where no step lowers the cost: converged if the first one promised at most this share of it.
   static constexpr double kStall = 1e-3;
+  // Share of the cost that rounding makes in kernels that sum in float.
+  static constexpr double kSinglePrecision = 1e-7;
 
   Window& w_;
   const WindowOptions& o_;
