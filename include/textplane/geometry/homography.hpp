@@ -29,7 +29,10 @@ Status plane_homography_inverse(const Vector3<S>& theta, const SE3<S>& T_t_h, Ma
   Vector3<S> theta_t;
   const Status status = reanchor_plane(theta, T_t_h, &theta_t);
   if (!is_ok(status)) return status;
-  const Matrix3<S> back = T_t_h.R.transpose(), shear = Matrix3<S>::Identity() - T_t_h.t * theta_t.transpose();
+  Matrix3<S> back;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) back(i, j) = T_t_h.R(j, i);
+  const Matrix3<S> shear = Matrix3<S>::Identity() - T_t_h.t * theta_t.transpose();
   *H_h_t = product(back, shear);
   return status;
 }
