@@ -5,10 +5,10 @@ if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" OR CMAKE_CROSSCOMPILING
 endif()
 
 # Kernels and solvers on a CPU without AVX, as they are built for this machine. One test for ctest each: starting the emulator
-# takes longer than most of their tests.
+# takes longer than most of their tests. (Features run on the kernels alone, but on images for which the emulator is too slow.)
 find_program(TEXTPLANE_QEMU_X86_64 qemu-x86_64)
 if(TEXTPLANE_QEMU_X86_64)
-  foreach(room simd photometry features solver)
+  foreach(room simd photometry solver)
     if(NOT TARGET test_${room})
       continue()
     endif()
