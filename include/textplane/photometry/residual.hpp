@@ -63,17 +63,19 @@ NormalEquations<P> linearise(const BasicPhotometricInput<T>& in, const Vector3<d
 }
 
 // The equations for (v, omega, theta) seen through d xi(T_t_h) / d (xi_h, xi_t).
-inline NormalEquations<15> world_parameters(const NormalEquations<9>& inner, const SE3d& T_w_h, const SE3d& T_w_t,
-                                            PerturbationSide side) noexcept {
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+// (S is double: a template, so that including the header costs little.)
+template <class S>
+NormalEquations<15> world_parameters(const NormalEquations<9>& inner, const SE3<S>& T_w_h, const SE3<S>& T_w_t,
+                                     PerturbationSide side) noexcept {
+  using Matrix6 = Eigen::Matrix<S, 6, 6>;
   NormalEquations<15> out;
   out.status = inner.status;
   if (!is_ok(out.status)) return out;
 
-  const RelativePoseJacobians<double> map = relative_pose_jacobians(T_w_h, T_w_t, side);
+  const RelativePoseJacobians<S> map = relative_pose_jacobians(T_w_h, T_w_t, side);
   const Matrix6 pose = inner.H.topLeftCorner<6, 6>();
-  const Eigen::Matrix<double, 6, 3> cross = inner.H.topRightCorner<6, 3>();
-  const Vector6<double> b = inner.b.head<6>();
+  const Eigen::Matrix<S, 6, 3> cross = inner.H.topRightCorner<6, 3>();
+  const Vector6<S> b = inner.b.head<6>();
   const Matrix6 pose_host = pose * map.host, pose_target = pose * map.target;
   out.H.block<6, 6>(0, 0) = map.host.transpose() * pose_host;
   out.H.block<6, 6>(0, 6) = map.host.transpose() * pose_target;

@@ -243,21 +243,24 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 /// `camera`: of the targets, level 0; the host's is in the patch. Targets that do not see enough of the patch are
 /// skipped, decided anew at every linearisation. No allocation: `workspace` must have been reserved for this patch and
 /// count. Thread-safe for distinct workspaces.
-inline PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets,
+template <class = void>  // instantiated where it is called: including the header costs little
+PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets,
                                     int count, const Pinhole<double>& camera, const PlaneOptions& options,
                                     PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
 
 /// The same on float images.
-inline PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTargetF* targets,
+template <class = void>  // instantiated where it is called: including the header costs little
+PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTargetF* targets,
                                     int count, const Pinhole<double>& camera, const PlaneOptions& options,
                                     PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
 
 /// refine_plane() with one target and a workspace of its own (allocates).
-inline PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
+template <class = void>  // instantiated where it is called: including the header costs little
+PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
                                    const PyramidView& target, const Pinhole<double>& camera,
                                    const PlaneOptions& options = {}) {
   const PlaneTarget one{target, T_t_h};

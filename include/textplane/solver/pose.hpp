@@ -142,7 +142,8 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
 /// fatal; which ones is decided anew at every linearisation. `text_zncc` (text_count values) and `point_chi2`
 /// (point_count values, |e|^2 / (sigma sigma_rep)^2), if given, receive the final values, -1 where the term was
 /// skipped. No allocation: `workspace` must have been reserved for these terms. Thread-safe for distinct workspaces.
-inline PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
+template <class = void>  // instantiated where it is called: including the header costs little
+PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
                            const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
                            const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
                            float* point_chi2 = nullptr) noexcept {
@@ -151,7 +152,8 @@ inline PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const Pose
 }
 
 /// The same on float images.
-inline PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
+template <class = void>  // instantiated where it is called: including the header costs little
+PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
                            const PyramidViewF& target, const Pinhole<double>& camera, const SE3d& T_t_w,
                            const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
                            float* point_chi2 = nullptr) noexcept {
@@ -161,14 +163,16 @@ inline PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const Pose
 
 /// Pose T_t_h (host to target) of one text object with the plane `theta` (host frame), from the guess T_t_h. As
 /// refine_pose() with this object alone; allocates its own workspace.
-inline PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
+template <class = void>  // instantiated where it is called: including the header costs little
+PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
                                 const PyramidView& target, const Pinhole<double>& camera,
                                 const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
 /// The same on a float image.
-inline PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
+template <class = void>  // instantiated where it is called: including the header costs little
+PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
                                 const PyramidViewF& target, const Pinhole<double>& camera,
                                 const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);

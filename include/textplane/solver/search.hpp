@@ -23,7 +23,8 @@ struct SearchOptions {
 /// best ZNCC of the patch in the target; the guess itself where nothing is better or nothing can be compared. `zncc`, if given,
 /// receives the best value, -1 where none. `prepared`: one TemplatePatch a level, or null. No allocation; `workspace` must have
 /// room for the patch.
-inline SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
+template <class = void>  // instantiated where it is called: including the header costs little
+SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
                         const PyramidView& target, const Pinhole<double>& camera, const SearchOptions& options,
                         PhotometricWorkspace& workspace, const TemplatePatch* prepared = nullptr,
                         float* zncc = nullptr) noexcept {

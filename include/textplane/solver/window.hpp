@@ -39,6 +39,8 @@ struct WindowWorkspace {
 
 namespace detail {
 
+/// S is double, as in BasicWindowSchur.
+template <class S>
 class WindowSolver {
  public:
   WindowSolver(Window& window, const WindowOptions& options, WindowWorkspace& workspace)
@@ -110,16 +112,16 @@ class WindowSolver {
     y_.landmark = x_.landmark;
     double largest = 0;
     for (int c = 0; c < structure_.cameras(); ++c) {
-      const Vector6<double> xi = system_.camera_step(c);
-      SE3<double>& T = at(y_.T_w_c, at(structure_.frame_of_camera, c));
+      const Vector6<S> xi = system_.camera_step(c);
+      SE3<S>& T = at(y_.T_w_c, at(structure_.frame_of_camera, c));
       T = renormalised(T * se3_exp(xi));
-      largest = std::max({largest, xi.head<3>().norm() / length_, xi.tail<3>().norm()});
+      largest = std::max({largest, xi.template head<3>().norm() / length_, xi.template tail<3>().norm()});
     }
     if (structure_.scale_a >= 0) restore_scale();
     const int points = count(w_.points);
     for (int l = 0; l < structure_.landmarks(); ++l) {
       if (!at(structure_.landmark_free, l)) continue;
-      const Vector3<double>& d = system_.landmark_step(l);
+      const Vector3<S>& d = system_.landmark_step(l);
       const double size = l < points ? length_ : at(x_.landmark, l).norm();
       at(y_.landmark, l) += d;
       largest = std::max(largest, d.norm() / size);
@@ -129,8 +131,8 @@ class WindowSolver {
 
   // The linear system holds the distance to first order; this does it exactly.
   void restore_scale() noexcept {
-    SE3<double>&a = at(y_.T_w_c, structure_.scale_a), &b = at(y_.T_w_c, structure_.scale_b);
-    const Vector3<double> offset = b.t - a.t;
+    SE3<S>&a = at(y_.T_w_c, structure_.scale_a), &b = at(y_.T_w_c, structure_.scale_b);
+    const Vector3<S> offset = b.t - a.t;
     const double stretch = structure_.scale_distance / offset.norm();
     if (at(structure_.camera_of_frame, structure_.scale_b) >= 0)
       b.t = a.t + stretch * offset;
@@ -195,8 +197,8 @@ class WindowSolver {
   const WindowOptions& o_;
   WindowState &x_, &y_;
   WindowStructure& structure_;
-  WindowTerms& terms_;
-  WindowSchur& system_;
+  BasicWindowTerms<S>& terms_;
+  BasicWindowSchur<S>& system_;
   WindowSummary sum_;
   double cost_ = 0, length_ = 1;
 };
@@ -207,13 +209,15 @@ class WindowSolver {
 /// WindowSummary for the statuses; unless is_ok(status) or diverged, poses, points and planes are as they were.
 /// Deterministic: the same window gives the same bits, whatever the workspace held before. Allocates as WindowWorkspace
 /// says (and throws std::bad_alloc like any container); never throws otherwise. One thread; calls on different windows
-/// and workspaces may run at the same time.
-inline WindowSummary solve_window(Window& window, const WindowOptions& options, WindowWorkspace& workspace) {
-  return detail::WindowSolver(window, options, workspace).run();
+/// and workspaces may run at the same time. (S is double: a template, so that including the header costs little.)
+template <class S = double>
+WindowSummary solve_window(Window& window, const WindowOptions& options, WindowWorkspace& workspace) {
+  return detail::WindowSolver<S>(window, options, workspace).run();
 }
-inline WindowSummary solve_window(Window& window, const WindowOptions& options = {}) {
+template <class S = double>
+WindowSummary solve_window(Window& window, const WindowOptions& options = {}) {
   WindowWorkspace workspace;
-  return solve_window(window, options, workspace);
+  return solve_window<S>(window, options, workspace);
 }
 
 TEXTPLANE_END_NAMESPACE

@@ -19,10 +19,12 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-class WindowSchur {
+/// S is double: a template, so that a file which only includes the header pays for none of it.
+template <class S>
+class BasicWindowSchur {
  public:
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  using Matrix63 = Eigen::Matrix<double, 6, 3>;
+  using Matrix6 = Eigen::Matrix<S, 6, 6>;
+  using Matrix63 = Eigen::Matrix<S, 6, 3>;
 
   /// Pivots of at most this share of their diagonal entry count as undetermined.
   static constexpr double kRankTolerance = 1e-11;
@@ -34,14 +36,14 @@ class WindowSchur {
     camera_.reset(structure.cameras());
     camera_gradient_.assign(6 * static_cast<std::size_t>(structure.cameras()), 0.0);
     coupling_.assign(slots, Matrix63::Zero());
-    landmark_.assign(landmarks, Matrix3<double>::Zero());
-    landmark_gradient_.assign(landmarks, Vector3<double>::Zero());
+    landmark_.assign(landmarks, Matrix3<S>::Zero());
+    landmark_gradient_.assign(landmarks, Vector3<S>::Zero());
     scale_row_.clear();
   }
 
   /// The equality sum of row . x = 0 on the translations of two cameras (-1: a fixed frame, no entries): the scale
   /// gauge.
-  void set_scale_row(int camera_a, const Vector3<double>& row_a, int camera_b, const Vector3<double>& row_b) {
+  void set_scale_row(int camera_a, const Vector3<S>& row_a, int camera_b, const Vector3<S>& row_b) {
     scale_row_.assign(camera_gradient_.size(), 0.0);
     for (int i = 0; i < 3; ++i) {
       if (camera_a >= 0) at(scale_row_, 6 * camera_a + i) = row_a[i];
@@ -51,7 +53,7 @@ class WindowSchur {
     scale_cameras_[1] = std::min(camera_a, camera_b);
   }
 
-  void add_camera(int camera, const Matrix6& H, const Vector6<double>& g) noexcept {
+  void add_camera(int camera, const Matrix6& H, const Vector6<S>& g) noexcept {
     camera_.at(camera, camera) += H;
     for (int i = 0; i < 6; ++i) at(camera_gradient_, 6 * camera + i) += g[i];
   }
@@ -62,7 +64,7 @@ class WindowSchur {
     else
       camera_.at(b, a) += H.transpose();
   }
-  void add_landmark(int landmark, const Matrix3<double>& H, const Vector3<double>& g) noexcept {
+  void add_landmark(int landmark, const Matrix3<S>& H, const Vector3<S>& g) noexcept {
     at(landmark_, landmark) += H;
     at(landmark_gradient_, landmark) += g;
   }
@@ -81,7 +83,7 @@ class WindowSchur {
       for (int i = 0; i < 6; ++i) reduced_.at(c, c)(i, i) += lambda * at(diagonal_, 6 * c + i);
     camera_step_.resize(camera_gradient_.size());
     for (std::size_t i = 0; i < camera_step_.size(); ++i) camera_step_[i] = -camera_gradient_[i];
-    inverse_.assign(landmark_.size(), Matrix3<double>::Zero());
+    inverse_.assign(landmark_.size(), Matrix3<S>::Zero());
     landmark_deficient_.assign(landmark_.size(), 0);
     eliminated_.resize(coupling_.size());
     landmark_step_.resize(landmark_.size());
@@ -93,7 +95,7 @@ class WindowSchur {
       for (int i = begin; i < end; ++i) {
         at(eliminated_, i).noalias() = at(coupling_, i) * at(inverse_, l);
         const int ci = at(s.slot_camera, i);
-        const Vector6<double> g = at(eliminated_, i) * at(landmark_gradient_, l);
+        const Vector6<S> g = at(eliminated_, i) * at(landmark_gradient_, l);
         for (int k = 0; k < 6; ++k) at(camera_step_, 6 * ci + k) += g[k];
         for (int j = begin; j <= i; ++j)
           subtract_outer<3>(at(eliminated_, i).data(), at(coupling_, j).data(),
@@ -116,7 +118,7 @@ class WindowSchur {
     for (double x : camera_step_)
       if (!is_finite(x)) return false;
     for (int l = 0; l < s.landmarks(); ++l) {
-      Vector3<double> g = at(landmark_gradient_, l);
+      Vector3<S> g = at(landmark_gradient_, l);
       for (int i = at(s.slot_begin, l); i < at(s.slot_begin, l + 1); ++i)
         g += at(coupling_, i).transpose() * camera_step(at(s.slot_camera, i));
       at(landmark_step_, l) = -(at(inverse_, l) * g);
@@ -125,10 +127,10 @@ class WindowSchur {
     return true;
   }
 
-  Vector6<double> camera_step(int camera) const noexcept {
-    return Eigen::Map<const Vector6<double>>(camera_step_.data() + 6 * camera);
+  Vector6<S> camera_step(int camera) const noexcept {
+    return Eigen::Map<const Vector6<S>>(camera_step_.data() + 6 * camera);
   }
-  const Vector3<double>& landmark_step(int landmark) const noexcept { return at(landmark_step_, landmark); }
+  const Vector3<S>& landmark_step(int landmark) const noexcept { return at(landmark_step_, landmark); }
 
   /// What the quadratic model says the step takes off the cost: -g.x + lambda x.D x.
   double predicted_decrease() const noexcept {
@@ -137,7 +139,7 @@ class WindowSchur {
       sum += camera_step_[i] * (lambda_ * diagonal_[i] * camera_step_[i] - camera_gradient_[i]);
     for (int l = 0; l < structure_->landmarks(); ++l) {
       if (!at(structure_->landmark_free, l)) continue;
-      const Vector3<double>& x = at(landmark_step_, l);
+      const Vector3<S>& x = at(landmark_step_, l);
       sum += x.dot(lambda_ * damping(l).cwiseProduct(x) - at(landmark_gradient_, l));
     }
     return sum;
@@ -148,19 +150,19 @@ class WindowSchur {
   bool landmark_deficient(int landmark) const noexcept { return at(landmark_deficient_, landmark) != 0; }
 
   /// Half the gradient of the cost, J^T W r.
-  Vector6<double> camera_gradient(int camera) const noexcept {
-    return Eigen::Map<const Vector6<double>>(camera_gradient_.data() + 6 * camera);
+  Vector6<S> camera_gradient(int camera) const noexcept {
+    return Eigen::Map<const Vector6<S>>(camera_gradient_.data() + 6 * camera);
   }
-  const Vector3<double>& landmark_gradient(int landmark) const noexcept { return at(landmark_gradient_, landmark); }
+  const Vector3<S>& landmark_gradient(int landmark) const noexcept { return at(landmark_gradient_, landmark); }
 
-  const Matrix3<double>& information(int landmark) const noexcept { return at(landmark_, landmark); }
+  const Matrix3<S>& information(int landmark) const noexcept { return at(landmark_, landmark); }
 
   /// After reduce(0): the landmark's 3 x 3 block of the inverse of the whole system (under the scale gauge):
   /// V^-1 + V^-1 W^T S^-1 W V^-1.
-  Matrix3<double> covariance(int landmark) {
+  Matrix3<S> covariance(int landmark) {
     const WindowStructure& s = *structure_;
     const int begin = at(s.slot_begin, landmark), end = at(s.slot_begin, landmark + 1);
-    Matrix3<double> out = at(inverse_, landmark);
+    Matrix3<S> out = at(inverse_, landmark);
     if (!scale_row_.empty()) {
       scale_solution_ = scale_row_;
       reduced_.solve(scale_solution_.data());
@@ -172,8 +174,8 @@ class WindowSchur {
       reduced_.solve(column_.data());
       if (!scale_row_.empty()) apply_scale_row(column_.data());
       for (int i = begin; i < end; ++i)
-        out.col(c) += at(eliminated_, i).transpose() *
-                      Eigen::Map<const Vector6<double>>(column_.data() + 6 * at(s.slot_camera, i));
+        out.col(c) +=
+            at(eliminated_, i).transpose() * Eigen::Map<const Vector6<S>>(column_.data() + 6 * at(s.slot_camera, i));
     }
     return 0.5 * (out + out.transpose());
   }
@@ -192,24 +194,24 @@ class WindowSchur {
     for (double& d : diagonal_) d = std::max(d, floor);
   }
 
-  Vector3<double> damping(int l) const noexcept {
-    const Vector3<double> d = at(landmark_, l).diagonal();
+  Vector3<S> damping(int l) const noexcept {
+    const Vector3<S> d = at(landmark_, l).diagonal();
     return d.cwiseMax(1e-9 * d.sum());
   }
 
   // (V + lambda D)^-1. A landmark without parallax keeps a trace of damping even where lambda is 0; one without
   // information does not move.
   void invert(int l) noexcept {
-    Matrix3<double> v = at(landmark_, l);
+    Matrix3<S> v = at(landmark_, l);
     v.diagonal() += lambda_ * damping(l);
-    const Ldlt<double, 3> plain(v, lambda_ > 0 ? 1e-15 : kRankTolerance);
+    const Ldlt<S, 3> plain(v, lambda_ > 0 ? 1e-15 : kRankTolerance);
     if (plain.ok()) {
       at(inverse_, l) = plain.inverse();
       return;
     }
     at(landmark_deficient_, l) = 1;
     v.diagonal() += 1e-9 * damping(l);
-    const Ldlt<double, 3> damped(v);
+    const Ldlt<S, 3> damped(v);
     if (damped.ok()) at(inverse_, l) = damped.inverse();
   }
 
@@ -246,10 +248,12 @@ class WindowSchur {
   std::vector<double> scale_row_, scale_solution_;
   int scale_cameras_[2] = {-1, -1};
   std::vector<Matrix63> coupling_, eliminated_;
-  std::vector<Matrix3<double>> landmark_, inverse_;
-  std::vector<Vector3<double>> landmark_gradient_, landmark_step_;
+  std::vector<Matrix3<S>> landmark_, inverse_;
+  std::vector<Vector3<S>> landmark_gradient_, landmark_step_;
   std::vector<std::uint8_t> landmark_deficient_;
 };
+
+using WindowSchur = BasicWindowSchur<double>;
 
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE

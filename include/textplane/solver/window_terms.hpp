@@ -21,7 +21,9 @@ struct WindowTrial {
   bool possible = false;  ///< False where a point went behind a camera or the cost is not finite.
 };
 
-class WindowTerms {
+/// S is double, as in BasicWindowSchur.
+template <class S>
+class BasicWindowTerms {
  public:
   /// Resets what the solver writes back, finds unusable elements and linearises the texts once. Allocates where the
   /// window exceeds every earlier one.
@@ -29,7 +31,7 @@ class WindowTerms {
     for (WindowFrame& f : w.frames) f.status = Status::ok;
     for (WindowPoint& p : w.points) p.status = all_finite(p.p_w) ? Status::ok : Status::non_finite;
     for (WindowPointObservation& k : w.point_observations) {
-      Vector3<double> p_c;
+      Vector3<S> p_c;
       k.chi2 = 0;
       if (!all_finite(k.px) || !is_finite(k.sigma))
         k.status = Status::non_finite;
@@ -85,7 +87,7 @@ class WindowTerms {
 
   /// All sums at x, with the texts as linearised last. Returns the cost.
   double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
-                    WindowSchur& out) const {
+                    BasicWindowSchur<S>& out) const {
     out.begin(s);
     double cost = 0;
     for (int k = 0; k < count(s.point_active); ++k)
@@ -93,8 +95,8 @@ class WindowTerms {
     for (int k = 0; k < count(s.text_active); ++k)
       if (at(s.text_active, k)) cost += add_text(w, o, x, s, k, out);
     if (s.scale_a >= 0) {
-      const SE3<double>&a = at(x.T_w_c, s.scale_a), &b = at(x.T_w_c, s.scale_b);
-      const Vector3<double> u = (b.t - a.t).normalized();
+      const SE3<S>&a = at(x.T_w_c, s.scale_a), &b = at(x.T_w_c, s.scale_b);
+      const Vector3<S> u = (b.t - a.t).normalized();
       out.set_scale_row(at(s.camera_of_frame, s.scale_a), -(a.R.transpose() * u), at(s.camera_of_frame, s.scale_b),
                         b.R.transpose() * u);
     }
@@ -113,7 +115,7 @@ class WindowTerms {
       for (int k = 0; k < count(s.point_active); ++k) {
         if (!at(s.point_active, k)) continue;
         const WindowPointObservation& ob = at(w.point_observations, k);
-        Vector3<double> p_c;
+        Vector3<S> p_c;
         if (in_front(ob, y, o, &p_c)) {
           trial.cost += o.point_robust.rho(chi2(w, ob, p_c));
         } else {
@@ -144,7 +146,7 @@ class WindowTerms {
   /// Writes chi2, zncc and visible counts of all observations at x; texts as linearised last.
   void report(Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s) {
     for (WindowPointObservation& k : w.point_observations) {
-      Vector3<double> p_c;
+      Vector3<S> p_c;
       const bool usable = k.status != Status::non_finite && k.status != Status::invalid_argument;
       const bool front = usable && in_front(k, x, o, &p_c);
       k.chi2 = front ? chi2(w, k, p_c) : std::numeric_limits<double>::max();
@@ -168,7 +170,7 @@ class WindowTerms {
     double sum = 0;
     int n = 0;
     for (int k = 0; k < count(s.point_active); ++k) {
-      Vector3<double> p_c;
+      Vector3<S> p_c;
       if (!at(s.point_active, k) || !in_front(at(w.point_observations, k), x, o, &p_c)) continue;
       sum += p_c[2];
       ++n;
@@ -182,19 +184,19 @@ class WindowTerms {
   }
 
  private:
-  using Matrix6 = WindowSchur::Matrix6;
-  using Matrix63 = WindowSchur::Matrix63;
+  using Matrix6 = typename BasicWindowSchur<S>::Matrix6;
+  using Matrix63 = typename BasicWindowSchur<S>::Matrix63;
 
   static bool in_front(const WindowPointObservation& k, const WindowState& x, const WindowOptions& o,
-                       Vector3<double>* p_c) noexcept {
-    const SE3<double>& T = at(x.T_w_c, k.frame);
+                       Vector3<S>* p_c) noexcept {
+    const SE3<S>& T = at(x.T_w_c, k.frame);
     *p_c = T.R.transpose() * (at(x.landmark, k.point) - T.t);
     return (*p_c)[2] > o.min_depth && all_finite(*p_c);
   }
-  static double chi2(const Window& w, const WindowPointObservation& k, const Vector3<double>& p_c) noexcept {
+  static double chi2(const Window& w, const WindowPointObservation& k, const Vector3<S>& p_c) noexcept {
     return (w.camera.project(p_c) - k.px).squaredNorm() / (k.sigma * k.sigma);
   }
-  static SE3<double> relative_pose(const WindowText& t, const WindowTextObservation& k, const WindowState& x) noexcept {
+  static SE3<S> relative_pose(const WindowText& t, const WindowTextObservation& k, const WindowState& x) noexcept {
     return at(x.T_w_c, k.frame).inverse() * at(x.T_w_c, t.host);
   }
   static double weight(const WindowOptions& o, const WindowTextObservation& k, int visible) noexcept {
@@ -218,26 +220,26 @@ class WindowTerms {
 
   // p_c = T_w_c^-1 p_w: d p_c = -v + [p_c]x omega for T_w_c <- T_w_c Exp(v, omega), and R_w_c^T d p_w.
   static double add_point(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
-                          int k, WindowSchur& out) noexcept {
+                          int k, BasicWindowSchur<S>& out) noexcept {
     const WindowPointObservation& ob = at(w.point_observations, k);
-    Vector3<double> p_c;
+    Vector3<S> p_c;
     in_front(ob, x, o, &p_c);
-    Eigen::Matrix<double, 2, 3> J;
-    const Vector2<double> e = w.camera.project(p_c, &J) - ob.px;
+    Eigen::Matrix<S, 2, 3> J;
+    const Vector2<S> e = w.camera.project(p_c, &J) - ob.px;
     const double information = 1 / (ob.sigma * ob.sigma), r2 = e.squaredNorm() * information;
     const double weight = o.point_robust.weight(r2) * information;
     const int camera = at(s.camera_of_frame, ob.frame), slot = at(s.point_slot, k);
     const bool free = at(s.landmark_free, ob.point) != 0;
-    Eigen::Matrix<double, 2, 6> J_camera;
-    Eigen::Matrix<double, 2, 3> J_point;
+    Eigen::Matrix<S, 2, 6> J_camera;
+    Eigen::Matrix<S, 2, 3> J_point;
     if (camera >= 0) {
       J_camera << -J, J * hat(p_c);
-      const Eigen::Matrix<double, 6, 2> wJt = weight * J_camera.transpose();
+      const Eigen::Matrix<S, 6, 2> wJt = weight * J_camera.transpose();
       out.add_camera(camera, wJt * J_camera, wJt * e);
     }
     if (free) {
       J_point = J * at(x.T_w_c, ob.frame).R.transpose();
-      const Eigen::Matrix<double, 3, 2> wJt = weight * J_point.transpose();
+      const Eigen::Matrix<S, 3, 2> wJt = weight * J_point.transpose();
       out.add_landmark(ob.point, wJt * J_point, wJt * e);
     }
     if (slot >= 0) out.add_coupling(slot, weight * (J_camera.transpose() * J_point));
@@ -246,7 +248,7 @@ class WindowTerms {
 
   // The 9 parameters (xi of T_t_h, left; theta) seen from the two world poses: host = Ad(T_t_h), target = -1.
   double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s, int k,
-                  WindowSchur& out) const noexcept {
+                  BasicWindowSchur<S>& out) const noexcept {
     const WindowTextObservation& ob = at(w.text_observations, k);
     const WindowText& t = at(w.texts, ob.text);
     const NormalEquations<9>& ne = at(text_, k);
@@ -254,14 +256,14 @@ class WindowTerms {
     const int landmark = count(w.points) + ob.text;
     const int host = at(s.camera_of_frame, t.host), target = at(s.camera_of_frame, ob.frame);
     const Matrix6 A = adjoint(relative_pose(t, ob, x));
-    const Matrix6 pose = scale * ne.H.topLeftCorner<6, 6>();
-    const Vector6<double> g = scale * ne.b.head<6>();
-    const Matrix63 cross = scale * ne.H.topRightCorner<6, 3>();
+    const Matrix6 pose = scale * ne.H.template topLeftCorner<6, 6>();
+    const Vector6<S> g = scale * ne.b.template head<6>();
+    const Matrix63 cross = scale * ne.H.template topRightCorner<6, 3>();
     if (host >= 0) out.add_camera(host, A.transpose() * pose * A, A.transpose() * g);
     if (target >= 0) out.add_camera(target, pose, -g);
     if (host >= 0 && target >= 0) out.add_cameras(host, target, -(A.transpose() * pose));
     if (at(s.landmark_free, landmark))
-      out.add_landmark(landmark, scale * ne.H.bottomRightCorner<3, 3>(), scale * ne.b.tail<3>());
+      out.add_landmark(landmark, scale * ne.H.template bottomRightCorner<3, 3>(), scale * ne.b.template tail<3>());
     if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), A.transpose() * cross);
     if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), -cross);
     return scale * ne.cost;
@@ -272,6 +274,8 @@ class WindowTerms {
   std::vector<std::uint8_t> mask_;
   std::vector<std::size_t> mask_begin_;
 };
+
+using WindowTerms = BasicWindowTerms<double>;
 
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE
