@@ -63,6 +63,12 @@ inline bool is_finite(float x) noexcept {
   std::memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7f800000U) != 0x7f800000U;
 }
+/// The top bit of the result tells that x is not finite: with many numbers, cheaper to gather than a branch each.
+inline std::uint64_t not_finite_bit(double x) noexcept {
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return (bits & 0x7ff0000000000000ULL) + 0x0010000000000000ULL;
+}
 /// Other scalars (dual numbers): x - x is zero exactly for finite x.
 template <class S>
 bool is_finite(const S& x) noexcept {

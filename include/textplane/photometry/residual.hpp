@@ -214,13 +214,15 @@ namespace detail {
 template <int P, class T>
 NormalEquations<P> fast_linearise(const BasicPhotometricInput<T>& in, const Vector3<double>& theta, const SE3d& T_t_h,
                                   const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
-  NormalEquations<P> out;
+  NormalEquations<P> out{Unset()};
+  bool taken = false;
   if constexpr (std::is_same<T, std::uint8_t>::value) {
     out.status = check_input(in, theta, T_t_h, options, workspace);
-    if (!is_ok(out.status)) return out;
-    if (kernel_linearise<P>(in, theta, T_t_h, options, workspace, &out)) return out;
+    taken = !is_ok(out.status) || kernel_linearise<P>(in, theta, T_t_h, options, workspace, &out);
   }
-  return linearise<P>(in, theta, T_t_h, options, workspace);
+  if (!taken) out = linearise<P>(in, theta, T_t_h, options, workspace);
+  if (!is_ok(out.status)) out.clear();
+  return out;
 }
 }  // namespace detail
 

@@ -28,12 +28,19 @@ Status check_input(const BasicPhotometricInput<T>& in, const Vector3<double>& th
   const PatchView& p = in.patch;
   if (!p.x || !p.y || !p.intensity || p.n < 0 || p.n > workspace.capacity()) return Status::invalid_argument;
   if (!in.target.valid() || !options.valid()) return Status::invalid_argument;
-  for (const Pinhole<double>& camera : {in.host_camera, in.target_camera}) {
-    if (!is_finite(camera.fx) || !is_finite(camera.fy) || !is_finite(camera.cx) || !is_finite(camera.cy))
+  // All at once first: this is a good part of what a call on few pixels does.
+  const Pinhole<double>&h = in.host_camera, &t = in.target_camera;
+  std::uint64_t bad = not_finite_bit(h.fx) | not_finite_bit(h.fy) | not_finite_bit(h.cx) | not_finite_bit(h.cy);
+  bad |= not_finite_bit(t.fx) | not_finite_bit(t.fy) | not_finite_bit(t.cx) | not_finite_bit(t.cy);
+  for (int k = 0; k < 9; ++k) bad |= not_finite_bit(T_t_h.R.data()[k]);
+  for (int k = 0; k < 3; ++k) bad |= not_finite_bit(T_t_h.t[k]) | not_finite_bit(theta[k]);
+  if (bad >> 63 == 0 && h.fx > 0 && h.fy > 0 && t.fx > 0 && t.fy > 0) return Status::ok;
+  for (const Pinhole<double>* camera : {&h, &t}) {
+    if (!is_finite(camera->fx) || !is_finite(camera->fy) || !is_finite(camera->cx) || !is_finite(camera->cy))
       return Status::non_finite;
-    if (!camera.valid()) return Status::invalid_argument;
+    if (!camera->valid()) return Status::invalid_argument;
   }
-  return all_finite(theta) && all_finite(T_t_h) ? Status::ok : Status::non_finite;
+  return Status::non_finite;
 }
 
 struct Collected {

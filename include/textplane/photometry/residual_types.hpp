@@ -53,6 +53,8 @@ using PhotometricInput = BasicPhotometricInput<std::uint8_t>;
 using PhotometricInputF = BasicPhotometricInput<float>;
 
 namespace detail {
+struct Unset {};
+
 // photometric_input() for PyramidView and anything like it.
 template <class View>
 auto level_input(const TextPatch& patch, int level, const View& target, const Pinhole<double>& target_camera,
@@ -96,8 +98,8 @@ inline int scale_shift(double host_area, double target_area, int limit = 1) noex
 /// the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless is_ok(status).
 template <int P>
 struct NormalEquations {
-  Eigen::Matrix<double, P, P> H = Eigen::Matrix<double, P, P>::Zero();
-  Eigen::Matrix<double, P, 1> b = Eigen::Matrix<double, P, 1>::Zero();
+  Eigen::Matrix<double, P, P> H;
+  Eigen::Matrix<double, P, 1> b;
   double cost = 0.0;   ///< Sum of rho(N r^2) / N.
   double error = 0.0;  ///< E = sum of r^2, in [0, 4].
   double zncc = 0.0;   ///< 1 - E / 2.
@@ -105,6 +107,15 @@ struct NormalEquations {
   double mean = 0.0;   ///< Of the target intensities of the visible pixels.
   double s = 0.0;      ///< ||I - mean|| of the same.
   Status status = Status::invalid_argument;
+
+  NormalEquations() noexcept { clear(); }
+  /// H and b are left as they are in memory: for who fills them at once. Zeroing both takes as long as some kernels.
+  explicit NormalEquations(detail::Unset) noexcept {}
+  /// H and b become zero.
+  void clear() noexcept {
+    H.setZero();
+    b.setZero();
+  }
 };
 
 /// Value of the photometric cost. All zero unless is_ok(status), `visible` and `lost` excepted.

@@ -94,8 +94,8 @@ struct ResidualFrame {
   float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
   double inverse[9];  // H^-1, row-major
   double q[3];        // theta^T H^-1
-  double c, d;
-  bool inside;  // every pixel of the patch is visible
+  double c, d, ifx, ify;  // ifx, ify: 1 / focal lengths of the target
+  bool inside;            // every pixel of the patch is visible
 };
 
 // The caller's scratch: one array of each.

@@ -2,8 +2,15 @@
 
 // No number among n is a NaN or infinite (nor their sum, which for entries of H would be as bad).
 TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += p[i];
+  double sum = 0, eight[8];
+  int i = 0;
+  if (n >= 8) {
+    vd all = loadd(p);
+    for (i = 8; i + 8 <= n; i += 8) all = maddd(setd(1.0), loadd(p + i), all);
+    stored(eight, all);
+    sum = ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
+  }
+  for (; i < n; ++i) sum += p[i];
   return finite_d(sum);
 }
 

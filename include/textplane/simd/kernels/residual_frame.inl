@@ -2,68 +2,82 @@
 
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 
-// The least value of f0 u + f1 v + f2 for |u| <= ru, |v| <= rv.
-TEXTPLANE_SIMD_INLINE double least_in_box(double f0, double f1, double f2, double ru, double rv) noexcept {
-  return f2 - abs_d(f0) * ru - abs_d(f1) * rv;
+// That f0 u + f1 v + f2 stays above `low` times the divisor for |f0 u + f1 v| <= reach, and so for its negative; the divisor lies
+// in [least, most]. A bound: for a few px around the true border it says no though all are inside.
+TEXTPLANE_SIMD_INLINE bool above(double f2, double reach, double low, double least, double most) noexcept {
+  return f2 - reach > low * (low < 0 ? least : most);
 }
 
 // False where float or H^-1 do not carry the case.
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
-  const double *p = a.theta, *R = a.R, *t = a.t;
-  const double H[9] = {R[0] + t[0] * p[0], R[1] + t[0] * p[1], R[2] + t[0] * p[2],
-                       R[3] + t[1] * p[0], R[4] + t[1] * p[1], R[5] + t[1] * p[2],
-                       R[6] + t[2] * p[0], R[7] + t[2] * p[1], R[8] + t[2] * p[2]};
-  const double adj[9] = {H[4] * H[8] - H[5] * H[7], H[2] * H[7] - H[1] * H[8], H[1] * H[5] - H[2] * H[4],
-                         H[5] * H[6] - H[3] * H[8], H[0] * H[8] - H[2] * H[6], H[2] * H[3] - H[0] * H[5],
-                         H[3] * H[7] - H[4] * H[6], H[1] * H[6] - H[0] * H[7], H[0] * H[4] - H[1] * H[3]};
-  const double det = H[0] * adj[0] + H[1] * adj[3] + H[2] * adj[6];
-  if (!(abs_d(det) > 1e-9)) return false;
-  const double idet = 1 / det;
-  for (int k = 0; k < 9; ++k) f->inverse[k] = adj[k] * idet;
-  for (int k = 0; k < 3; ++k) f->q[k] = p[0] * f->inverse[k] + p[1] * f->inverse[3 + k] + p[2] * f->inverse[6 + k];
+  // Plain locals: in arrays they would pass through memory.
+  const double p0 = a.theta[0], p1 = a.theta[1], p2 = a.theta[2], t0 = a.t[0], t1 = a.t[1], t2 = a.t[2];
+  const double h0 = a.R[0] + t0 * p0, h1 = a.R[1] + t0 * p1, h2 = a.R[2] + t0 * p2;
+  const double h3 = a.R[3] + t1 * p0, h4 = a.R[4] + t1 * p1, h5 = a.R[5] + t1 * p2;
+  const double h6 = a.R[6] + t2 * p0, h7 = a.R[7] + t2 * p1, h8 = a.R[8] + t2 * p2;
 
-  // G = K_t H K_h^-1, and rho as a function of the host pixel.
-  const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1], hcx = a.host_camera[2], hcy = a.host_camera[3];
-  const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
-  const double s0 = H[0] * ifx, s1 = H[1] * ify, s2 = H[2] - s0 * hcx - s1 * hcy;
-  const double s3 = H[3] * ifx, s4 = H[4] * ify, s5 = H[5] - s3 * hcx - s4 * hcy;
-  const double s6 = H[6] * ifx, s7 = H[7] * ify, s8 = H[8] - s6 * hcx - s7 * hcy;
-  const double G[9] = {fx * s0 + cx * s6,
-                       fx * s1 + cx * s7,
-                       fx * s2 + cx * s8,
-                       fy * s3 + cy * s6,
-                       fy * s4 + cy * s7,
-                       fy * s5 + cy * s8,
-                       s6,
-                       s7,
-                       s8};
   // Larger patches, and those with a position at infinity, float cannot centre. (A NaN compares false.)
   const double wide = static_cast<double>(bounds.x_high) - static_cast<double>(bounds.x_low);
   const double high = static_cast<double>(bounds.y_high) - static_cast<double>(bounds.y_low);
   if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;
   const float hx = middle_x(bounds), hy = middle_y(bounds);
-  if (!make_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
+
+  // K_t H K_h^-1 as a function of u, v, and rho likewise; (mu, mv) is the ray where both are 0.
+  const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
+  const double mu = (hx - a.host_camera[2]) * ifx, mv = (hy - a.host_camera[3]) * ify;
+  const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
+  const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
+  const double G[9] = {fx * (h0 * ifx) + cx * s6,
+                       fx * (h1 * ify) + cx * s7,
+                       fx * (h0 * mu + h1 * mv + h2) + cx * s8,
+                       fy * (h3 * ifx) + cy * s6,
+                       fy * (h4 * ify) + cy * s7,
+                       fy * (h3 * mu + h4 * mv + h5) + cy * s8,
+                       s6,
+                       s7,
+                       s8};
+  if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
   make_sample_frame(a.target, f->warp, &f->sample);
   f->c = cx - f->warp.ox;
   f->d = cy - f->warp.oy;
-  const double r0 = p[0] * ifx, r1 = p[1] * ify, r2 = p[2] + r0 * (hx - hcx) + r1 * (hy - hcy);
+  f->ifx = 1 / fx;
+  f->ify = 1 / fy;
+  const double r0 = p0 * ifx, r1 = p1 * ify, r2 = p2 + p0 * mu + p1 * mv;
   f->rho[0] = static_cast<float>(r0);
   f->rho[1] = static_cast<float>(r1);
   f->rho[2] = static_cast<float>(r2);
   if (!(abs_d(r0) < 1e30 && abs_d(r1) < 1e30 && abs_d(r2) < 1e30)) return false;
 
-  // All of the patch is visible if its corners are: what must be positive is affine in u and v.
+  const double i0 = h4 * h8 - h5 * h7, i1 = h2 * h7 - h1 * h8, i2 = h1 * h5 - h2 * h4;
+  const double i3 = h5 * h6 - h3 * h8, i4 = h0 * h8 - h2 * h6, i5 = h2 * h3 - h0 * h5;
+  const double i6 = h3 * h7 - h4 * h6, i7 = h1 * h6 - h0 * h7, i8 = h0 * h4 - h1 * h3;
+  const double det = h0 * i0 + h1 * i3 + h2 * i6;
+  if (!(abs_d(det) > 1e-9)) return false;
+  const double idet = 1 / det;
+  f->inverse[0] = i0 * idet;
+  f->inverse[1] = i1 * idet;
+  f->inverse[2] = i2 * idet;
+  f->inverse[3] = i3 * idet;
+  f->inverse[4] = i4 * idet;
+  f->inverse[5] = i5 * idet;
+  f->inverse[6] = i6 * idet;
+  f->inverse[7] = i7 * idet;
+  f->inverse[8] = i8 * idet;
+  f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
+  f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
+  f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
+
+  // All of the patch is visible if its box is: what must be positive is affine in u and v.
   const double ru = static_cast<double>(bounds.x_high) - hx + 1e-3, rv = static_cast<double>(bounds.y_high) - hy + 1e-3;
   const float* g = f->warp.g;
-  const double margin = 1e-3, g6 = g[6], g7 = g[7], g8 = g[8];
-  const double x0 = f->sample.x_low + margin, x1 = f->sample.x_last - margin;
-  const double y0 = f->sample.y_low + margin, y1 = f->sample.y_last - margin;
-  f->inside = bounds.n == a.n && least_in_box(g6, g7, g8, ru, rv) > 1e-3 &&
-              least_in_box(r0, r1, r2, ru, rv) > 1e-6 * abs_d(r2) &&
-              least_in_box(g[0] - x0 * g6, g[1] - x0 * g7, g[2] - x0 * g8, ru, rv) > 0 &&
-              least_in_box(x1 * g6 - g[0], x1 * g7 - g[1], x1 * g8 - g[2], ru, rv) > 0 &&
-              least_in_box(g[3] - y0 * g6, g[4] - y0 * g7, g[5] - y0 * g8, ru, rv) > 0 &&
-              least_in_box(y1 * g6 - g[3], y1 * g7 - g[4], y1 * g8 - g[5], ru, rv) > 0;
+  const double g2 = g[2], g5 = g[5], g8 = g[8], margin = 1e-3;
+  const double reach_x = abs_d(g[0]) * ru + abs_d(g[1]) * rv, reach_y = abs_d(g[3]) * ru + abs_d(g[4]) * rv;
+  const double reach_z = abs_d(g[6]) * ru + abs_d(g[7]) * rv, least = g8 - reach_z, most = g8 + reach_z;
+  f->inside = bounds.n == a.n && least > 1e-3 && r2 - (abs_d(r0) * ru + abs_d(r1) * rv) > 1e-6 * abs_d(r2) &&
+              above(g2, reach_x, f->sample.x_low + margin, least, most) &&
+              above(-g2, reach_x, margin - f->sample.x_last, least, most) &&
+              above(g5, reach_y, f->sample.y_low + margin, least, most) &&
+              above(-g5, reach_y, margin - f->sample.y_last, least, most);
   return true;
 }

@@ -18,13 +18,13 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
   float(*r)[kStrip] = rows->row;
   float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;  // or where nobody reads
   if (form == 3) {
-    plane_rows(k, x, y, a, b, n, r);
+    plane_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain)
       add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
     else
       add_squares3(r[0], r[1], r[2], n, acc);
   } else if (form == 6) {
-    pose_rows(k, x, y, a, b, n, r);
+    pose_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain) {
       add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
       add_squares_sums3(r[3], r[4], r[5], n, acc + 6 * kLanes, sums + 3 * kLanes);
@@ -137,6 +137,13 @@ struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
 };
 
+// A side with this sum of squares about its mean has the least contrast. What rounding leaves of a constant side is none. (Squares
+// are compared: roots take time.)
+TEXTPLANE_SIMD_INLINE bool has_contrast(const simd::ResidualArgs& a, double squares, double mean, double count) noexcept {
+  const double least = a.min_contrast > 0 ? a.min_contrast : 0, floor = 1e-6 * mean;
+  return squares > count * (least * least) && squares > count * (floor * floor);
+}
+
 // From the sums of both sides, for N pixels. no_contrast where there is none on either; non_finite for host intensities that are
 // not, or whose squares are not in float.
 TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Offsets& o, const SideSums& sums, int n,
@@ -144,17 +151,13 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  // What rounding leaves of a constant side is no contrast either.
-  const double least = a.min_contrast > 0 ? a.min_contrast : 0, floor = 1e-6;
-  const double i_size = abs_d(i_mean + o.target), h_size = abs_d(h_mean + o.host);
-  const double i_sigma = i_squares > 0 ? sqrt_d(i_squares / count) : 0,
-               h_sigma = h_squares > 0 ? sqrt_d(h_squares / count) : 0;
-  if (!(i_sigma > least) || !(i_sigma > floor * i_size)) return Status::no_contrast;
-  if (!(h_sigma > least) || !(h_sigma > floor * h_size)) return Status::no_contrast;
+  if (!has_contrast(a, i_squares, i_mean + o.target, count) || !has_contrast(a, h_squares, h_mean + o.host, count))
+    return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
-  r->on_d = root / (kappa * h_s);
-  r->on_i = root * (1 / (kappa * h_s) - 1 / i_s);
-  r->shift = root * (i_mean / i_s - h_mean / h_s);
+  const double i_scale = root / i_s, h_scale = root / h_s;
+  r->on_d = h_scale / kappa;
+  r->on_i = r->on_d - i_scale;
+  r->shift = i_mean * i_scale - h_mean * h_scale;
   r->i_mean = i_mean;
   r->i_s = i_s;
   info->mean = i_mean + o.target;
@@ -389,12 +392,10 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     parameter_matrix(a, f, M);
     change_parameters(M, sums.S, sums.wr, H, b);
   } else {
-    double scale[6] = {1, 1, 1, 1, 1, 1};
-    if (form == 6) pose_scale(a, scale);
     for (int i = 0; i < form; ++i) {
-      b[i] = scale[i] * sums.wr[i];
+      b[i] = sums.wr[i];
       // The two of an off-diagonal pair round differently.
-      for (int j = i; j < form; ++j) H[form * i + j] = H[form * j + i] = scale[i] * scale[j] * sums.S[i][j];
+      for (int j = i; j < form; ++j) H[form * i + j] = H[form * j + i] = sums.S[i][j];
     }
   }
   return Status::ok;

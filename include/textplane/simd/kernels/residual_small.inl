@@ -1,149 +1,237 @@
 // Few pixels: rows of the parameters themselves, projected and weighted pixel by pixel. See simd/residual.hpp.
+//
+// Most of the time goes to what happens once a call, so the chain of what waits for each other is kept short: sums stay in
+// registers until they are added up, and rows and their sums do without the roots and divisions of the residuals.
 
-// Sums of three rows to out[0 .. 2] and with the factor p to out[3 .. 5].
-TEXTPLANE_SIMD_ENTRY void row_means(const float* r0, const float* r1, const float* r2, const float* p, int n,
-                                    float* out) noexcept {
+// Arrays of at most kRowPixels floats and a vector more, and how far they lie apart.
+enum : int { kFewStep = kRowPixels + kMostLanes };
+
+// Of the pixels: intensities less their mean, e = r sqrt(N) times the root of the weight, and that root.
+struct FewPixels {
+  float i[kFewStep], e[kFewStep], root[kFewStep];
+};
+
+// Of the target: its mean, and sum of squares about it; and its norm s.
+struct FewStats {
+  double mean, squares, s;
+};
+
+// From n intensities of target and host: residuals, weights, costs. The status is as that of make_residual().
+TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
+                                      FewPixels* p, FewStats* stats, simd::ResidualInfo* info) noexcept {
+  const double count = n, by_count = 1 / count;
+  vf t = zero(), h = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    t = add(t, load(target + k));
+    h = add(h, load_part(host + k, n - k));
+  }
+  const float share = static_cast<float>(by_count), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
+    if (n - k < kLanes) {
+      i = keep(first_n(n - k), i);
+      j = keep(first_n(n - k), j);
+    }
+    store(p->i + k, i);
+    store(p->e + k, j);
+    i1 = add(i1, i);
+    h1 = add(h1, j);
+    i2 = madd(i, i, i2);
+    h2 = madd(j, j, h2);
+  }
+  float sum[4];
+  hsum4(i1, i2, h1, h2, sum);
+  const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
+  const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  if (!finite_d(h_squares)) return Status::non_finite;
+  info->mean = i_mean + i_offset;
+  if (!has_contrast(a, i_squares, info->mean, count) || !has_contrast(a, h_squares, h_mean + h_offset, count))
+    return Status::no_contrast;
+  const double root = sqrt_d(count), i_scale = root / sqrt_d(i_squares), h_scale = root / sqrt_d(h_squares);
+  info->s = stats->s = sqrt_d(i_squares);
+  stats->mean = i_mean;
+  stats->squares = i_squares;
+
+  const float delta = static_cast<float>(a.delta);
+  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), by_i = set1(static_cast<float>(i_scale));
+  const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
+  const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
+  vf squares = zero(), rho = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    vf i = load(p->i + k), e = madd(load(p->e + k), by_h, nmadd(i, by_i, shift)), w = set1(1.0F);
+    i = sub(i, mean);
+    if (n - k < kLanes) {
+      const vm counted = first_n(n - k);
+      i = keep(counted, i);
+      e = keep(counted, e);
+      w = keep(counted, w);
+    }
+    squares = madd(e, e, squares);
+    if (a.huber) {
+      const vf size = abs_(e), m = min_(size, limit);
+      rho = madd(m, add(size, sub(size, m)), rho);
+      w = mul(w, sqrt_(div(limit, max_(size, limit))));
+    }
+    store(p->i + k, i);
+    store(p->e + k, mul(w, e));
+    store(p->root + k, w);
+  }
+  hsum4(squares, a.huber ? rho : squares, squares, rho, sum);
+  info->error = sum[0] * by_count;
+  info->cost = sum[1] * by_count;
+  return Status::ok;
+}
+
+// Three rows become root (row - mean - i (sum i row) / (sum i^2)); with the normalisation held, root row.
+TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, float by_count, float by_squares, float* row) noexcept {
+  float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
+  if (!exact) {
+    for (int k = 0; k < n; k += kLanes) {
+      const vf w = load(p.root + k);
+      store(r0 + k, mul(w, load(r0 + k)));
+      store(r1 + k, mul(w, load(r1 + k)));
+      store(r2 + k, mul(w, load(r2 + k)));
+    }
+    return;
+  }
   vf s0 = zero(), s1 = zero(), s2 = zero(), t0 = zero(), t1 = zero(), t2 = zero();
-  for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(p + i);
+  for (int k = 0; k < n; k += kLanes) {
+    const vf i = load(p.i + k), a = load(r0 + k), b = load(r1 + k), c = load(r2 + k);
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
-    t0 = madd(a, x, t0);
-    t1 = madd(b, x, t1);
-    t2 = madd(c, x, t2);
+    t0 = madd(a, i, t0);
+    t1 = madd(b, i, t1);
+    t2 = madd(c, i, t2);
   }
-  float eight[8];
-  hsum4(s0, s1, s2, t0, eight);
-  hsum4(t1, t2, t2, t2, eight + 4);
-  for (int k = 0; k < 6; ++k) out[k] = eight[k];
-}
-
-// Row j becomes root (j - e - n c), for three rows.
-TEXTPLANE_SIMD_ENTRY void project_rows(float* r0, float* r1, float* r2, const float* normalised, const float* root,
-                                       int n, const float* e, const float* c) noexcept {
-  const vf e0 = set1(e[0]), e1 = set1(e[1]), e2 = set1(e[2]), c0 = set1(c[0]), c1 = set1(c[1]), c2 = set1(c[2]);
-  for (int i = 0; i < n; i += kLanes) {
-    const vf x = load(normalised + i), w = load(root + i);
-    store(r0 + i, mul(w, nmadd(x, c0, sub(load(r0 + i), e0))));
-    store(r1 + i, mul(w, nmadd(x, c1, sub(load(r1 + i), e1))));
-    store(r2 + i, mul(w, nmadd(x, c2, sub(load(r2 + i), e2))));
-  }
-}
-
-// Costs; i becomes the normalised intensity n, d becomes r times the root of the weight, and `root` that root; zero beyond n.
-TEXTPLANE_SIMD_ENTRY void weigh_few(const Residual& r, bool huber, float delta, int n, float* i, float* d, float* root,
-                                    simd::ResidualInfo* info) noexcept {
-  const double count = n;
-  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
-  const vf shift = set1(static_cast<float>(r.shift)), limit = set1(delta), one = set1(1.0F);
-  const vf i_mean = set1(static_cast<float>(r.i_mean)), i_scale = set1(static_cast<float>(1 / r.i_s));
-  const vf scale = set1(static_cast<float>(1 / sqrt_d(count)));
-  vf s = zero(), c = zero();
+  float sum[8];
+  hsum4(s0, s1, s2, s2, sum);
+  hsum4(t0, t1, t2, t2, sum + 4);
+  const vf mean = set1(by_count), along = set1(by_squares);
+  s0 = mul(set1(sum[0]), mean);
+  s1 = mul(set1(sum[1]), mean);
+  s2 = mul(set1(sum[2]), mean);
+  t0 = mul(set1(sum[4]), along);
+  t1 = mul(set1(sum[5]), along);
+  t2 = mul(set1(sum[6]), along);
   for (int k = 0; k < n; k += kLanes) {
-    const vf value = load(i + k), e = madd(load(d + k), on_d, madd(value, on_i, shift));
-    vf normalised = mul(sub(value, i_mean), i_scale), q = mul(e, scale), w = one, squares = mul(e, e), rho = squares;
-    if (huber) {
-      const vf size = abs_(e), m = min_(size, limit);
-      rho = mul(m, add(size, sub(size, m)));
-      w = sqrt_(div(m, max_(size, set1(1e-30F))));
-      w = select(gt(size, limit), w, one);
-      q = mul(q, w);
-    }
-    if (n - k < kLanes) {
-      const vm counted = first_n(n - k);
-      normalised = keep(counted, normalised);
-      q = keep(counted, q);
-      w = keep(counted, w);
-      squares = keep(counted, squares);
-      rho = keep(counted, rho);
-    }
-    s = add(s, squares);
-    c = add(c, rho);
-    store(i + k, normalised);
-    store(d + k, q);
-    store(root + k, w);
+    const vf i = load(p.i + k), w = load(p.root + k);
+    store(r0 + k, mul(w, nmadd(i, t0, sub(load(r0 + k), s0))));
+    store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));
+    store(r2 + k, mul(w, nmadd(i, t2, sub(load(r2 + k), s2))));
   }
-  info->error = hsum_d(s) / count;
-  info->cost = hsum_d(c) / count;
 }
 
-// Entries of H (`size` columns) times the scales of their row and column: the square at (at, at), and the block at (r, c) with its
-// mirror image.
-TEXTPLANE_SIMD_INLINE void put_pair(double value, int r, int c, int size, const double* scale, double* H) noexcept {
-  H[size * r + c] = H[size * c + r] = scale[r] * scale[c] * value;
-}
-TEXTPLANE_SIMD_INLINE void put_square(const float* p, int at, int size, const double* scale, double* H) noexcept {
-  put_pair(p[0], at, at, size, scale, H);
-  put_pair(p[1], at, at + 1, size, scale, H);
-  put_pair(p[2], at, at + 2, size, scale, H);
-  put_pair(p[3], at + 1, at + 1, size, scale, H);
-  put_pair(p[4], at + 1, at + 2, size, scale, H);
-  put_pair(p[5], at + 2, at + 2, size, scale, H);
-}
-TEXTPLANE_SIMD_INLINE void put_block(const float* p, int r, int c, int size, const double* scale, double* H) noexcept {
-  for (int j = 0; j < 3; ++j) {
-    put_pair(p[3 * j], r + j, c, size, scale, H);
-    put_pair(p[3 * j + 1], r + j, c + 1, size, scale, H);
-    put_pair(p[3 * j + 2], r + j, c + 2, size, scale, H);
+// Sums of products of three rows among themselves, and with e: nine, in the order of put_square().
+TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, float* out) noexcept {
+  const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(), b2 = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), r = load(e + k);
+    s0 = madd(a, a, s0);
+    s1 = madd(a, b, s1);
+    s2 = madd(a, c, s2);
+    s3 = madd(b, b, s3);
+    s4 = madd(b, c, s4);
+    s5 = madd(c, c, s5);
+    b0 = madd(a, r, b0);
+    b1 = madd(b, r, b1);
+    b2 = madd(c, r, b2);
   }
+  hsum4(s0, s1, s2, s3, out);
+  hsum4(s4, s5, b0, b1, out + 4);
+  hsum4(b2, b2, b2, b2, out + 8);
+}
+
+// Sums of products of three rows with three others: nine.
+TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n, float* out) noexcept {
+  const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
+  const float *q0 = other, *q1 = other + kFewStep, *q2 = other + 2 * kFewStep;
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(), s8 = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), x = load(q0 + k), y = load(q1 + k), z = load(q2 + k);
+    s0 = madd(a, x, s0);
+    s1 = madd(a, y, s1);
+    s2 = madd(a, z, s2);
+    s3 = madd(b, x, s3);
+    s4 = madd(b, y, s4);
+    s5 = madd(b, z, s5);
+    s6 = madd(c, x, s6);
+    s7 = madd(c, y, s7);
+    s8 = madd(c, z, s8);
+  }
+  hsum4(s0, s1, s2, s3, out);
+  hsum4(s4, s5, s6, s7, out + 4);
+  hsum4(s8, s8, s8, s8, out + 8);
+}
+
+// Entries of H (`size` columns): the square at (at, at), the block at (r, c) and its mirror image.
+TEXTPLANE_SIMD_INLINE void put_square(const float* p, double scale, int at, int size, double* H) noexcept {
+  double* q = H + size * at + at;
+  q[0] = scale * p[0];
+  q[1] = q[size] = scale * p[1];
+  q[2] = q[2 * size] = scale * p[2];
+  q[size + 1] = scale * p[3];
+  q[size + 2] = q[2 * size + 1] = scale * p[4];
+  q[2 * size + 2] = scale * p[5];
+}
+TEXTPLANE_SIMD_INLINE void put_block(const float* p, double scale, int r, int c, int size, double* H) noexcept {
+  double *q = H + size * r + c, *mirror = H + size * c + r;
+  q[0] = mirror[0] = scale * p[0];
+  q[1] = mirror[size] = scale * p[1];
+  q[2] = mirror[2 * size] = scale * p[2];
+  q[size] = mirror[1] = scale * p[3];
+  q[size + 1] = mirror[size + 1] = scale * p[4];
+  q[size + 2] = mirror[2 * size + 1] = scale * p[5];
+  q[2 * size] = mirror[2] = scale * p[6];
+  q[2 * size + 1] = mirror[size + 2] = scale * p[7];
+  q[2 * size + 2] = mirror[2 * size + 2] = scale * p[8];
 }
 
 // Normal equations of `parameters` (3, 6 or 9) for at most kRowPixels host pixels.
 TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
                                              const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info,
                                              double* H, double* b) noexcept {
-  const int n = host.n, groups = parameters / 3;
+  const int n = host.n;
   SampleStrip strip;
   collect_strip(host, f, 0, n, s, &strip);
-  SideSums sides = {0, 0, 0, 0};
-  const Offsets offsets = plain_offsets(s.i, host.h, n);
-  centre_strip(s.i, host.h, s.d, n, offsets, &sides);
-  Residual r;
-  const Status status = make_residual(a, offsets, sides, n, &r, info);
-  if (status != Status::ok) return status;
-  float root[kStrip], row[9][kStrip];
-  weigh_few(r, a.huber, static_cast<float>(a.delta), n, s.i, s.d, root, info);
-
+  float row[9 * kFewStep];
   RowConstants constants;
   make_row_constants(a, f, &constants);
-  if (parameters != 3) pose_rows(constants, s.x, s.y, s.a, s.b, n, row);
-  if (parameters != 6) plane_rows(constants, s.x, s.y, s.a, s.b, n, row + (parameters - 3));
-  float acc[56 * kMostLanes];  // 45 products of rows, 9 with r, and two of nobody
-  for (int g = 0; g < groups; ++g) {
-    float *r0 = row[3 * g], *r1 = row[3 * g + 1], *r2 = row[3 * g + 2];
-    float m[6] = {0, 0, 0, 0, 0, 0};
-    if (a.exact) {
-      row_means(r0, r1, r2, s.i, n, m);
-      for (int k = 0; k < 3; ++k) m[k] /= static_cast<float>(n);
-    }
-    project_rows(r0, r1, r2, s.i, root, n, m, m + 3);
-  }
-  const int products = parameters * (parameters + 1) / 2, sums = products + parameters;
-  for (int k = 0; k < (sums + 3) / 4 * 4; ++k) store(acc + k * kLanes, zero());
-  float* p = acc;
-  for (int g = 0; g < groups; ++g, p += 6 * kLanes) add_squares3(row[3 * g], row[3 * g + 1], row[3 * g + 2], n, p);
-  for (int g = 0; g < groups; ++g)
-    for (int k = g + 1; k < groups; ++k, p += 9 * kLanes)
-      add_products33(row[3 * g], row[3 * g + 1], row[3 * g + 2], row[3 * k], row[3 * k + 1], row[3 * k + 2], n, p);
-  for (int g = 0; g < groups; ++g, p += 3 * kLanes)
-    add_products3(row[3 * g], row[3 * g + 1], row[3 * g + 2], s.d, s.d, n, p, p);  // twice the same, stored once more
-  float total[56];
-  for (int k = 0; k < sums; k += 4) {
-    const float* q = acc + k * kLanes;
-    hsum4(load(q), load(q + kLanes), load(q + 2 * kLanes), load(q + 3 * kLanes), total + k);
-  }
+  if (parameters != 3) pose_rows(constants, s.x, s.y, s.a, s.b, n, kFewStep, row);
+  if (parameters != 6) plane_rows(constants, s.x, s.y, s.a, s.b, n, kFewStep, row + (parameters - 3) * kFewStep);
+  FewPixels pixels;
+  FewStats stats;
+  const Status status = weigh_few(a, s.i, host.h, n, &pixels, &stats, info);
+  if (status != Status::ok) return status;
 
-  double scale[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
-  if (parameters != 3) pose_scale(a, scale);
-  const double is = 1 / r.i_s;
-  for (int k = 0; k < parameters; ++k) {
-    scale[k] *= is;
-    b[k] = -scale[k] * static_cast<double>(total[products + k]);
+  const double by_count = 1.0 / n, scale = 1 / stats.squares, scale_b = -1 / (stats.s * sqrt_d(n));
+  float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];
+  for (int g = 0; g < parameters; g += 3)
+    project_few(pixels, n, a.exact, static_cast<float>(by_count), static_cast<float>(scale), row + g * kFewStep);
+  square_few(r0, pixels.e, n, sum[0]);
+  if (parameters > 3) {
+    square_few(r1, pixels.e, n, sum[1]);
+    cross_few(r0, r1, n, sum[2]);
   }
-  const float* next = total;
-  for (int g = 0; g < groups; ++g, next += 6) put_square(next, 3 * g, parameters, scale, H);
-  for (int g = 0; g < groups; ++g)
-    for (int k = g + 1; k < groups; ++k, next += 9) put_block(next, 3 * g, 3 * k, parameters, scale, H);
+  if (parameters > 6) {
+    square_few(r2, pixels.e, n, sum[3]);
+    cross_few(r0, r2, n, sum[4]);
+    cross_few(r1, r2, n, sum[5]);
+  }
+  put_square(sum[0], scale, 0, parameters, H);
+  for (int k = 0; k < 3; ++k) b[k] = scale_b * sum[0][6 + k];
+  if (parameters > 3) {
+    put_square(sum[1], scale, 3, parameters, H);
+    put_block(sum[2], scale, 0, 3, parameters, H);
+    for (int k = 0; k < 3; ++k) b[3 + k] = scale_b * sum[1][6 + k];
+  }
+  if (parameters > 6) {
+    put_square(sum[3], scale, 6, parameters, H);
+    put_block(sum[4], scale, 0, 6, parameters, H);
+    put_block(sum[5], scale, 3, 6, parameters, H);
+    for (int k = 0; k < 3; ++k) b[6 + k] = scale_b * sum[3][6 + k];
+  }
   return Status::ok;
 }

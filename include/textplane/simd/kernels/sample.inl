@@ -46,13 +46,11 @@ TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
 TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
 
-// The homography h (row-major, host pixel to target pixel) around the host centre (hx, hy) and the target pixel nearest to
-// where that goes; the middle of the image where it lies behind. False where it cannot be written in float.
-TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
-                                     simd::Warp8* w) noexcept {
-  const double u = hx, v = hy;
-  const double x = h[0] * u + h[1] * v + h[2], y = h[3] * u + h[4] * v + h[5], z = h[6] * u + h[7] * v + h[8];
-  const double iz = 1 / z, px = x * iz, py = y * iz;
+// The homography that takes (u, v), relative to the host centre (hx, hy), to a target pixel, h row-major, around the target pixel
+// nearest to where the centre goes; the middle of the image where that lies behind. False where it cannot be written in float.
+TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
+                                             simd::Warp8* w) noexcept {
+  const double x = h[2], y = h[5], z = h[8], iz = 1 / z, px = x * iz, py = y * iz;
   w->hx = hx;
   w->hy = hy;
   w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
@@ -60,20 +58,29 @@ TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int wi
   // Any positive scale will do; this one keeps the divisor of a patch of 100 px near 1.
   const double size = (z < 0 ? -z : z) + 50 * ((h[6] < 0 ? -h[6] : h[6]) + (h[7] < 0 ? -h[7] : h[7]));
   const double scale = size > 0 ? 1 / size : 1, ox = w->ox, oy = w->oy;
-  const double g[9] = {(h[0] - ox * h[6]) * scale,
-                       (h[1] - ox * h[7]) * scale,
-                       (x - ox * z) * scale,
-                       (h[3] - oy * h[6]) * scale,
-                       (h[4] - oy * h[7]) * scale,
-                       (y - oy * z) * scale,
-                       h[6] * scale,
-                       h[7] * scale,
-                       z * scale};
-  double squares = 0;
-  for (int i = 0; i < 9; ++i) squares += g[i] * g[i];
-  if (!finite_d(size) || !finite_d(squares) || squares > 1e60) return false;
-  for (int i = 0; i < 9; ++i) w->g[i] = static_cast<float>(g[i]);
-  return true;
+  const double g0 = (h[0] - ox * h[6]) * scale, g1 = (h[1] - ox * h[7]) * scale, g2 = (x - ox * z) * scale;
+  const double g3 = (h[3] - oy * h[6]) * scale, g4 = (h[4] - oy * h[7]) * scale, g5 = (y - oy * z) * scale;
+  const double g6 = h[6] * scale, g7 = h[7] * scale, g8 = z * scale;
+  w->g[0] = static_cast<float>(g0);
+  w->g[1] = static_cast<float>(g1);
+  w->g[2] = static_cast<float>(g2);
+  w->g[3] = static_cast<float>(g3);
+  w->g[4] = static_cast<float>(g4);
+  w->g[5] = static_cast<float>(g5);
+  w->g[6] = static_cast<float>(g6);
+  w->g[7] = static_cast<float>(g7);
+  w->g[8] = static_cast<float>(g8);
+  const double squares = (g0 * g0 + g1 * g1 + g2 * g2) + (g3 * g3 + g4 * g4 + g5 * g5) + (g6 * g6 + g7 * g7 + g8 * g8);
+  return finite_d(size) && finite_d(squares) && !(squares > 1e60);
+}
+
+// The same for h from host pixel to target pixel.
+TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
+                                     simd::Warp8* w) noexcept {
+  const double u = hx, v = hy;
+  const double centred[9] = {h[0], h[1], h[0] * u + h[1] * v + h[2], h[3], h[4], h[3] * u + h[4] * v + h[5],
+                             h[6], h[7], h[6] * u + h[7] * v + h[8]};
+  return make_centred_warp(centred, hx, hy, width, height, w);
 }
 
 // How `image` is read around the origin of `warp`.
