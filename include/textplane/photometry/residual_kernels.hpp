@@ -15,7 +15,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 /// Fills the arguments of the kernels. False where the reference must take the call. The input has passed check_input().
-inline bool kernel_args(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
+TEXTPLANE_SIMD_INLINE bool kernel_args(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
                         const PhotometricOptions& options, PhotometricWorkspace& workspace,
                         simd::ResidualArgs* a) noexcept {
   if (options.precise || (options.robust.kind != RobustKind::huber && options.robust.kind != RobustKind::l2))

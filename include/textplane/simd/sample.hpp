@@ -32,10 +32,11 @@ struct Image8 {
 
 /// True where the kernels can read the image.
 inline bool readable(const Image8& image) noexcept {
+  const std::int64_t most = 0x7fffffff, rows = image.height;  // products of two numbers below `most`, no slow division
   return image.data != nullptr && image.width >= 2 && image.height >= 2 && image.stride >= image.width &&
-         image.stride <= 0x7fffffff / image.height &&
-         (image.pairs == nullptr ||
-          (image.pair_stride >= image.width && image.pair_stride <= 0x3fffffff / image.height));
+         image.stride <= most && image.stride * rows <= most &&
+         (image.pairs == nullptr || (image.pair_stride >= image.width && image.pair_stride <= most &&
+                                     2 * (image.pair_stride * rows) <= most));
 }
 
 /// A homography between recentred coordinates, in float: with u = x - hx and v = y - hy the target pixel is

@@ -1,19 +1,5 @@
 // Entry points of the residual kernels: see simd/residual.hpp.
 
-// No number among n is a NaN or infinite (nor their sum, which for entries of H would be as bad).
-TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
-  double sum = 0, eight[8];
-  int i = 0;
-  if (n >= 8) {
-    vd all = loadd(p);
-    for (i = 8; i + 8 <= n; i += 8) all = maddd(setd(1.0), loadd(p + i), all);
-    stored(eight, all);
-    sum = ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
-  }
-  for (; i < n; ++i) sum += p[i];
-  return finite_d(sum);
-}
-
 // `parameters` 3, 6, 9: normal equations; 0: the cost alone, and H and b are null.
 TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs& a, simd::ResidualInfo* info,
                                         double* H, double* b) noexcept {
@@ -29,12 +15,12 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
-    info->status = parameters == 0          ? evaluate_pixels(a, f, pixels, s, info)
-                   : pixels.n <= kRowPixels ? linearise_small(parameters, a, f, pixels, s, info, H, b)
+    if (parameters == 0)
+      info->status = pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
+    else
+      info->status = pixels.n <= kRowPixels ? linearise_small(parameters, a, f, pixels, s, info, H, b)
                                             : linearise_large(parameters, a, f, pixels, s, info, H, b);
-    if (info->status == Status::ok &&
-        !(finite_d(info->cost) && finite_sum(H, parameters * parameters) && finite_sum(b, parameters)))
-      info->status = Status::rank_deficient;
+    if (info->status == Status::ok && !finite_d(info->cost)) info->status = Status::rank_deficient;
     if (info->status != Status::non_finite) return;
   }
   info->status = Status::rank_deficient;

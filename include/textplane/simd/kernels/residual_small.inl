@@ -189,6 +189,16 @@ TEXTPLANE_SIMD_INLINE void put_block(const float* p, double scale, int r, int c,
   q[2 * size + 2] = mirror[2 * size + 2] = scale * p[8];
 }
 
+// The cost of at most kRowPixels host pixels.
+TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
+                                           const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
+  SampleStrip strip;
+  collect_values(host, f, 0, host.n, s, &strip);
+  FewPixels pixels;
+  FewStats stats;
+  return weigh_few(a, s.i, host.h, host.n, &pixels, &stats, info);
+}
+
 // Normal equations of `parameters` (3, 6 or 9) for at most kRowPixels host pixels.
 TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
                                              const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info,
@@ -233,5 +243,11 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
     put_block(sum[5], scale, 3, 6, parameters, H);
     for (int k = 0; k < 3; ++k) b[6 + k] = scale_b * sum[3][6 + k];
   }
-  return Status::ok;
+  // By the inequality of Schwarz H and b are finite where the squares of the rows and the costs are.
+  double squares = 0;
+  for (int g = 0; g < parameters; g += 3) {
+    const float* p = sum[g / 3 < 2 ? g / 3 : 3];
+    squares += (static_cast<double>(p[0]) + p[3]) + p[5];
+  }
+  return finite_d(squares * scale) ? Status::ok : Status::rank_deficient;
 }

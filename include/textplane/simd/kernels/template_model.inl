@@ -114,8 +114,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   info->status = Status::out_of_view;
   if (!template_frame(m, f, &t)) return;
   info->candidates = info->visible = m.n;
-  if (a.flags)
-    for (int i = 0; i < a.n; ++i) a.flags[i] = 1;
+  if (a.flags) set_all(a.flags, a.n);
   info->status = Status::too_few;
   if (m.n < 1 || m.n < a.min_visible) return;
   t.u = m.u;
