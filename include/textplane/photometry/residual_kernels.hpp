@@ -67,6 +67,19 @@ inline Status kernel_status(const simd::ResidualInfo& info, int min_visible) noe
   return visibility_status({info.candidates, info.behind, info.visible}, min_visible);
 }
 
+/// All but H and b, for a call that the kernels took.
+template <int P>
+void take_info(const simd::ResidualInfo& info, int min_visible, NormalEquations<P>* out) noexcept {
+  out->status = kernel_status(info, min_visible);
+  if (!is_ok(out->status)) return;
+  out->cost = info.cost;
+  out->error = info.error;
+  out->zncc = 1.0 - 0.5 * info.error;
+  out->visible = info.visible;
+  out->mean = info.mean;
+  out->s = info.s;
+}
+
 template <int P>
 simd::ResidualInfo kernel_sums(const simd::ResidualArgs& args, double* H, double* b) noexcept {
   if constexpr (P == 3) return simd::linearise_plane(args, H, b);
@@ -84,14 +97,7 @@ bool kernel_linearise(const PhotometricInput& in, const Vector3<double>& theta, 
   args.flags = workspace.visible_flags();
   const simd::ResidualInfo info = kernel_sums<P>(args, out->H.data(), out->b.data());
   if (declined(info)) return false;
-  out->status = kernel_status(info, options.min_visible);
-  if (!is_ok(out->status)) return true;
-  out->cost = info.cost;
-  out->error = info.error;
-  out->zncc = 1.0 - 0.5 * info.error;
-  out->visible = info.visible;
-  out->mean = info.mean;
-  out->s = info.s;
+  take_info(info, options.min_visible, out);
   return true;
 }
 

@@ -161,19 +161,12 @@ class TemplatePatch {
 namespace detail {
 // The block of P parameters out of (v, omega, theta).
 template <int P>
-bool take_sums(const simd::PolicySums& sums, NormalEquations<P>* out) noexcept {
+void take_block(const double* H, const double* b, NormalEquations<P>* out) noexcept {
   const int at = P == 3 ? 6 : 0;
   for (int c = 0; c < P; ++c) {
-    out->b[c] = sums.b[at + c];
-    for (int r = 0; r < P; ++r) out->H(r, c) = sums.H[9 * (at + r) + at + c];
+    out->b[c] = b[at + c];
+    for (int r = 0; r < P; ++r) out->H(r, c) = H[9 * (at + r) + at + c];
   }
-  out->cost = sums.info.cost;
-  out->error = sums.info.error;
-  out->zncc = 1.0 - 0.5 * sums.info.error;
-  out->visible = sums.info.visible;
-  out->mean = sums.info.mean;
-  out->s = sums.info.s;
-  return all_finite(out->H) && all_finite(out->b) && is_finite(out->cost);
 }
 
 // False where the kernels declined.
@@ -184,22 +177,25 @@ bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, con
   simd::EsmArgs args;
   if (!kernel_args(in, theta, T_t_h, options, workspace, &args.base)) return false;
   args.base.flags = workspace.visible_flags();
-  simd::PolicySums sums;
-  sums.info.status = Status::out_of_view;
+  double block_H[81], block_b[9];
+  double *H = P == 9 ? out->H.data() : block_H, *b = P == 9 ? out->b.data() : block_b;
+  simd::ResidualInfo info;
+  info.status = Status::out_of_view;
   const bool esm = policy == LinearisePolicy::esm;
   if (!esm && prepared && prepared->size() == in.patch.n && !in.patch.mask)
-    sums = simd::linearise_template(prepared->model(), args.base, reinterpret_cast<std::int16_t*>(workspace.more_scratch()));
+    info = simd::linearise_template(prepared->model(), args.base, reinterpret_cast<std::int16_t*>(workspace.more_scratch()), H, b);
   // Not all of the patch is visible: the sums of what is.
-  if (sums.info.status == Status::out_of_view) {
+  if (info.status == Status::out_of_view) {
     args.gx = in.patch.gx;
     args.gy = in.patch.gy;
     args.average = esm;
     args.scratch = workspace.more_scratch();
-    sums = simd::linearise_esm(args);
+    info = simd::linearise_esm(args, H, b);
   }
-  if (declined(sums.info)) return false;
-  out->status = kernel_status(sums.info, options.min_visible);
-  return !is_ok(out->status) || take_sums<P>(sums, out);
+  if (declined(info)) return false;
+  take_info(info, options.min_visible, out);
+  if (P != 9 && is_ok(out->status)) take_block<P>(H, b, out);
+  return true;
 }
 }  // namespace detail
 
@@ -213,17 +209,18 @@ NormalEquations<P> linearise_by(LinearisePolicy policy, const PhotometricInput& 
                                 const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
                                 const TemplatePatch* prepared = nullptr) noexcept {
   static_assert(P == 3 || P == 6 || P == 9, "theta, pose, or pose and theta");
-  NormalEquations<P> out;
   if (policy == LinearisePolicy::forward) {
     if constexpr (P == 3) return linearise_plane(in, theta, T_t_h, options, workspace);
     if constexpr (P == 6) return linearise_pose(in, theta, T_t_h, options, workspace);
     if constexpr (P == 9) return linearise_pose_plane(in, theta, T_t_h, options, workspace);
   }
   const bool known = policy == LinearisePolicy::template_jacobian || policy == LinearisePolicy::esm;
-  if (known && in.patch.gx && in.patch.gy && is_ok(detail::check_input(in, theta, T_t_h, options, workspace)) &&
-      detail::kernel_linearise_by<P>(policy, in, theta, T_t_h, options, workspace, prepared, &out))
-    return out;
-  return reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
+  NormalEquations<P> out{detail::Unset()};
+  if (!known || !in.patch.gx || !in.patch.gy || !is_ok(detail::check_input(in, theta, T_t_h, options, workspace)) ||
+      !detail::kernel_linearise_by<P>(policy, in, theta, T_t_h, options, workspace, prepared, &out))
+    out = reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
+  if (!is_ok(out.status)) out.clear();
+  return out;
 }
 
 TEXTPLANE_END_NAMESPACE

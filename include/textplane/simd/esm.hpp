@@ -14,13 +14,6 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace simd {
 
-/// Normal equations for (v, omega, theta). H is 9 x 9, row by row and symmetric.
-struct PolicySums {
-  double H[81];
-  double b[9];
-  ResidualInfo info;  ///< H and b may be used where its status is ok.
-};
-
 /// As ResidualArgs, with the host's gradients.
 struct EsmArgs {
   ResidualArgs base;          ///< base.flags must be given.
@@ -45,17 +38,17 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-inline void linearise_esm(const simd::EsmArgs& args, simd::PolicySums* out) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_esm(args, out));
+inline void linearise_esm(const simd::EsmArgs& args, simd::ResidualInfo* out, double* H, double* b) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(linearise_esm(args, out, H, b));
 }
 }  // namespace detail
 
 namespace simd {
 
-/// Normal equations for (v, omega, theta), P = 9; status as linearise_pose_plane().
-inline PolicySums linearise_esm(const EsmArgs& args) noexcept {
-  PolicySums out;
-  detail::linearise_esm(args, &out);
+/// Normal equations for (v, omega, theta): H (9 x 9) and b (9), status as linearise_pose_plane().
+inline ResidualInfo linearise_esm(const EsmArgs& args, double* H, double* b) noexcept {
+  ResidualInfo out;
+  detail::linearise_esm(args, &out, H, b);
   return out;
 }
 

@@ -87,8 +87,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 inline void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
-                               simd::PolicySums* out) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_template(m, args, values, out));
+                               simd::ResidualInfo* out, double* H, double* b) noexcept {
+  TEXTPLANE_SIMD_DISPATCH(linearise_template(m, args, values, out, H, b));
 }
 inline void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
                               simd::ResidualInfo* out) noexcept {
@@ -111,9 +111,10 @@ inline void template_correlation(const TemplateArgs& args, TemplateSums& sums) n
 /// Template-Jacobian normal equations for (v, omega, theta), P = 9. Of `args` the host's pixels are not read (n must be the
 /// model's), masks neither: all pixels count, and where not all of them are visible the status is out_of_view, and another
 /// kernel must take the case. `values`: room for n int16, rounded up to blocks. Otherwise as linearise_pose_plane().
-inline PolicySums linearise_template(const TemplateModel& model, const ResidualArgs& args, std::int16_t* values) noexcept {
-  PolicySums out;
-  detail::linearise_template(model, args, values, &out);
+inline ResidualInfo linearise_template(const TemplateModel& model, const ResidualArgs& args, std::int16_t* values, double* H,
+                                       double* b) noexcept {
+  ResidualInfo out;
+  detail::linearise_template(model, args, values, &out, H, b);
   return out;
 }
 

@@ -20,10 +20,15 @@ TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept {
 }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)); }
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return vaddvq_s32(v); }
-TEXTPLANE_SIMD_INLINE v16 gather16(const std::uint8_t* p, const int* offset) noexcept {
-  std::uint16_t w[8];
-  for (int i = 0; i < 8; ++i) w[i] = static_cast<std::uint16_t>(load_half(p + offset[i]));
-  return vreinterpretq_s16_u16(vld1q_u16(w));
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  std::uint16_t u[8], l[8];
+  for (int i = 0; i < 8; ++i) {
+    u[i] = static_cast<std::uint16_t>(load_half(upper + offset[i]));
+    l[i] = static_cast<std::uint16_t>(load_half(lower + offset[i]));
+  }
+  *first = vreinterpretq_s16_u16(vld1q_u16(u));
+  *second = vreinterpretq_s16_u16(vld1q_u16(l));
 }
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
   std::uint32_t w[4];

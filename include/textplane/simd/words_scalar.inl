@@ -30,9 +30,11 @@ TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return x.a * y.a + x.b *
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
 // Sum of the lanes; it wraps.
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return v; }
-// Word i: the two bytes at p + offset[i], the first of them low. Reads these bytes alone.
-TEXTPLANE_SIMD_INLINE v16 gather16(const std::uint8_t* p, const int* offset) noexcept {
-  return make16(static_cast<int>(load_half(p + offset[0])), static_cast<int>(load_half(p + offset[1])));
+// Word i: the two bytes at upper (lower) + offset[i], the first of them low. Reads these bytes alone.
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  *first = make16(static_cast<int>(load_half(upper + offset[0])), static_cast<int>(load_half(upper + offset[1])));
+  *second = make16(static_cast<int>(load_half(lower + offset[0])), static_cast<int>(load_half(lower + offset[1])));
 }
 // Word i: the low (high) half of lane i of the 2 kLanes int32 in a and b.
 TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return make16(a, b); }

@@ -166,12 +166,11 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   return Status::ok;
 }
 
-TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::PolicySums* out) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualInfo* info, double* H, double* b) noexcept {
   const simd::ResidualArgs& a = e.base;
   simd::PointBounds bounds = a.bounds;
   if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
   ResidualFrame f;
-  simd::ResidualInfo* info = &out->info;
   info->status = Status::rank_deficient;
   if (!make_frame(a, bounds, &f)) return;
   ResidualArrays s;
@@ -187,7 +186,8 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::PolicySums
       close_up_like(a.flags, e.gx, a.n, cx);
       close_up_like(a.flags, e.gy, a.n, cy);
     }
-    info->status = esm_pixels(e, f, pixels, closed ? cx : e.gx, closed ? cy : e.gy, s, info, out->H, out->b);
+    info->status = esm_pixels(e, f, pixels, closed ? cx : e.gx, closed ? cy : e.gy, s, info, H, b);
+    if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
     if (info->status != Status::non_finite) return;
   }
   info->status = Status::rank_deficient;

@@ -1,16 +1,27 @@
 // From rows of a homography in host coordinates to the nine parameters, in double: see simd/esm.hpp and docs/equations.md.
 
-// The eight coefficients of the generator left^T right of a homography in pixels.
-TEXTPLANE_SIMD_INLINE void generator(const double* left, const double* right, double* m) noexcept {
+// The eight coefficients of the generator left^T right of a homography in pixels, `step` apart: set, and taken away.
+TEXTPLANE_SIMD_INLINE void set_generator(const double* left, const double* right, std::ptrdiff_t step, double* m) noexcept {
   const double corner = left[2] * right[2];
   m[0] = left[0] * right[2];
-  m[1] = left[0] * right[0] - corner;
-  m[2] = left[0] * right[1];
-  m[3] = left[1] * right[2];
-  m[4] = left[1] * right[0];
-  m[5] = left[1] * right[1] - corner;
-  m[6] = -(left[2] * right[0]);
-  m[7] = -(left[2] * right[1]);
+  m[step] = left[0] * right[0] - corner;
+  m[2 * step] = left[0] * right[1];
+  m[3 * step] = left[1] * right[2];
+  m[4 * step] = left[1] * right[0];
+  m[5 * step] = left[1] * right[1] - corner;
+  m[6 * step] = -(left[2] * right[0]);
+  m[7 * step] = -(left[2] * right[1]);
+}
+TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* right, std::ptrdiff_t step, double* m) noexcept {
+  const double corner = left[2] * right[2];
+  m[0] -= left[0] * right[2];
+  m[step] -= left[0] * right[0] - corner;
+  m[2 * step] -= left[0] * right[1];
+  m[3 * step] -= left[1] * right[2];
+  m[4 * step] -= left[1] * right[0];
+  m[5 * step] -= left[1] * right[1] - corner;
+  m[6 * step] += left[2] * right[0];
+  m[7 * step] += left[2] * right[1];
 }
 
 // M with j_host . M dp = dI, as change_parameters() takes it: the host pixel (u, v), relative to (hx, hy), moves by
@@ -34,26 +45,13 @@ TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const Residu
   for (int r = 0; r < 3; ++r) back[r] = column[0][r] * a.t[0] + column[1][r] * a.t[1] + column[2][r] * a.t[2];
   const double theta[3] = {a.theta[0] * ifx, a.theta[1] * ify, a.theta[2] - a.theta[0] * cx - a.theta[1] * dy};
   const double unit[3][3] = {{ifx, 0, -cx}, {0, ify, -dy}, {0, 0, 1}};
-  double m[9][8], other[3][8];
-  generator(column[0], theta, m[0]);
-  generator(column[1], theta, m[1]);
-  generator(column[2], theta, m[2]);
-  generator(column[2], row[1], m[3]);
-  generator(column[1], row[2], other[0]);
-  generator(column[0], row[2], m[4]);
-  generator(column[2], row[0], other[1]);
-  generator(column[1], row[0], m[5]);
-  generator(column[0], row[1], other[2]);
-  generator(back, unit[0], m[6]);
-  generator(back, unit[1], m[7]);
-  generator(back, unit[2], m[8]);
-  for (int e = 0; e < 8; ++e) {
-    for (int k = 0; k < 3; ++k) {
-      M[e][k] = m[k][e];
-      M[e][3 + k] = m[3 + k][e] - other[k][e];
-    }
-    M[e][6] = m[6][e];
-    M[e][7] = m[7][e];
-    M[8][e] = m[8][e];
+  for (int k = 0; k < 3; ++k) {
+    const int next = k < 2 ? k + 1 : 0, last = k > 0 ? k - 1 : 2;
+    set_generator(column[k], theta, 8, &M[0][k]);
+    set_generator(column[last], row[next], 8, &M[0][3 + k]);
+    take_generator(column[next], row[last], 8, &M[0][3 + k]);
   }
+  set_generator(back, unit[0], 8, &M[0][6]);
+  set_generator(back, unit[1], 8, &M[0][7]);
+  set_generator(back, unit[2], 1, M[8]);
 }

@@ -29,9 +29,9 @@ TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
 
 // Sets n bytes to 1.
 TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
-  const std::uint64_t ones = 0x0101010101010101ULL;
+  const std::uint64_t one = 0x0101010101010101ULL, ones[4] = {one, one, one, one};
   int i = 0;
-  for (; i + 8 <= n; i += 8) copy_bytes(p + i, &ones, 8);
+  for (; i + 32 <= n; i += 32) copy_bytes(p + i, ones, 32);
   for (; i < n; ++i) p[i] = 1;
 }
 

@@ -297,20 +297,6 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const Re
   return Status::ok;
 }
 
-// No number among n is a NaN or infinite (nor their sum, which for entries of H would be as bad).
-TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
-  double sum = 0, eight[8];
-  int i = 0;
-  if (n >= 8) {
-    vd all = loadd(p);
-    for (i = 8; i + 8 <= n; i += 8) all = maddd(setd(1.0), loadd(p + i), all);
-    stored(eight, all);
-    sum = ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
-  }
-  for (; i < n; ++i) sum += p[i];
-  return finite_d(sum);
-}
-
 // Normal equations of `parameters` (3, 6 or 9) for the host pixels, of which there are at least a.min_visible.
 TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
                                              const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info,
@@ -412,5 +398,5 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
       for (int j = i; j < form; ++j) H[form * i + j] = H[form * j + i] = sums.S[i][j];
     }
   }
-  return finite_sum(H, parameters * parameters) && finite_sum(b, parameters) ? Status::ok : Status::rank_deficient;
+  return finite_sums(parameters, *info, H, b) ? Status::ok : Status::rank_deficient;
 }

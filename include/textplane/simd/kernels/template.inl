@@ -1,5 +1,5 @@
 // Bodies of simd/template.hpp. A strip of pixels passes through short loops, each near the limit of its ports (one long loop
-// is bound by the scheduler's window): divisors | positions | offsets and fractions | taps and interpolation | products.
+// is bound by the scheduler's window): divisors | positions, offsets and fractions | taps and interpolation | products.
 //
 // Range of the sums: a word product is at most 8191 * 8160, two of them in a lane, 16 vectors a strip: 2.14e9 < 2^31. After a
 // strip the lanes are split into low and high halves, which add up for kTemplateChunk pixels without overflow.
@@ -12,7 +12,6 @@ enum : int {
 
 struct TemplateStrip {
   float inverse[kTemplateStrip];
-  std::int32_t x[kTemplateStrip], y[kTemplateStrip];  // in units of 2^-15 px
   std::int32_t offset[kTemplateStrip];
   std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
 };
@@ -30,23 +29,22 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
   }
 }
 
-TEXTPLANE_SIMD_INLINE void template_positions(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
+// Positions in units of 2^-15 px; of them the offsets of the cells, in elements of what is read, clamped so that a cell lies in the
+// buffer whatever its position, and the fractions.
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset, int high_offset,
+                                          int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
-  const float *u = a.u + from, *v = a.v + from;
-  for (int i = 0; i < n; i += kLanes) {
-    const vf p = load(u + i), q = load(v + i), z = load(s.inverse + i);
-    storei(s.x + i, to_int(madd(madd(g0, p, madd(g1, q, g2)), z, half)));
-    storei(s.y + i, to_int(madd(madd(g3, p, madd(g4, q, g5)), z, half)));
-  }
-}
-
-// Offsets of the cells, in elements of what is read, clamped so that a cell lies in the buffer whatever its position.
-TEXTPLANE_SIMD_INLINE void template_cells(int stride, int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
   const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  const float *u = a.u + from, *v = a.v + from;
   for (int i = 0; i < n; i += k16Lanes) {
-    const vi x0 = loadi(s.x + i), x1 = loadi(s.x + i + kLanes), y0 = loadi(s.y + i), y1 = loadi(s.y + i + kLanes);
+    const vf p0 = load(u + i), q0 = load(v + i), z0 = load(s.inverse + i);
+    const vi x0 = to_int(madd(madd(g0, p0, madd(g1, q0, g2)), z0, half));
+    const vi y0 = to_int(madd(madd(g3, p0, madd(g4, q0, g5)), z0, half));
+    const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
+    const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
+    const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
     const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
     storei(s.offset + i, mini(maxi(o0, low), high));
     storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
@@ -66,9 +64,11 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
                                          std::int16_t* values) noexcept {
   const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
   const std::uint8_t* lower = upper + a.target.stride;
-  for (int i = 0; i < n; i += k16Lanes)
-    store16(values + i, template_value(gather16(upper, s.offset + i), gather16(lower, s.offset + i),
-                                      load16(s.fx + i), load16(s.fy + i)));
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    gather16(upper, lower, s.offset + i, &first, &second);
+    store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+  }
 }
 
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
@@ -141,8 +141,7 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       template_divide(a, from, n, strip);
-      template_positions(a, from, n, strip);
-      template_cells(stride, low_offset, high_offset, n, strip);
+      template_cells(a, from, stride, low_offset, high_offset, n, strip);
       if (paired) template_pairs(a, n, strip, values);
       else template_rows(a, n, strip, values);
       if (a.n - from < n) zero16(values, a.n - from, n);

@@ -174,8 +174,9 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
 }
 
 TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                             simd::PolicySums* out) noexcept {
-  template_any(m, a, values, true, &out->info, out->H, out->b);
+                                             simd::ResidualInfo* info, double* H, double* b) noexcept {
+  template_any(m, a, values, true, info, H, b);
+  if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
                                             simd::ResidualInfo* info) noexcept {
