@@ -62,33 +62,58 @@ NormalEquations<P> linearise(const BasicPhotometricInput<T>& in, const Vector3<d
   return out;
 }
 
-// The equations for (v, omega, theta) seen through d xi(T_t_h) / d (xi_h, xi_t).
+// Three numbers of p and q.
+inline double dot3(const double* p, const double* q) noexcept { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+
+// The equations for (v, omega, theta) seen through d xi(T_t_h) / d (xi_h, xi_t): relative_pose_jacobians(), without products by
+// its zeros, and by the target's, which is -I or the negative of the host's.
 // (S is double: a template, so that including the header costs little.)
 template <class S>
 NormalEquations<15> world_parameters(const NormalEquations<9>& inner, const SE3<S>& T_w_h, const SE3<S>& T_w_t,
                                      PerturbationSide side) noexcept {
-  using Matrix6 = Eigen::Matrix<S, 6, 6>;
-  NormalEquations<15> out;
+  NormalEquations<15> out{Unset()};
   out.status = inner.status;
-  if (!is_ok(out.status)) return out;
-
-  const RelativePoseJacobians<S> map = relative_pose_jacobians(T_w_h, T_w_t, side);
-  const Matrix6 pose = inner.H.topLeftCorner<6, 6>();
-  const Eigen::Matrix<S, 6, 3> cross = inner.H.topRightCorner<6, 3>();
-  const Vector6<S> b = inner.b.head<6>();
-  const Matrix6 pose_host = pose * map.host, pose_target = pose * map.target;
-  out.H.block<6, 6>(0, 0) = map.host.transpose() * pose_host;
-  out.H.block<6, 6>(0, 6) = map.host.transpose() * pose_target;
-  out.H.block<6, 6>(6, 6) = map.target.transpose() * pose_target;
-  out.H.block<6, 3>(0, 12) = map.host.transpose() * cross;
-  out.H.block<6, 3>(6, 12) = map.target.transpose() * cross;
-  out.H.block<3, 3>(12, 12) = inner.H.bottomRightCorner<3, 3>();
-  for (int i = 0; i < 15; ++i)
-    for (int j = 0; j < i; ++j) out.H(i, j) = out.H(j, i);
-  out.b.segment<6>(0) = map.host.transpose() * b;
-  out.b.segment<6>(6) = map.target.transpose() * b;
-  out.b.segment<3>(12) = inner.b.tail<3>();
-  if (!all_finite(out.H) || !all_finite(out.b)) {
+  if (!is_ok(out.status)) {
+    out.clear();
+    return out;
+  }
+  const bool right = side == PerturbationSide::right;
+  const SE3<S> T_t_w = T_w_t.inverse(), T = right ? T_t_w * T_w_h : T_t_w;
+  const Matrix3<S> upper = product(hat(T.t), T.R);
+  // Of the adjoint: columns 0 to 2 are (R_k, 0), columns 3 to 5 are (X_k, R_k). W is its transpose times the pose's rows.
+  const S *R = T.R.data(), *X = upper.data(), *H = inner.H.data(), *b = inner.b.data();
+  double W[6][9], *to = out.H.data();
+  for (int i = 0; i < 3; ++i) {
+    for (int c = 0; c < 9; ++c) {
+      W[i][c] = dot3(R + 3 * i, H + 9 * c);
+      W[3 + i][c] = dot3(X + 3 * i, H + 9 * c) + dot3(R + 3 * i, H + 9 * c + 3);
+    }
+    out.b[i] = dot3(R + 3 * i, b);
+    out.b[3 + i] = dot3(X + 3 * i, b) + dot3(R + 3 * i, b + 3);
+    out.b[12 + i] = b[6 + i];
+  }
+  for (int i = 0; i < 6; ++i) {
+    out.b[6 + i] = right ? -b[i] : -out.b[i];
+    for (int j = 0; j <= i; ++j)
+      to[15 * i + j] = to[15 * j + i] =
+          j < 3 ? dot3(W[i], R + 3 * j) : dot3(W[i], X + 3 * j - 9) + dot3(W[i] + 3, R + 3 * j - 9);
+  }
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      to[15 * i + 6 + j] = to[15 * (6 + j) + i] = right ? -W[i][j] : -to[15 * i + j];
+      to[15 * (6 + i) + 6 + j] = right ? H[9 * i + j] : to[15 * i + j];
+    }
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 6; ++i) {
+      to[15 * i + 12 + k] = to[15 * (12 + k) + i] = W[i][6 + k];
+      to[15 * (6 + i) + 12 + k] = to[15 * (12 + k) + 6 + i] = right ? -H[9 * i + 6 + k] : -W[i][6 + k];
+    }
+    for (int l = 0; l < 3; ++l) to[15 * (12 + l) + 12 + k] = H[9 * (6 + l) + 6 + k];
+  }
+  std::uint64_t bad = 0;
+  for (int i = 0; i < 225; ++i) bad |= not_finite_bit(to[i]);
+  for (int i = 0; i < 15; ++i) bad |= not_finite_bit(out.b[i]);
+  if (bad >> 63 != 0) {
     out = NormalEquations<15>();
     out.status = Status::non_finite;
     return out;
