@@ -21,7 +21,7 @@ TEST(ResidualKernels, EveryNumberOfPixels) {
   }
 }
 
-// 160 is the last number of pixels that takes rows, 256 a strip, 2048 what the widest sums hold before they go to double.
+// 256 is the last number of pixels that takes rows, and a strip; 2048 what the widest sums hold before they go to double.
 TEST(ResidualKernels, ManyPixels) {
   for (const int n : {100, 160, 161, 255, 256, 257, 1000, 2049, 4001})
     for (int mode = 0; mode < 4; ++mode) {

@@ -81,7 +81,7 @@ struct ResidualSums {
 
 namespace detail {
 enum : int {
-  kRowPixels = 160,  // up to here rows of the parameters, from here on sums that are corrected
+  kRowPixels = 256,  // up to here rows of the parameters, from here on sums that are corrected
   kFoldTerms = 256,  // terms of a lane before a sum goes to double
   kMostSums = 52,    // 27 + 3 * 8, and a multiple of four
   kMostLanes = 16,
@@ -95,7 +95,7 @@ struct ResidualFrame {
   double inverse[9];  // H^-1, row-major
   double q[3];        // theta^T H^-1
   double c, d, ifx, ify;  // ifx, ify: 1 / focal lengths of the target
-  bool inside;            // every pixel of the patch is visible
+  bool inside;            // if true, every pixel of the patch is visible
 };
 
 // The caller's scratch: one array of each.
