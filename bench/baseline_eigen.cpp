@@ -1,6 +1,7 @@
-// Written as a careful SLAM author writes it, and built -O3 -march=native. First pass: warp, bilinear value and gradient, row
-// of dI, and the sums that mean, norm and their derivatives need. Second pass: residual, Huber weight, row of dr, and J^T W J as Eigen's matrix product over
-// chunks of rows, or one rank-one update a pixel, whichever is faster for the number of parameters. Rows are kept between the passes in memory that is reused.
+// Written as a careful SLAM author writes it, and built -O3 -march=native. First pass: warp, bilinear value and gradient, row of
+// dI, and the sums that mean, norm and their derivatives need. Second pass: residual, Huber weight, row of dr, and J^T W J as
+// Eigen's matrix product over chunks of rows, or one rank-one update a pixel, whichever is faster for the number of parameters.
+// Rows are kept between the passes in memory that is reused.
 #include "baseline_eigen.hpp"
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 // textplane_convergence [TRIALS]: how far off a start may be. TRIALS (200) starts for each of four scenes, off by 1 to 16 px of
-// mean corner error, a 100 x 40 patch, one and three pyramid levels. JSON on standard output, a row a method, number of
-// levels and distance: share of successes (final corner error below 0.5 px) in all and by scene, median final error of the successes, median time
-// of a solve.
+// mean corner error, a 100 x 40 patch, one and three pyramid levels. JSON on standard output, a row a method, number of levels
+// and distance: share of successes (final corner error below 0.5 px) in all and by scene, median final error of the successes,
+// median time of a solve.
 //
 // "pose and plane": both unknown and both wrong at the start, 8 degrees of freedom as findTransformECC's. "pose": the plane
 // is known, as to a tracker, and refine_pose() is what is called.
