@@ -49,7 +49,7 @@ inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch*
   }
 }
 
-/// Coarse to fine; a coarse level is but the start of the next. LinearisePolicy::automatic as in PoseOptions.
+/// Coarse to fine. LinearisePolicy::automatic as in PoseOptions.
 inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatch>& prepared, int levels,
                   const tp::PyramidView& target, const tp::Pinhole<double>& camera, tp::LinearisePolicy policy,
                   tp::PhotometricWorkspace& workspace, Start* s) {
@@ -57,8 +57,8 @@ inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatc
     const auto here = policy != tp::LinearisePolicy::automatic ? policy
                       : l > 0                                  ? tp::LinearisePolicy::esm
                                                                : tp::LinearisePolicy::forward;
-    align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)], here,
-                l > 0 ? 1e-2 : 1e-3, workspace, s);
+    align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)], here, 1e-3,
+                workspace, s);
   }
 }
 

@@ -4,6 +4,7 @@
 #define TEXTPLANE_SOLVER_SEARCH_HPP
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "textplane/photometry/candidates.hpp"
@@ -16,27 +17,88 @@ struct SearchOptions {
   int level = 2;      ///< Pyramid level; lowered to the coarsest that patch and target have with enough pixels.
   int radius = 4;     ///< Shifts -radius .. radius along x and along y, at most 8.
   double step = 1.0;  ///< Between shifts.
+  double roll =
+      0.1;  ///< Then turned by this and its half to both sides, rad, with shifts of one step round the best; 0: not.
   PhotometricOptions photometric;
 };
 
+namespace detail {
+
+// Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was there.
+class PoseSearch {
+ public:
+  static constexpr int kMost = 8;
+
+  // `centre`: of the patch in the target, normalised.
+  PoseSearch(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& guess, const Vector2<double>& centre,
+             const SearchOptions& options, PhotometricWorkspace& workspace, const TemplatePatch* prepared) noexcept
+      : in_(in),
+        theta_(theta),
+        options_(options),
+        workspace_(workspace),
+        prepared_(prepared),
+        centre_(centre),
+        best_(guess) {
+    try_row(guess, 0, 0, 0, 0, 0);
+  }
+
+  // Shifts of -radius .. radius steps of `from`, rolled about the ray of the centre before.
+  void shifts(const SE3d& from, int radius, double step, double roll) noexcept {
+    for (int y = -radius; y <= radius; ++y) try_row(from, -radius, radius, y, step, roll);
+  }
+
+  const SE3d& best() const noexcept { return best_; }
+  float zncc() const noexcept { return zncc_; }
+
+ private:
+  void try_row(const SE3d& from, int first, int last, int y, double step, double roll) noexcept {
+    SE3d row[2 * kMost + 1];
+    float zncc[2 * kMost + 1];
+    const double u = centre_[0], v = centre_[1], n = 1 + u * u + v * v, about = roll / std::sqrt(n);
+    for (int x = first; x <= last; ++x) {
+      // The rotation that takes the ray of the centre to the shifted one, to first order, and one about that ray.
+      const double du = x * step / in_.target_camera.fx, dv = y * step / in_.target_camera.fy;
+      Vector6<double> xi;
+      xi << 0.0, 0.0, 0.0, -dv / n + about * u, du / n + about * v, (u * dv - v * du) / n + about;
+      row[x - first] = se3_exp<double>(xi) * from;
+    }
+    const int count = last - first + 1;
+    zncc_candidates(in_, theta_, row, count, options_.photometric, workspace_, zncc, prepared_);
+    for (int i = 0; i < count; ++i) {
+      if (!(zncc[i] > zncc_)) continue;
+      zncc_ = zncc[i];
+      best_ = row[i];
+    }
+  }
+
+  const PhotometricInput& in_;
+  const Vector3<double>& theta_;
+  const SearchOptions& options_;
+  PhotometricWorkspace& workspace_;
+  const TemplatePatch* prepared_;
+  Vector2<double> centre_;
+  SE3d best_;
+  float zncc_ = -1.0F;
+};
+
+}  // namespace detail
+
 /// The pose T_t_h, out of those that turn the target camera so that the patch's centre moves by the shifts of a grid, with the
-/// best ZNCC of the patch in the target; the guess itself where nothing is better or nothing can be compared. `zncc`, if given,
-/// receives the best value, -1 where none. `prepared`: one TemplatePatch a level, or null. No allocation; `workspace` must have
-/// room for the patch.
+/// best ZNCC of the patch in the target, and then turned a little about that centre where this is better still; the guess itself
+/// where nothing is better or nothing can be compared. `zncc`, if given, receives the best value, -1 where none. `prepared`: one
+/// TemplatePatch a level, or null. No allocation; `workspace` must have room for the patch.
 template <class = void>  // instantiated where it is called: including the header costs little
-SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                        const PyramidView& target, const Pinhole<double>& camera, const SearchOptions& options,
-                        PhotometricWorkspace& workspace, const TemplatePatch* prepared = nullptr,
-                        float* zncc = nullptr) noexcept {
-  constexpr int kMost = 8, kRow = 2 * kMost + 1;
+SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
+                 const Pinhole<double>& camera, const SearchOptions& options, PhotometricWorkspace& workspace,
+                 const TemplatePatch* prepared = nullptr, float* zncc = nullptr) noexcept {
   if (zncc) *zncc = -1.0F;
   int level = std::min({options.level, patch.level_count() - 1, target.levels - 1});
   while (level > 0 &&
          static_cast<int>(patch.levels[static_cast<std::size_t>(level)].x.size()) < 2 * options.photometric.min_visible)
     --level;
-  if (level < 0 || !(options.step > 0) || !camera.valid()) return T_t_h;
+  if (level < 0 || !(options.step > 0) || !is_finite(options.step) || !is_finite(options.roll) || !camera.valid())
+    return T_t_h;
   const PhotometricInput in = photometric_input(patch, level, target, camera);
-  const Pinhole<double> c = camera.at_level(level);
   Vector3<double> q = Vector3<double>::Zero();
   for (const Vector2<double>& corner : patch.quad.corner) {
     const Vector3<double> m = patch.camera.unproject(corner);
@@ -45,33 +107,17 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
       q[r] += 0.25 * (T_t_h.R(r, 0) * m[0] + T_t_h.R(r, 1) * m[1] + T_t_h.R(r, 2) * m[2] + rho * T_t_h.t[r]);
   }
   if (!(q[2] > 0)) return T_t_h;
-  const double u = q[0] / q[2], v = q[1] / q[2];
 
-  const int radius = std::min(std::max(options.radius, 0), kMost), side = 2 * radius + 1;
-  SE3d row[kRow], best = T_t_h;
-  float value[kRow], best_value = -1.0F;
-  for (int y = -radius; y <= radius; ++y) {
-    for (int x = -radius; x <= radius; ++x) {
-      // The rotation about the camera that takes the ray of the centre to the shifted one, to first order.
-      const double du = x * options.step / c.fx, dv = y * options.step / c.fy, n = 1 + u * u + v * v;
-      const Vector3<double> from(u, v, 1), to(u + du, v + dv, 1);
-      const Vector3<double> omega = from.cross(to) / n;
-      Vector6<double> xi;
-      xi << 0.0, 0.0, 0.0, omega[0], omega[1], omega[2];
-      row[x + radius] = se3_exp<double>(xi) * T_t_h;
-    }
-    zncc_candidates(in, theta, row, side, options.photometric, workspace, value, prepared ? prepared + level : nullptr);
-    for (int i = 0; i < side; ++i) {
-      // Equals do not replace the guess.
-      const bool centre = y == 0 && i == radius;
-      if (value[i] > best_value || (centre && !(value[i] < best_value) && value[i] > -1.0F)) {
-        best_value = value[i];
-        best = row[i];
-      }
-    }
+  detail::PoseSearch search(in, theta, T_t_h, {q[0] / q[2], q[1] / q[2]}, options, workspace,
+                            prepared ? prepared + level : nullptr);
+  search.shifts(T_t_h, std::min(std::max(options.radius, 0), detail::PoseSearch::kMost), options.step, 0);
+  if (options.roll != 0) {
+    const SE3d shifted = search.best();
+    for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0})
+      search.shifts(shifted, 1, 0.5 * options.step, share * options.roll);
   }
-  if (zncc) *zncc = best_value;
-  return best_value > -1.0F ? best : T_t_h;
+  if (zncc) *zncc = search.zncc();
+  return search.best();
 }
 
 TEXTPLANE_END_NAMESPACE
