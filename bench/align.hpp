@@ -49,16 +49,17 @@ inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch*
   }
 }
 
-/// Coarse to fine. LinearisePolicy::automatic as in PoseOptions.
+/// Coarse to fine, with a tolerance of 1e-3 on the finest level. A larger one is enough on coarse levels where the start is
+/// near. LinearisePolicy::automatic as in PoseOptions.
 inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatch>& prepared, int levels,
                   const tp::PyramidView& target, const tp::Pinhole<double>& camera, tp::LinearisePolicy policy,
-                  tp::PhotometricWorkspace& workspace, Start* s) {
+                  double coarse_tolerance, tp::PhotometricWorkspace& workspace, Start* s) {
   for (int l = levels - 1; l >= 0; --l) {
     const auto here = policy != tp::LinearisePolicy::automatic ? policy
                       : l > 0                                  ? tp::LinearisePolicy::esm
                                                                : tp::LinearisePolicy::forward;
-    align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)], here, 1e-3,
-                workspace, s);
+    align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)], here,
+                l > 0 ? coarse_tolerance : 1e-3, workspace, s);
   }
 }
 

@@ -49,7 +49,7 @@ struct Task {
 double run(const Task& task, tp::LinearisePolicy policy, tp::Pyramid& pyramid, tp::PhotometricWorkspace& workspace) {
   Start s{task.scene.T_start, task.scene.theta_start};
   pyramid.build(task.cut, Task::kLevels);
-  align(task.patch, task.prepared, Task::kLevels, pyramid.view(), task.camera, policy, workspace, &s);
+  align(task.patch, task.prepared, Task::kLevels, pyramid.view(), task.camera, policy, 1e-2, workspace, &s);
   return task.scene.corner_error(task.scene.pixel_homography(s.T_t_h, s.theta));
 }
 
