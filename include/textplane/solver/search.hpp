@@ -1,5 +1,5 @@
-// A coarse search before a pose is refined: ZNCC of one text object under shifts of its image, where the guess may be further
-// off than the basin of refine_pose().
+// A coarse search before a pose is refined: ZNCC of one text object under shifts and turns of its image, where the guess may
+// be further off than the basin of refine_pose().
 #ifndef TEXTPLANE_SOLVER_SEARCH_HPP
 #define TEXTPLANE_SOLVER_SEARCH_HPP
 
@@ -18,7 +18,7 @@ struct SearchOptions {
   int radius = 4;     ///< Shifts -radius .. radius along x and along y, at most 8.
   double step = 1.0;  ///< Between shifts.
   double roll =
-      0.1;  ///< Then turned by this and its half to both sides, rad, with shifts of one step round the best; 0: not.
+      0.1;  ///< Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
   PhotometricOptions photometric;
 };
 
