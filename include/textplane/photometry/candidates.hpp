@@ -28,7 +28,7 @@ inline Status zncc_candidates(const PhotometricInput& in, const Vector3<double>&
                     detail::kernel_args(in, theta, SE3d(), plain, workspace, &args.base);
   if (fast) {
     static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
-    args.model = prepared->model();
+    args.model = &prepared->model();
     args.pose = count > 0 ? T_t_h->R.data() : nullptr;
     args.count = count;
     args.values = reinterpret_cast<std::int16_t*>(workspace.more_scratch());

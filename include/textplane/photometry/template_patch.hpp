@@ -39,9 +39,10 @@ class TemplatePatch {
     model_.bounds = simd::point_bounds(patch.x, patch.y, patch.n);
     if (model_.bounds.n != patch.n) return Status::non_finite;
     for (int i = 0; i < patch.n; ++i)
-      if (!is_finite(patch.intensity[i]) || !is_finite(patch.gx[i]) || !is_finite(patch.gy[i])) return Status::non_finite;
-    const std::size_t room = (static_cast<std::size_t>(patch.n) + simd::kTemplateBlock - 1) / simd::kTemplateBlock *
-                             simd::kTemplateBlock;
+      if (!is_finite(patch.intensity[i]) || !is_finite(patch.gx[i]) || !is_finite(patch.gy[i]))
+        return Status::non_finite;
+    const std::size_t room =
+        (static_cast<std::size_t>(patch.n) + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
     floats_ = std::vector<float>(5 * room);
     rows_ = std::vector<std::int16_t>(room * simd::kTemplateColumns);
     set_pixels(patch, room);
@@ -64,9 +65,15 @@ class TemplatePatch {
     return rows_[static_cast<std::size_t>((block * simd::kTemplateColumns + column) * simd::kTemplateBlock + lane)];
   }
 
+  // As the kernels compute it (middle_of()); halves are exact, so that how it is compiled makes no difference.
+  static float middle(float low, float high) noexcept {
+    const float m = 0.5F * low + 0.5F * high;
+    return is_finite(m) ? m : 0.0F;
+  }
+
   void set_pixels(const PatchView& patch, std::size_t room) {
     float *u = floats_.data(), *v = u + room, *gx = v + room, *gy = gx + room;
-    const float hx = detail::scalar::middle_x(model_.bounds), hy = detail::scalar::middle_y(model_.bounds);
+    const float hx = middle(model_.bounds.x_low, model_.bounds.x_high), hy = middle(model_.bounds.y_low, model_.bounds.y_high);
     for (int i = 0; i < patch.n; ++i) {
       u[i] = patch.x[i] - hx;
       v[i] = patch.y[i] - hy;
@@ -140,7 +147,8 @@ class TemplatePatch {
     for (int k = 0; k < 8; ++k)
       for (int l = 0; l < 8; ++l) {
         model_.H_frozen[k][l] = scale * model_.S[k][l];
-        model_.H_exact[k][l] = scale * (model_.S[k][l] - model_.n * model_.e[k] * model_.e[l] - model_.c[k] * model_.c[l]);
+        model_.H_exact[k][l] =
+            scale * (model_.S[k][l] - model_.n * model_.e[k] * model_.e[l] - model_.c[k] * model_.c[l]);
       }
   }
 
@@ -183,7 +191,8 @@ bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, con
   info.status = Status::out_of_view;
   const bool esm = policy == LinearisePolicy::esm;
   if (!esm && prepared && prepared->size() == in.patch.n && !in.patch.mask)
-    info = simd::linearise_template(prepared->model(), args.base, reinterpret_cast<std::int16_t*>(workspace.more_scratch()), H, b);
+    info = simd::linearise_template(prepared->model(), args.base,
+                                    reinterpret_cast<std::int16_t*>(workspace.more_scratch()), H, b);
   // Not all of the patch is visible: the sums of what is.
   if (info.status == Status::out_of_view) {
     args.gx = in.patch.gx;

@@ -85,11 +85,12 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
 /// Costs alone (P = 0), normal equations of the pose (6), of pose and plane (9), for all objects.
-inline void batch_evaluate(const BatchArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(batch_evaluate(args)); }
-inline void batch_linearise_pose(const BatchArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(batch_linearise_pose(args)); }
-inline void batch_linearise_pose_plane(const BatchArgs& args) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(batch_linearise_pose_plane(args));
-}
+TEXTPLANE_KERNEL void batch_evaluate(const BatchArgs& args) noexcept
+    TEXTPLANE_SIMD_BODY(batch_evaluate(args))
+TEXTPLANE_KERNEL void batch_linearise_pose(const BatchArgs& args) noexcept
+    TEXTPLANE_SIMD_BODY(batch_linearise_pose(args))
+TEXTPLANE_KERNEL void batch_linearise_pose_plane(const BatchArgs& args) noexcept
+    TEXTPLANE_SIMD_BODY(batch_linearise_pose_plane(args))
 
 }  // namespace simd
 

@@ -151,4 +151,19 @@ TEXTPLANE_END_NAMESPACE
     default: return ::textplane::detail::scalar::call; \
   }
 
+// TEXTPLANE_KERNEL int f(int a) noexcept TEXTPLANE_SIMD_BODY(f(a)): an entry point. Inline; or, with compiled kernels
+// (targets.hpp), declared everywhere and defined in one file.
+#if !TEXTPLANE_HAS_KERNELS
+#define TEXTPLANE_KERNEL
+#define TEXTPLANE_SIMD_BODY(call) ;
+#elif defined(TEXTPLANE_EXTERN_KERNELS)
+#define TEXTPLANE_KERNEL
+#define TEXTPLANE_SIMD_BODY(call) \
+  { TEXTPLANE_SIMD_DISPATCH(call) }
+#else
+#define TEXTPLANE_KERNEL inline
+#define TEXTPLANE_SIMD_BODY(call) \
+  { TEXTPLANE_SIMD_DISPATCH(call) }
+#endif
+
 #endif  // TEXTPLANE_SIMD_DISPATCH_HPP

@@ -38,9 +38,8 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-inline void linearise_esm(const simd::EsmArgs& args, simd::ResidualInfo* out, double* H, double* b) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_esm(args, out, H, b));
-}
+TEXTPLANE_KERNEL void linearise_esm(const simd::EsmArgs& args, simd::ResidualInfo* out, double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_esm(args, out, H, b))
 }  // namespace detail
 
 namespace simd {

@@ -12,6 +12,7 @@
 #error "define TEXTPLANE_SIMD_KERNEL as the file to include"
 #endif
 
+#if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(push)
@@ -129,5 +130,6 @@ TEXTPLANE_END_NAMESPACE
 #elif defined(__GNUC__)
 #pragma GCC pop_options
 #endif
+#endif  // TEXTPLANE_HAS_KERNELS
 
 #undef TEXTPLANE_SIMD_KERNEL

@@ -58,20 +58,17 @@ namespace simd {
 /// A patch from grey levels in [0, 255] that the caller sampled, rounded to samples: (columns + 2) x (rows + 2) of
 /// them, the patch with a border of one on all sides, kKltStride apart in kKltPadded elements that are all initialised.
 /// No allocation.
-inline KltPatchSums klt_from_grey(const float* padded, int columns, int rows, KltPatch& patch) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(klt_from_grey(padded, columns, rows, patch));
-}
+TEXTPLANE_KERNEL KltPatchSums klt_from_grey(const float* padded, int columns, int rows, KltPatch& patch) noexcept
+    TEXTPLANE_SIMD_BODY(klt_from_grey(padded, columns, rows, patch))
 
 /// A patch from an image. `window` is that of the patch with its border: 2 more columns and rows than the patch,
 /// whose own are within [1, kKltSide]. Reads the window's pixels, and others of their rows only within `readable`.
-inline KltPatchSums klt_extract(const KltWindow& window, KltPatch& patch) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(klt_extract(window, patch));
-}
+TEXTPLANE_KERNEL KltPatchSums klt_extract(const KltWindow& window, KltPatch& patch) noexcept
+    TEXTPLANE_SIMD_BODY(klt_extract(window, patch))
 
 /// One evaluation of an alignment: the window has the size of the patch. Reads as klt_extract(). No allocation.
-inline KltSums klt_sums(const KltWindow& window, const KltPatch& patch) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(klt_sums(window, patch));
-}
+TEXTPLANE_KERNEL KltSums klt_sums(const KltWindow& window, const KltPatch& patch) noexcept
+    TEXTPLANE_SIMD_BODY(klt_sums(window, patch))
 
 }  // namespace simd
 TEXTPLANE_END_NAMESPACE

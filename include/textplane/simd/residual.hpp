@@ -70,13 +70,6 @@ struct ResidualInfo {
   Status status = Status::invalid_argument;
 };
 
-/// Sums of normal equations, P x P row by row and symmetric, and P, with what is known about the residuals.
-struct ResidualSums {
-  double H[81] = {};
-  double b[9] = {};
-  ResidualInfo info;
-};
-
 }  // namespace simd
 
 namespace detail {
@@ -131,21 +124,17 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-inline void linearise_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                 double* b) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_plane_sums(args, out, H, b));
-}
-inline void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                double* b) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_pose_sums(args, out, H, b));
-}
-inline void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                      double* b) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_pose_plane_sums(args, out, H, b));
-}
-inline void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(evaluate_cost(args, out));
-}
+TEXTPLANE_KERNEL void linearise_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                 double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_plane_sums(args, out, H, b))
+TEXTPLANE_KERNEL void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_pose_sums(args, out, H, b))
+TEXTPLANE_KERNEL void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                      double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_pose_plane_sums(args, out, H, b))
+TEXTPLANE_KERNEL void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept
+    TEXTPLANE_SIMD_BODY(evaluate_cost(args, out))
 }  // namespace detail
 
 namespace simd {

@@ -110,15 +110,12 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-inline void point_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(point_bounds(x, y, n, out));
-}
-inline void warp_points(const simd::PointArgs& args, simd::PointResult* result) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(warp_points(args, result));
-}
-inline void sample_points(const simd::PointArgs& args, simd::PointResult* result) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(sample_points(args, result));
-}
+TEXTPLANE_KERNEL void point_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept
+    TEXTPLANE_SIMD_BODY(point_bounds(x, y, n, out))
+TEXTPLANE_KERNEL void warp_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
+    TEXTPLANE_SIMD_BODY(warp_points(args, result))
+TEXTPLANE_KERNEL void sample_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
+    TEXTPLANE_SIMD_BODY(sample_points(args, result))
 }  // namespace detail
 
 namespace simd {
@@ -148,9 +145,8 @@ inline PointResult sample_points(const PointArgs& args) noexcept {
 /// Writes pairs(x, y) = I(x, y) | I(x, y + 1) << 8, y < height - 1, to `pairs`, `pair_stride` words from row to row. The caller
 /// guarantees an image that is readable() and room for (height - 2) * pair_stride + width words. Costs about what a copy of the
 /// image does.
-inline void prepare_pair16(const Image8& image, std::uint16_t* pairs, std::ptrdiff_t pair_stride) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(prepare_pair16(image, pairs, pair_stride));
-}
+TEXTPLANE_KERNEL void prepare_pair16(const Image8& image, std::uint16_t* pairs, std::ptrdiff_t pair_stride) noexcept
+    TEXTPLANE_SIMD_BODY(prepare_pair16(image, pairs, pair_stride))
 
 }  // namespace simd
 

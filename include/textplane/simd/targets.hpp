@@ -8,10 +8,28 @@
 //   TEXTPLANE_HAS_NEON                    1 for GCC and Clang on little-endian AArch64, where NEON is part of the baseline
 //
 // All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone.
+//
+// Compiled kernels, an option: compiling all targets of a kernel in every file that calls it takes its time. Where
+// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see the entry points as declarations, and one file,
+//
+//   #define TEXTPLANE_DEFINE_KERNELS
+//   #include <textplane/textplane.hpp>
+//
+// holds the kernels (CMake: link textplane::kernels, which is both). Results are the same. Flags that would make another
+// textplane (config.hpp) make the linker miss its kernels.
 #ifndef TEXTPLANE_SIMD_TARGETS_HPP
 #define TEXTPLANE_SIMD_TARGETS_HPP
 
 #include "textplane/config.hpp"
+
+#if defined(TEXTPLANE_DEFINE_KERNELS) && !defined(TEXTPLANE_EXTERN_KERNELS)
+#define TEXTPLANE_EXTERN_KERNELS
+#endif
+#if defined(TEXTPLANE_EXTERN_KERNELS) && !defined(TEXTPLANE_DEFINE_KERNELS)
+#define TEXTPLANE_HAS_KERNELS 0
+#else
+#define TEXTPLANE_HAS_KERNELS 1
+#endif
 
 #define TEXTPLANE_HAS_SSE41 0
 #define TEXTPLANE_HAS_AVX2 0
@@ -20,7 +38,9 @@
 
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
 #if defined(__x86_64__)
+#if TEXTPLANE_HAS_KERNELS
 #include <immintrin.h>
+#endif
 #undef TEXTPLANE_HAS_SSE41
 #define TEXTPLANE_HAS_SSE41 1
 #if defined(__clang__) || !defined(_WIN32)
@@ -30,7 +50,9 @@
 #define TEXTPLANE_HAS_AVX512 1
 #endif
 #elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
+#if TEXTPLANE_HAS_KERNELS
 #include <arm_neon.h>
+#endif
 #undef TEXTPLANE_HAS_NEON
 #define TEXTPLANE_HAS_NEON 1
 #endif

@@ -86,27 +86,23 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-inline void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
-                               simd::ResidualInfo* out, double* H, double* b) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(linearise_template(m, args, values, out, H, b));
-}
-inline void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
-                              simd::ResidualInfo* out) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(evaluate_template(m, args, values, out));
-}
+TEXTPLANE_KERNEL void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
+                               simd::ResidualInfo* out, double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_template(m, args, values, out, H, b))
+TEXTPLANE_KERNEL void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
+                              simd::ResidualInfo* out) noexcept
+    TEXTPLANE_SIMD_BODY(evaluate_template(m, args, values, out))
 }  // namespace detail
 
 namespace simd {
 
 /// V of every pixel, and all sums.
-inline void template_sums(const TemplateArgs& args, TemplateSums& sums) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(template_sums(args, sums));
-}
+TEXTPLANE_KERNEL void template_sums(const TemplateArgs& args, TemplateSums& sums) noexcept
+    TEXTPLANE_SIMD_BODY(template_sums(args, sums))
 
 /// V of every pixel, and the sums of the first column, of V and of V^2: what a correlation needs. The others are zero.
-inline void template_correlation(const TemplateArgs& args, TemplateSums& sums) noexcept {
-  TEXTPLANE_SIMD_DISPATCH(template_correlation(args, sums));
-}
+TEXTPLANE_KERNEL void template_correlation(const TemplateArgs& args, TemplateSums& sums) noexcept
+    TEXTPLANE_SIMD_BODY(template_correlation(args, sums))
 
 /// Template-Jacobian normal equations for (v, omega, theta), P = 9. Of `args` the host's pixels are not read (n must be the
 /// model's), masks neither: all pixels count, and where not all of them are visible the status is out_of_view, and another

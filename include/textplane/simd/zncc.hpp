@@ -19,7 +19,7 @@ namespace simd {
 constexpr float kZnccUnknown = -2.0F;
 
 struct ZnccArgs {
-  TemplateModel model;
+  const TemplateModel* model = nullptr;
   ResidualArgs base;  ///< As of linearise_template(); R and t are not read.
   /// Pose of candidate i: R at pose + i * pose_step, column by column, t three numbers from there + t_offset on.
   const double* pose = nullptr;
@@ -42,7 +42,8 @@ namespace simd {
 
 /// ZNCC of every candidate. Within 0.05 / sigma of the double reference's, sigma the lesser standard deviation of the two sides
 /// in intensity units, and the same on every target where the float positions are.
-inline void zncc_candidates(const ZnccArgs& args) noexcept { TEXTPLANE_SIMD_DISPATCH(zncc_candidates(args)); }
+TEXTPLANE_KERNEL void zncc_candidates(const ZnccArgs& args) noexcept
+    TEXTPLANE_SIMD_BODY(zncc_candidates(args))
 
 }  // namespace simd
 

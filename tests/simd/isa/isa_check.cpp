@@ -137,12 +137,12 @@ std::map<std::string, Function> functions_of(const std::string& object, bool dem
   return functions;
 }
 
-/// The kernels that a header dispatches to: NAME of each TEXTPLANE_SIMD_DISPATCH(NAME(...)).
+/// The kernels that a header dispatches to: NAME of each TEXTPLANE_SIMD_BODY(NAME(...)).
 std::vector<std::string> dispatched(const std::string& header) {
   std::ifstream file(header);
   if (!file) die("cannot read " + header);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const std::string key = "TEXTPLANE_SIMD_DISPATCH(";
+  const std::string key = "TEXTPLANE_SIMD_BODY(";
   std::vector<std::string> names;
   for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
     const std::size_t begin = at + key.size(), end = text.find('(', begin);

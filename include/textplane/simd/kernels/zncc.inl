@@ -11,7 +11,7 @@ TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
       for (int c = 0; c < 3; ++c) a.R[3 * r + c] = R[3 * c + r];
     }
     simd::ResidualInfo info = simd::ResidualInfo();
-    template_any(z.model, a, z.values, false, &info, nullptr, nullptr);
+    template_any(*z.model, a, z.values, false, &info, nullptr, nullptr);
     z.zncc[i] = info.status == Status::ok            ? static_cast<float>(1.0 - 0.5 * info.error)
                 : info.status == Status::no_contrast || info.status == Status::too_few ? -1.0F
                                                      : simd::kZnccUnknown;
