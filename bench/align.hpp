@@ -55,11 +55,8 @@ inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatc
                   const tp::PyramidView& target, const tp::Pinhole<double>& camera, tp::LinearisePolicy policy,
                   double coarse_tolerance, tp::PhotometricWorkspace& workspace, Start* s) {
   for (int l = levels - 1; l >= 0; --l) {
-    const auto here = policy != tp::LinearisePolicy::automatic ? policy
-                      : l > 0                                  ? tp::LinearisePolicy::esm
-                                                               : tp::LinearisePolicy::forward;
-    align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)], here,
-                l > 0 ? coarse_tolerance : 1e-3, workspace, s);
+    align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)],
+                tp::policy_at_level(policy, l, 0), l > 0 ? coarse_tolerance : 1e-3, workspace, s);
   }
 }
 

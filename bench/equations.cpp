@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "compare.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 #include "textplane/photometry/prepared_target.hpp"
@@ -54,30 +55,10 @@ struct Cycle {
 };
 
 template <int P>
-Errors errors(const tp::NormalEquations<P>& ours, const tp::NormalEquations<P>& reference) {
-  Errors e{{"error_H", 0}, {"error_b", 0}, {"error_cost", std::abs(ours.cost - reference.cost)}};
-  for (int i = 0; i < P; ++i) {
-    const double si = std::sqrt(reference.H(i, i));
-    if (!(si > 0)) continue;
-    e["error_b"] = std::max(e["error_b"], std::abs(ours.b[i] - reference.b[i]) / si);
-    for (int j = 0; j < P; ++j) {
-      const double sj = std::sqrt(reference.H(j, j));
-      if (sj > 0) e["error_H"] = std::max(e["error_H"], std::abs(ours.H(i, j) - reference.H(i, j)) / (si * sj));
-    }
-  }
+Errors errors_and_cost(const tp::NormalEquations<P>& ours, const tp::NormalEquations<P>& reference) {
+  Errors e = errors(ours, reference);
+  e["error_cost"] = std::abs(ours.cost - reference.cost);
   return e;
-}
-
-void largest(const Errors& from, Errors* to) {
-  for (const auto& [key, value] : from) (*to)[key] = std::max((*to)[key], value);
-}
-
-tp::PhotometricOptions options(bool huber) {
-  tp::PhotometricOptions o;
-  o.min_visible = 1;
-  o.min_contrast = 0;
-  if (!huber) o.robust.kind = tp::RobustKind::l2;
-  return o;
 }
 
 // `linearise(cycle, i)` and `reference(cycle, i)` give normal equations for scene i.
@@ -88,7 +69,7 @@ std::function<Work()> equations(int n, int count, bool pairs, const Linearise& l
     Work work;
     work.items = n;
     for (std::size_t i = 0; i < cycle->scenes.size(); ++i)
-      largest(errors(linearise(*cycle, i), reference(*cycle, i)), &work.errors);
+      largest(errors_and_cost(linearise(*cycle, i), reference(*cycle, i)), &work.errors);
     work.call = [=](std::size_t i) { keep(linearise(*cycle, i % cycle->scenes.size())); };
     return work;
   };
@@ -185,13 +166,13 @@ Work batch_work(int n) {
     in.target = first.target_view();
     const auto ours = result->normal_equations<P>(static_cast<int>(i));
     if constexpr (P == 9)
-      largest(errors(ours, tp::reference::linearise_pose_plane(in, items[i].theta, (*poses)[i], options(true),
-                                                               cycle->workspace)),
+      largest(errors_and_cost(ours, tp::reference::linearise_pose_plane(in, items[i].theta, (*poses)[i], options(true),
+                                                                        cycle->workspace)),
               &work.errors);
     if constexpr (P == 6)
-      largest(
-          errors(ours, tp::reference::linearise_pose(in, items[i].theta, (*poses)[i], options(true), cycle->workspace)),
-          &work.errors);
+      largest(errors_and_cost(ours, tp::reference::linearise_pose(in, items[i].theta, (*poses)[i], options(true),
+                                                                  cycle->workspace)),
+              &work.errors);
   }
   work.call = [run, cycle](std::size_t) { keep(run()); };
   return work;

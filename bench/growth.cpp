@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 
+#include "compare.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 #include "textplane/photometry/text_batch.hpp"
@@ -11,13 +12,6 @@
 namespace textplane_bench {
 
 namespace {
-
-tp::PhotometricOptions options() {
-  tp::PhotometricOptions o;
-  o.min_visible = 1;
-  o.min_contrast = 0;
-  return o;
-}
 
 void count(benchmark::State& state, double items) {
   state.counters["ns_pixel"] =
@@ -37,7 +31,7 @@ void pixels(benchmark::State& state, int n) {
   const Scene& scene = scene_of(n);
   const tp::PhotometricInput in = scene.input();
   tp::PhotometricWorkspace workspace(n);
-  for (auto _ : state) keep(tp::linearise_pose_plane(in, scene.theta_start, scene.T_start, options(), workspace));
+  for (auto _ : state) keep(tp::linearise_pose_plane(in, scene.theta_start, scene.T_start, options(true), workspace));
   count(state, n);
 }
 
@@ -72,7 +66,7 @@ void objects(benchmark::State& state, int count_objects) {
   const tp::TextBatch batch(items.data(), count_objects);
   tp::TextBatchResult result(batch);
   for (auto _ : state)
-    keep(tp::evaluate_batch<6>(batch, scene.target_view(), scene.camera, poses.data(), options(), result));
+    keep(tp::evaluate_batch<6>(batch, scene.target_view(), scene.camera, poses.data(), options(true), result));
   count(state, static_cast<double>(m) * kPixels);
 }
 

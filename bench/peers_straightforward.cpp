@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "baseline_eigen.hpp"
+#include "compare.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 #if defined(TEXTPLANE_BENCH_CERES)
@@ -24,23 +25,12 @@ std::shared_ptr<std::vector<Scene>> scenes(int n) {
   return out;
 }
 
-tp::PhotometricOptions options(bool huber) {
-  tp::PhotometricOptions o;
-  o.min_visible = 1;
-  if (!huber) o.robust.kind = tp::RobustKind::l2;
-  return o;
-}
-
-// As the errors of our kernels.
 template <int P>
-void compare(const Equations& peer, const tp::NormalEquations<P>& reference, Errors* e) {
-  for (int i = 0; i < P; ++i) {
-    const double si = std::sqrt(reference.H(i, i));
-    (*e)["error_b"] = std::max((*e)["error_b"], std::abs(peer.b[i] - reference.b[i]) / si);
-    for (int j = 0; j < P; ++j)
-      (*e)["error_H"] = std::max((*e)["error_H"],
-                                 std::abs(peer.H[P * i + j] - reference.H(i, j)) / (si * std::sqrt(reference.H(j, j))));
-  }
+tp::NormalEquations<P> normal_equations(const Equations& peer) {
+  tp::NormalEquations<P> out;
+  out.H = Eigen::Map<const Eigen::Matrix<double, P, P, Eigen::RowMajor>>(peer.H);
+  out.b = Eigen::Map<const Eigen::Matrix<double, P, 1>>(peer.b);
+  return out;
 }
 
 template <int P>
@@ -61,7 +51,7 @@ Work eigen_work(int n) {
   for (const Scene& s : *all) {
     Equations e;
     run(s.problem(), &e);
-    compare(e, reference<P>(s, true), &work.errors);
+    largest(errors(normal_equations<P>(e), reference<P>(s, true)), &work.errors);
   }
   const auto out = std::make_shared<Equations>();
   work.call = [=](std::size_t i) {
@@ -81,7 +71,7 @@ Work ceres_work(int n, bool equations) {
     costs->push_back(std::make_unique<CeresCost>(s.problem()));
     Equations e;
     costs->back()->equations(&e);
-    compare(e, reference<9>(s, false), &work.errors);
+    largest(errors(normal_equations<9>(e), reference<9>(s, false)), &work.errors);
   }
   const auto out = std::make_shared<Equations>();
   work.call = [=, kept = all](std::size_t i) {  // the costs point into the scenes

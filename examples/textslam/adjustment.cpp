@@ -43,13 +43,14 @@ class Adjustment {
   void weigh_texts() {
     constexpr double kLeastVariance = 0.02;  // below it, interpolation counts for more than the image
     std::vector<double> sums(texts_.size(), 0), counts(texts_.size(), 0);
+    textplane::PhotometricWorkspace workspace;
     for (textplane::WindowTextObservation& o : window_.text_observations) {
       const auto slot = static_cast<std::size_t>(o.text);
       const TextObject& text = map_.texts[static_cast<std::size_t>(texts_[slot])];
       const KeyFrame& keyframe = map_.keyframe(frames_[static_cast<std::size_t>(o.frame)]);
       const auto input =
           textplane::photometric_input(text.patch, 0, keyframe.frame.image->view(), map_.camera, o.scale_shift);
-      textplane::PhotometricWorkspace workspace(input.patch.n);
+      workspace.reserve(input.patch.n);
       const auto cost = textplane::evaluate(input, text.theta, map_.T_c_h(keyframe.T_w_c.inverse(), text.host),
                                             textplane::PhotometricOptions{}, workspace);
       o.weight = 1 / std::max(kLeastVariance, 1 - (textplane::is_ok(cost.status) ? cost.zncc : 0));

@@ -1,7 +1,6 @@
 #include "textslam/feature_tracks.hpp"
 
 #include <algorithm>
-#include <functional>
 
 #include "textplane/features/fast.hpp"
 #include "textplane/features/klt.hpp"
@@ -65,16 +64,10 @@ void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double
   const textplane::ImageView8 image = frame.image->level(0);
   const int border = parameters.klt_half_window + 2;
   std::vector<textplane::Corner> corners;
-  // The score is the largest threshold that finds a corner, suppressed or not: one pass serves all thresholds.
-  textplane::detect_fast(image, std::min(parameters.fast_threshold, parameters.min_fast_threshold), true, corners);
-  for (int threshold = parameters.fast_threshold;; threshold /= 2) {
-    threshold = std::max(threshold, parameters.min_fast_threshold);
-    const auto weak = [threshold](const textplane::Corner& c) { return c.score < static_cast<float>(threshold); };
-    const auto strong = std::count_if(corners.begin(), corners.end(), std::not_fn(weak));
-    if (strong < 4 * parameters.max_tracks && threshold > parameters.min_fast_threshold) continue;
-    corners.erase(std::remove_if(corners.begin(), corners.end(), weak), corners.end());
-    break;
-  }
+  const int lowest = parameters.min_fast_threshold;
+  textplane::detect_fast(image, std::min(parameters.fast_threshold, lowest), true, corners);
+  textplane::keep_enough(&corners, std::max(parameters.fast_threshold, lowest), lowest, 4 * parameters.max_tracks,
+                         [](int threshold) { return threshold / 2; });
   const auto inside = [&](const Vec2f& px) {
     return px.x() >= static_cast<float>(border) && px.y() >= static_cast<float>(border) &&
            px.x() < static_cast<float>(image.width() - border) && px.y() < static_cast<float>(image.height() - border);

@@ -6,6 +6,7 @@
 #ifndef TEXTPLANE_FEATURES_FAST_HPP
 #define TEXTPLANE_FEATURES_FAST_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -153,6 +154,21 @@ inline Status detect_fast(const ImageView8& image, int threshold, bool suppress,
     out.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(score)});
   });
   return Status::ok;
+}
+
+/// Keeps the corners that count at the highest threshold that finds `enough` of them: `first`, then what lower() makes of the
+/// one before, but none below `lowest`, at which all count. A corner's score is the largest threshold that finds it, suppressed
+/// or not, so corners detected once at the lowest threshold serve all.
+template <class Lower>
+void keep_enough(std::vector<Corner>* corners, int first, int lowest, int enough, const Lower& lower) {
+  for (int threshold = first;; threshold = std::max(lower(threshold), lowest)) {
+    const auto weak = [threshold](const Corner& c) { return c.score < static_cast<float>(threshold); };
+    const auto all = static_cast<int>(corners->size());
+    const int strong = all - static_cast<int>(std::count_if(corners->begin(), corners->end(), weak));
+    if (strong < enough && threshold > lowest) continue;
+    corners->erase(std::remove_if(corners->begin(), corners->end(), weak), corners->end());
+    return;
+  }
 }
 
 TEXTPLANE_END_NAMESPACE

@@ -81,7 +81,6 @@ inline std::vector<Corner> corners_in_region(const ImageView8& image, const Conv
   const int x0 = std::max(box.x0 - 3, 0), y0 = std::max(box.y0 - 3, 0);
   const int x1 = std::min(box.x1 + 3, image.width()), y1 = std::min(box.y1 + 3, image.height());
   const ImageView8 part(image.row(y0) + x0, x1 - x0, y1 - y0, image.stride());
-  // The score is the largest threshold that finds a corner, suppressed or not: one pass serves all thresholds.
   std::vector<Corner> found, inside;
   detect_fast(part, std::min(options.fast_threshold, options.lowest_fast_threshold), true, found);
   for (Corner c : found) {
@@ -89,15 +88,8 @@ inline std::vector<Corner> corners_in_region(const ImageView8& image, const Conv
     c.y += static_cast<float>(y0);
     if (contains(region, Vector2<double>(c.x, c.y))) inside.push_back(c);
   }
-  for (int threshold = options.fast_threshold;;
-       threshold = std::max(threshold * 3 / 4, options.lowest_fast_threshold)) {
-    const auto weak = [threshold](const Corner& c) { return c.score < static_cast<float>(threshold); };
-    const auto all = static_cast<int>(inside.size());
-    const auto strong = all - static_cast<int>(std::count_if(inside.begin(), inside.end(), weak));
-    if (strong < enough && threshold > options.lowest_fast_threshold) continue;
-    inside.erase(std::remove_if(inside.begin(), inside.end(), weak), inside.end());
-    return inside;
-  }
+  keep_enough(&inside, options.fast_threshold, options.lowest_fast_threshold, enough, [](int t) { return t * 3 / 4; });
+  return inside;
 }
 
 // Takes corners in rounds, at most one more from each cell a round, strongest first.

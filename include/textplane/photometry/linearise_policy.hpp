@@ -23,8 +23,16 @@ enum class LinearisePolicy : std::uint8_t {
   forward,            ///< Gradients of the target: the derivative of the cost itself.
   template_jacobian,  ///< Gradients of the host, prepared once: the cheapest iteration.
   esm,                ///< The mean of both: the widest basin.
-  automatic,          ///< A coarse-to-fine solver's choice by level: see PoseOptions::policy.
+  automatic,          ///< A coarse-to-fine solver's choice by level: see policy_at_level().
 };
+
+/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where the derivative of the cost itself, forward,
+/// ends at its minimum. The other policies are themselves on every level.
+constexpr LinearisePolicy policy_at_level(LinearisePolicy policy, int level, int finest_level) noexcept {
+  return policy != LinearisePolicy::automatic ? policy
+         : level > finest_level               ? LinearisePolicy::esm
+                                              : LinearisePolicy::forward;
+}
 
 namespace detail {
 // Row of dI_host for one pixel by the parameters of H. `inverse` is H^-1, row-major.
@@ -82,8 +90,8 @@ namespace reference {
 /// the patch. Cost, visible set and status as there; besides, invalid_argument for a patch without gradients or the policy
 /// `automatic`, non_finite for a gradient that is, behind_camera where the plane passes through the target's camera.
 template <int P, class T>
-NormalEquations<P> linearise_by(LinearisePolicy policy, const BasicPhotometricInput<T>& in, const Vector3<double>& theta,
-                                const SE3d& T_t_h, const PhotometricOptions& options,
+NormalEquations<P> linearise_by(LinearisePolicy policy, const BasicPhotometricInput<T>& in,
+                                const Vector3<double>& theta, const SE3d& T_t_h, const PhotometricOptions& options,
                                 PhotometricWorkspace& workspace) noexcept {
   NormalEquations<P> out;
   out.status = detail::check_input(in, theta, T_t_h, options, workspace);

@@ -231,6 +231,13 @@ NormalEquations<P> linearise_by(LinearisePolicy policy, const PhotometricInput& 
   if (!is_ok(out.status)) out.clear();
   return out;
 }
+/// Float images have no kernels of their own: by the reference, and nothing prepared is used.
+template <int P>
+NormalEquations<P> linearise_by(LinearisePolicy policy, const PhotometricInputF& in, const Vector3<double>& theta,
+                                const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
+                                const TemplatePatch* = nullptr) noexcept {
+  return reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
+}
 
 TEXTPLANE_END_NAMESPACE
 

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 #include "textplane/photometry/residual.hpp"
@@ -56,9 +55,8 @@ struct PoseOptions {
                            ///< the latest.
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
   int finest_level = 0;
-  /// Whose gradients texts are linearised with (docs/policy.md); patches without gradients take forward. automatic: ESM on all
-  /// levels but the finest, where the derivative of the cost itself, forward, ends at its minimum. Whatever the policy, steps
-  /// are judged by the cost.
+  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take forward.
+  /// Whatever the policy, steps are judged by the cost.
   LinearisePolicy policy = LinearisePolicy::forward;
 };
 
@@ -247,32 +245,22 @@ class PoseProblem {
     return Status::ok;
   }
 
-  LinearisePolicy policy() const noexcept {
-    if (options_.policy != LinearisePolicy::automatic) return options_.policy;
-    return level_ > options_.finest_level ? LinearisePolicy::esm : LinearisePolicy::forward;
-  }
-
   template <class Input>
   NormalEquations<6> linearise_text(const Input& input, const PoseTextTerm& term, const SE3d& T_t_h) noexcept {
-    const LinearisePolicy policy = this->policy();
+    const LinearisePolicy policy = policy_at_level(options_.policy, level_, options_.finest_level);
     PhotometricWorkspace& workspace = memory_.photometric_;
     if (policy == LinearisePolicy::forward || !input.patch.gx || !input.patch.gy)
       return textplane::linearise_pose(input, term.theta, T_t_h, options_.photometric, workspace);
-    if constexpr (std::is_same<Input, PhotometricInput>::value) {
-      const int host_level = term.scale_shift < 0 ? level_ - term.scale_shift : level_;
-      const TemplatePatch* prepared = term.prepared ? term.prepared + host_level : nullptr;
-      NormalEquations<6> n =
-          linearise_by<6>(policy, input, term.theta, T_t_h, options_.photometric, workspace, prepared);
-      // Trials are compared with this cost: it must be the one that evaluate() computes, to the last digit.
-      if (prepared && is_ok(n.status)) {
-        const PhotometricCost c =
-            textplane::evaluate(input, term.theta, T_t_h, options_.photometric, workspace, workspace.visible());
-        if (is_ok(c.status)) n.cost = c.cost;
-      }
-      return n;
-    } else {
-      return reference::linearise_by<6>(policy, input, term.theta, T_t_h, options_.photometric, workspace);
+    const int host_level = term.scale_shift < 0 ? level_ - term.scale_shift : level_;
+    const TemplatePatch* prepared = term.prepared ? term.prepared + host_level : nullptr;
+    NormalEquations<6> n = linearise_by<6>(policy, input, term.theta, T_t_h, options_.photometric, workspace, prepared);
+    // Trials are compared with this cost: it must be the one that evaluate() computes, to the last digit.
+    if (prepared && is_ok(n.status)) {
+      const PhotometricCost c =
+          textplane::evaluate(input, term.theta, T_t_h, options_.photometric, workspace, workspace.visible());
+      if (is_ok(c.status)) n.cost = c.cost;
     }
+    return n;
   }
 
   bool add_point(const PosePointTerm& term, const SE3d& T_t_w, PoseSystem& system) noexcept {
