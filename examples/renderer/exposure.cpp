@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kFootprint = 0.5;  // px: the distance of the grid's samples
 constexpr int kMostInstants = 32;
+constexpr double kStill = 0.2;  // px: blur that does not show
 
 }  // namespace
 
@@ -45,9 +46,11 @@ Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion
 }
 
 int instants_for(double blur) {
-  const int wanted = static_cast<int>(std::ceil(1.2 * blur / 4.0)) * 4;
-  return blur < 3.5 ? 4 : std::clamp(wanted, 8, kMostInstants);
+  const int wanted = static_cast<int>(std::ceil(1.2 * blur / 8.0)) * 8;
+  return blur < kStill ? 4 : std::clamp(wanted, 8, kMostInstants);
 }
+
+int sample_at(int instant) { return instant % 8 < 4 ? instant % 4 : 3 - instant % 4; }
 
 Image<double> expose(const Scene& scene, const RayCaster& caster, const Motion& motion, double middle, double exposure,
                      int instants) {
@@ -57,7 +60,7 @@ Image<double> expose(const Scene& scene, const RayCaster& caster, const Motion& 
   Image<double> sum(caster.camera().width, caster.camera().height);
   const std::vector<double> times = exposure_times(middle, exposure, instants);
   for (int i = 0; i < instants; ++i) {
-    caster.add(scene, motion(times[static_cast<std::size_t>(i)]), i % 4, kFootprint, 1.0 / instants, sum);
+    caster.add(scene, motion(times[static_cast<std::size_t>(i)]), sample_at(i), kFootprint, 1.0 / instants, sum);
   }
   return sum;
 }

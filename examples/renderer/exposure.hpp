@@ -9,8 +9,7 @@
 
 namespace textslam {
 
-/// The samples of a pixel: a 2 x 2 grid. Sample i and sample 3 - i lie opposite, so that the mean of a mirrored list of
-/// instants has its centre in the pixel's centre at the middle of the exposure.
+/// The samples of a pixel: a 2 x 2 grid. Sample i and sample 3 - i lie opposite.
 std::vector<Vector2<double>> pixel_grid();
 
 /// `n` instants, evenly spread over [middle - exposure/2, middle + exposure/2] and symmetric about `middle`.
@@ -22,8 +21,14 @@ struct Blur {
 };
 Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion, double middle, double exposure);
 
-/// Number of instants for a blur of so many pixels: four when slow, then more than one a pixel; a multiple of four.
+/// Number of instants for a blur of so many pixels: four where it does not show, else at least eight, and more than one a
+/// pixel; a multiple of eight.
 int instants_for(double blur);
+
+/// The sample of the grid that an instant takes: there and back again, 0 1 2 3 3 2 1 0. So where a sample lies has nothing to do
+/// with when it is taken. Otherwise the spread of a moving point would depend on the sign of its motion, as in no camera, and
+/// planes seen in passing would seem to be turned.
+int sample_at(int instant);
 
 /// Light (0 to 255) that the shutter collects: one sample of the grid at each instant, averaged. `caster` holds
 /// pixel_grid(). Throws std::invalid_argument for another grid or a number of instants that is no multiple of four.

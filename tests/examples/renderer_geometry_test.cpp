@@ -127,14 +127,28 @@ TEST(RendererGeometry, InstantsAndSamplesAreSymmetricAboutTheMiddle) {
     for (int i = 0; i < n; ++i) {
       const std::size_t k = static_cast<std::size_t>(i), mirror = static_cast<std::size_t>(n - 1 - i);
       EXPECT_NEAR(times[k] + times[mirror], 5.0, 1e-15);
-      EXPECT_EQ((grid[k % 4] + grid[mirror % 4]).norm(), 0.0);
       EXPECT_GT(times[k], 2.495);
       EXPECT_LT(times[k], 2.505);
     }
   }
-  EXPECT_EQ(instants_for(0.5), 4);
+  EXPECT_EQ(instants_for(0.1), 4);
   EXPECT_GE(instants_for(15.0), 16);
-  for (double blur = 0.0; blur < 60.0; blur += 0.7) EXPECT_EQ(instants_for(blur) % 4, 0);
+  for (double blur = 0.5; blur < 60.0; blur += 0.7) EXPECT_EQ(instants_for(blur) % 8, 0);
+}
+
+TEST(RendererGeometry, WhereASampleLiesHasNothingToDoWithWhenItIsTaken) {
+  const std::vector<Vector2<double>> grid = pixel_grid();
+  for (const int n : {8, 16, 32}) {
+    const std::vector<double> times = exposure_times(0.0, 1.0, n);
+    Vector2<double> mean = Vector2<double>::Zero(), with_time = mean;
+    for (int i = 0; i < n; ++i) {
+      const Vector2<double>& at = grid[static_cast<std::size_t>(sample_at(i))];
+      mean += at;
+      with_time += times[static_cast<std::size_t>(i)] * at;
+    }
+    EXPECT_LT(mean.norm(), 1e-15) << n;
+    EXPECT_LT(with_time.norm(), 1e-14) << n;
+  }
 }
 
 TEST(RendererGeometry, ABlurredPictureBelongsToThePoseInTheMiddleOfTheExposure) {
