@@ -71,6 +71,15 @@ struct Parameters {
   int text_patience = 25;          ///< Key frames a candidate may wait for its plane.
   int text_targets = 8;            ///< Key frames that a plane is refined against.
 
+  // Last refinement of the text planes
+  int refine_hosts = 4;         ///< Key frames that a text is compared from, the largest views among them,
+  double refine_area = 0.4;     ///< each showing it at least this large, as a share of the largest view.
+  int refine_targets = 24;      ///< Key frames that each is compared with.
+  int refine_pixels = 1000;     ///< Of the text.
+  double refine_margin = 3;     ///< px around the quad that belong to it: edges of letters with both their sides.
+  double blur_variance = 0.25;  ///< px^2 of a camera's own blur.
+  double blur_spread = 2.5;     ///< See textplane::match_blur().
+
   // Bundle adjustment
   int window_frames = 8;  ///< Free key frames of the local adjustment.
   int window_fixed = 12;  ///< Fixed key frames around them.

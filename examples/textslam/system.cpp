@@ -7,6 +7,7 @@
 #include "textslam/point_mapper.hpp"
 #include "textslam/recovery.hpp"
 #include "textslam/statistics.hpp"
+#include "textslam/text_refiner.hpp"
 
 namespace textslam {
 
@@ -192,6 +193,7 @@ void System::finish() {
   // key frames, and a wider base settles their slant.
   text_mapper_.observe_again();
   adjust_all(map_, parameters_, parameters_.final_iterations);
+  TextRefiner(map_, parameters_).refine();
 }
 
 }  // namespace textslam

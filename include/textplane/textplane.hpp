@@ -16,6 +16,7 @@
 #include "textplane/geometry/quad.hpp"
 #include "textplane/geometry/triangulate.hpp"
 
+#include "textplane/photometry/blur.hpp"
 #include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/linearise_policy.hpp"
 #include "textplane/photometry/patch.hpp"

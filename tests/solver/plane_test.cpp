@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -168,6 +169,33 @@ TEST(RefinePlane, TargetsThatDoNotSeeTheSignAreSkipped) {
   EXPECT_EQ(fit.status, Status::converged);
   EXPECT_EQ(fit.targets_used, 2);
   EXPECT_LT((fit.theta - expected.theta).norm(), 1e-12);
+}
+
+TEST(RefinePlane, ATargetMayHaveAPatchOfItsOwn) {
+  Input input(true, 3);
+  Random random(4);
+  const Vec3 start = perturbed(input.sign.theta, random, 0.03);
+  // Where all targets have the right patch, the one in the call counts for nothing.
+  const PlaneRefinement want = input.solve(start, tight());
+  const TextPatch right = input.patch;
+  for (PlaneTargetF& target : input.targets) target.patch = &right;
+  for (textplane::PatchLevel& level : input.patch.levels)
+    std::fill(level.intensity.begin(), level.intensity.end(), 9.0F);
+  const PlaneRefinement fit = input.solve(start, tight());
+  EXPECT_EQ(fit.status, want.status);
+  EXPECT_EQ(fit.theta, want.theta);
+  EXPECT_EQ(fit.targets_used, 3);
+  // One of another size is not used.
+  TextPatch shorter = right;
+  shorter.levels[0].x.pop_back();
+  shorter.levels[0].y.pop_back();
+  shorter.levels[0].intensity.pop_back();
+  input.targets[1].patch = &shorter;
+  EXPECT_EQ(input.solve(start, tight()).targets_used, 2);
+  TextPatch lower = right;
+  lower.levels.pop_back();
+  input.targets[2].patch = &lower;
+  EXPECT_EQ(input.solve(start, tight()).targets_used, 1);
 }
 
 TEST(RefinePlane, InputThatNoPlaneComesFromGetsAStatus) {

@@ -25,6 +25,9 @@ struct BasicPlaneTarget {
   View image;
   SE3d T_t_h;
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
+  /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to refine_plane(), whose
+  /// levels and numbers of pixels it must have: a target with another is not used.
+  const TextPatch* patch = nullptr;
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;
 using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
@@ -122,10 +125,12 @@ class PlaneProblem {
     visible_ = used_ = 0;
     zncc_ = 0;
     for (int i = 0; i < count_; ++i) {
-      const auto input = level_input(patch_, level_, targets_[i].image, camera_, targets_[i].scale_shift);
+      int& visible = memory_.counts_[static_cast<std::size_t>(i)];
+      visible = 0;
+      if (!fits(i)) continue;
+      const auto input = level_input(patch_of(i), level_, targets_[i].image, camera_, targets_[i].scale_shift);
       const NormalEquations<3> n =
           textplane::linearise_plane(input, theta, targets_[i].T_t_h, options_.photometric, memory_.photometric_);
-      int& visible = memory_.counts_[static_cast<std::size_t>(i)];
       visible = is_ok(n.status) ? n.visible : 0;
       if (visible == 0) {
         if (trouble == Status::too_few) trouble = n.status;
@@ -152,7 +157,7 @@ class PlaneProblem {
       const int visible = memory_.counts_[static_cast<std::size_t>(i)];
       if (visible == 0) continue;
       const PhotometricCost c =
-          textplane::evaluate(level_input(patch_, level_, targets_[i].image, camera_, targets_[i].scale_shift), theta,
+          textplane::evaluate(level_input(patch_of(i), level_, targets_[i].image, camera_, targets_[i].scale_shift), theta,
                               targets_[i].T_t_h, options_.photometric, memory_.photometric_, visible_set(i));
       // A target that is lost as a whole costs what an uncorrelated patch would.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
@@ -172,6 +177,17 @@ class PlaneProblem {
   double mean_zncc() const noexcept { return used_ > 0 ? zncc_ / used_ : 0.0; }
 
  private:
+  const TextPatch& patch_of(int i) const noexcept { return targets_[i].patch ? *targets_[i].patch : patch_; }
+
+  bool fits(int i) const noexcept {
+    const TextPatch* own = targets_[i].patch;
+    if (!own) return true;
+    if (own->level_count() != patch_.level_count()) return false;
+    for (std::size_t l = 0; l < patch_.levels.size(); ++l)
+      if (own->levels[l].x.size() != patch_.levels[l].x.size()) return false;
+    return true;
+  }
+
   std::uint8_t* visible_set(int i) noexcept {
     return memory_.visible_.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(patch_.max_pixels());
   }

@@ -1,0 +1,208 @@
+// Blur that makes two views of a plane alike.
+//
+// A camera blurs by its own pixels: on the plane, a view from afar or at a slant is the more blurred one, and along another
+// direction. Where strokes are a few pixels wide, intensities then differ most beside edges, and the plane that fits them best is
+// turned away from the true one, by degrees for small text. match_blur() says what each of two views lacks, the other functions
+// apply it.
+#ifndef TEXTPLANE_PHOTOMETRY_BLUR_HPP
+#define TEXTPLANE_PHOTOMETRY_BLUR_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "textplane/core/image_view.hpp"
+#include "textplane/core/numeric.hpp"
+#include "textplane/core/status.hpp"
+#include "textplane/photometry/patch.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+using Matrix2d = Eigen::Matrix<double, 2, 2>;
+
+/// Covariances, px^2 of each image, of the Gaussian filters that bring host and target to one blur on the plane.
+struct BlurMatch {
+  Matrix2d host = Matrix2d::Zero();
+  Matrix2d target = Matrix2d::Zero();
+};
+
+/// What each view lacks. `A`: d target px / d host px of the plane where the object is. The variances, px^2 of each image, are of
+/// the blur that the views have: half a pixel squared or so for a sharp lens; for a target that is sampled bilinearly 1/6 more,
+/// the mean variance of that interpolation. Seen in the host the target's blur is V_t (A^T A)^-1; the common blur B has the
+/// eigenvectors of (A^T A)^-1 and `spread` times the larger of both variances along each. Then host = B - V_h I and
+/// target = A B A^T - V_t I. A spread above 1 (2 is a good one) lets a filter of known shape outweigh what is not known of the
+/// views' own.
+///
+/// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1; *out is then
+/// untouched.
+inline Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
+                         BlurMatch* out) noexcept {
+  if (!all_finite(A) || !is_finite(host_variance) || !is_finite(target_variance) || !is_finite(spread))
+    return Status::non_finite;
+  if (!(host_variance >= 0) || !(target_variance >= 0) || !(spread >= 1)) return Status::invalid_argument;
+  const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
+  if (!(std::abs(det) > 1e-9) || !is_finite(1 / (det * det))) return Status::degenerate;
+  Matrix2d inverse;
+  inverse << A(1, 1) / det, -A(0, 1) / det, -A(1, 0) / det, A(0, 0) / det;
+  const Matrix2d transposed = inverse.transpose();
+  const SymmetricEigen<double, 2> seen = symmetric_eigen<double, 2>(product(inverse, transposed));
+  Matrix2d common = Matrix2d::Zero();
+  for (int k = 0; k < 2; ++k) {
+    const double variance = spread * std::max(host_variance, target_variance * seen.values[k]);
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) common(i, j) += variance * seen.vectors(i, k) * seen.vectors(j, k);
+  }
+  const Matrix2d A_transposed = A.transpose();
+  BlurMatch match{common, product(product(A, common), A_transposed)};
+  for (int i = 0; i < 2; ++i) {
+    match.host(i, i) -= host_variance;
+    match.target(i, i) -= target_variance;
+  }
+  *out = match;
+  return Status::ok;
+}
+
+/// A Gaussian filter on the pixel grid, of a covariance in px^2 (variances are cut at 0 from below and at kMaxVariance from
+/// above along the principal axes; what is not finite counts as 0). Weights are means over a pixel and sum to 1. No allocation.
+class BlurKernel {
+ public:
+  static constexpr int kMaxRadius = 8;
+  static constexpr double kMaxVariance = 9.0;
+
+  explicit BlurKernel(const Matrix2d& covariance) noexcept {
+    const SymmetricEigen<double, 2> axes =
+        symmetric_eigen<double, 2>(all_finite(covariance) ? covariance : Matrix2d::Zero());
+    // The mean over a pixel is a blur, too.
+    constexpr double kPixel = 1.0 / 12, kLeast = 1e-3;
+    double precision[2];
+    for (int k = 0; k < 2; ++k) precision[k] = 1.0 / std::max(std::min(axes.values[k], kMaxVariance) - kPixel, kLeast);
+    radius_ =
+        std::min(kMaxRadius, static_cast<int>(std::ceil(2.7 * std::sqrt(1.0 / std::min(precision[0], precision[1])))));
+    double sum = 0.0, raw[kSide * kSide];
+    for (int y = -radius_; y <= radius_; ++y)
+      for (int x = -radius_; x <= radius_; ++x) sum += raw[index(x, y)] = mean(x, y, axes, precision);
+    for (int i = 0; i < width() * width(); ++i) weights_[i] = static_cast<float>(raw[i] / sum);
+  }
+
+  int radius() const noexcept { return radius_; }
+  int width() const noexcept { return 2 * radius_ + 1; }
+  /// |x|, |y| <= radius().
+  float at(int x, int y) const noexcept { return weights_[index(x, y)]; }
+
+ private:
+  static constexpr int kSide = 2 * kMaxRadius + 1;
+
+  int index(int x, int y) const noexcept { return (y + radius_) * width() + x + radius_; }
+
+  static double mean(int x, int y, const SymmetricEigen<double, 2>& axes, const double* precision) noexcept {
+    constexpr int kParts = 4;
+    double sum = 0;
+    for (int j = 0; j < kParts; ++j)
+      for (int i = 0; i < kParts; ++i) {
+        const double dx = x + (i + 0.5) / kParts - 0.5, dy = y + (j + 0.5) / kParts - 0.5;
+        double exponent = 0;
+        for (int k = 0; k < 2; ++k) {
+          const double along = axes.vectors(0, k) * dx + axes.vectors(1, k) * dy;
+          exponent += along * along * precision[k];
+        }
+        sum += std::exp(-0.5 * exponent);
+      }
+    return sum;
+  }
+
+  int radius_ = 0;
+  float weights_[kSide * kSide] = {};
+};
+
+/// Filters images; keeps the memory that this takes. Beyond the image its border pixels go on.
+class BlurFilter {
+ public:
+  /// Writes the filtered pixels [x0, x1) x [y0, y1) of `from` to the same places of `to`, rounded. What of the rectangle lies
+  /// outside the image is left out. The rest of `to` stays. invalid_argument for views that are not valid() or not of one size.
+  /// Allocates while it meets a larger rectangle than before.
+  Status operator()(const ImageView8& from, const BlurKernel& kernel, int x0, int y0, int x1, int y1,
+                    const ImageView<std::uint8_t>& to) {
+    if (!from.valid() || !to.valid() || to.width() != from.width() || to.height() != from.height())
+      return Status::invalid_argument;
+    x0 = std::max(x0, 0), y0 = std::max(y0, 0), x1 = std::min(x1, from.width()), y1 = std::min(y1, from.height());
+    if (x0 >= x1 || y0 >= y1) return Status::ok;
+    load(from, kernel.radius(), x0, y0, x1, y1);
+    for (int y = y0; y < y1; ++y) {
+      std::uint8_t* row = to.row(y);
+      for (int x = x0; x < x1; x += kBlock) {
+        float sum[kBlock];
+        block(kernel, x - x0, y - y0, sum);
+        for (int k = 0; k < kBlock && x + k < x1; ++k) row[x + k] = static_cast<std::uint8_t>(sum[k] + 0.5F);
+      }
+    }
+    return Status::ok;
+  }
+
+  /// The intensities of a patch's level, taken anew from the filtered host image; gradients stay. Its positions must be whole
+  /// pixels of `host`, as select_pixels() gives them; those outside keep their intensity.
+  Status operator()(const ImageView8& host, const BlurKernel& kernel, PatchLevel* level) {
+    if (!host.valid()) return Status::invalid_argument;
+    const std::size_t n = level->x.size();
+    int x0 = host.width(), y0 = host.height(), x1 = 0, y1 = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const int x = static_cast<int>(level->x[i]), y = static_cast<int>(level->y[i]);
+      if (x < 0 || y < 0 || x >= host.width() || y >= host.height()) continue;
+      x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x + 1), y1 = std::max(y1, y + 1);
+    }
+    if (x0 >= x1) return Status::ok;
+    load(host, kernel.radius(), x0, y0, x1, y1);
+    const int across = (x1 - x0 + kBlock - 1) / kBlock * kBlock;
+    reserve(static_cast<std::size_t>(across) * static_cast<std::size_t>(y1 - y0), &filtered_);
+    for (int y = y0; y < y1; ++y)
+      for (int x = 0; x < across; x += kBlock)
+        block(kernel, x, y - y0, &filtered_[static_cast<std::size_t>((y - y0) * across + x)]);
+    for (std::size_t i = 0; i < n; ++i) {
+      const int x = static_cast<int>(level->x[i]) - x0, y = static_cast<int>(level->y[i]) - y0;
+      if (x < 0 || y < 0 || x >= x1 - x0 || y >= y1 - y0) continue;
+      level->intensity[i] = filtered_[static_cast<std::size_t>(y * across + x)];
+    }
+    return Status::ok;
+  }
+
+ private:
+  static constexpr int kBlock = 8;  // pixels filtered at a time: compilers make vectors of them
+
+  // Made anew, not grown: the function that grows a vector would be shared between translation units (see config.hpp).
+  static void reserve(std::size_t n, std::vector<float>* memory) {
+    if (memory->size() < n) *memory = std::vector<float>(n);
+  }
+
+  // The rectangle and what the filter reaches around it, as floats; rows are padded to whole blocks.
+  void load(const ImageView8& from, int radius, int x0, int y0, int x1, int y1) {
+    stride_ = (x1 - x0 + kBlock - 1) / kBlock * kBlock + 2 * radius;
+    const int rows = y1 - y0 + 2 * radius;
+    reserve(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows), &grey_);
+    for (int y = 0; y < rows; ++y) {
+      const std::uint8_t* row = from.row(std::min(std::max(y0 - radius + y, 0), from.height() - 1));
+      float* to = &grey_[static_cast<std::size_t>(y * stride_)];
+      for (int x = 0; x < stride_; ++x)
+        to[x] = static_cast<float>(row[std::min(std::max(x0 - radius + x, 0), from.width() - 1)]);
+    }
+  }
+
+  void block(const BlurKernel& kernel, int x, int y, float* sum) const noexcept {
+    for (int k = 0; k < kBlock; ++k) sum[k] = 0.0F;
+    const int r = kernel.radius();
+    for (int dy = 0; dy <= 2 * r; ++dy) {
+      const float* row = &grey_[static_cast<std::size_t>((y + dy) * stride_ + x)];
+      for (int dx = 0; dx <= 2 * r; ++dx) {
+        const float weight = kernel.at(dx - r, dy - r);
+        for (int k = 0; k < kBlock; ++k) sum[k] += weight * row[dx + k];
+      }
+    }
+  }
+
+  std::vector<float> grey_, filtered_;
+  int stride_ = 0;
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_PHOTOMETRY_BLUR_HPP
