@@ -23,10 +23,10 @@ inline Status zncc_candidates(const PhotometricInput& in, const Vector3<double>&
   PhotometricOptions plain = options;
   plain.robust = Robust{RobustKind::l2, 1.0};
 
-  simd::ZnccArgs args;
-  const bool fast = prepared && prepared->size() == in.patch.n && !in.patch.mask &&
-                    detail::kernel_args(in, theta, SE3d(), plain, workspace, &args.base);
+  const bool fast = prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(in, plain, workspace);
   if (fast) {
+    simd::ZnccArgs args;
+    args.base = detail::kernel_args(in, theta, SE3d(), plain, workspace, nullptr, nullptr);
     static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
     args.model = &prepared->model();
     args.pose = count > 0 ? T_t_h->R.data() : nullptr;

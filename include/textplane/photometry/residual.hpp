@@ -242,8 +242,7 @@ NormalEquations<P> fast_linearise(const BasicPhotometricInput<T>& in, const Vect
   NormalEquations<P> out{Unset()};
   bool taken = false;
   if constexpr (std::is_same<T, std::uint8_t>::value) {
-    out.status = check_input(in, theta, T_t_h, options, workspace);
-    taken = !is_ok(out.status) || kernel_linearise<P>(in, theta, T_t_h, options, workspace, &out);
+    taken = kernel_linearise<P>(in, theta, T_t_h, options, workspace, &out);
   }
   if (!taken) out = linearise<P>(in, theta, T_t_h, options, workspace);
   if (!is_ok(out.status)) out.clear();
@@ -290,8 +289,6 @@ PhotometricCost evaluate(const BasicPhotometricInput<T>& input, const Vector3<do
                          const std::uint8_t* on_set = nullptr) noexcept {
   if constexpr (std::is_same<T, std::uint8_t>::value) {
     PhotometricCost out;
-    out.status = detail::check_input(input, theta, T_t_h, options, workspace);
-    if (!is_ok(out.status)) return out;
     if (detail::kernel_evaluate(input, theta, T_t_h, options, workspace, on_set, &out)) return out;
   }
   return reference::evaluate(input, theta, T_t_h, options, workspace, on_set);

@@ -14,48 +14,57 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 
-/// Fills the arguments of the kernels. False where the reference must take the call. The input has passed check_input().
-TEXTPLANE_SIMD_INLINE bool kernel_args(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
-                        const PhotometricOptions& options, PhotometricWorkspace& workspace,
-                        simd::ResidualArgs* a) noexcept {
+/// The pairs of the target, where they are of its size.
+inline PairView matching_pairs(const PhotometricInput& in) noexcept {
+  const bool fit = in.pairs.data && in.pairs.width == in.target.width() && in.pairs.height == in.target.height();
+  return fit ? in.pairs : PairView();
+}
+
+/// False where the reference must take the call, which also says what is wrong with it. Of theta, pose and principal points
+/// nothing is asked here: what is not finite there ends in the homography, at which the kernels decline.
+TEXTPLANE_SIMD_INLINE bool kernels_take(const PhotometricInput& in, const PhotometricOptions& options,
+                                        const PhotometricWorkspace& workspace) noexcept {
+  const PatchView& p = in.patch;
+  if (!p.x || !p.y || !p.intensity || p.n < 1 || p.n > workspace.capacity() || !in.target.valid() || !options.valid())
+    return false;
   if (options.precise || (options.robust.kind != RobustKind::huber && options.robust.kind != RobustKind::l2))
     return false;
-  a->target.data = in.target.data();
-  a->target.stride = in.target.stride();
-  a->target.width = in.target.width();
-  a->target.height = in.target.height();
-  if (in.pairs.data && in.pairs.width == a->target.width && in.pairs.height == a->target.height) {
-    a->target.pairs = in.pairs.data;
-    a->target.pair_stride = in.pairs.stride;
-  }
-  if (!simd::readable(a->target) || in.patch.n < 1) return false;
-  a->x = in.patch.x;
-  a->y = in.patch.y;
-  a->intensity = in.patch.intensity;
-  a->mask = in.patch.mask;
-  a->n = in.patch.n;
-  a->bounds = in.patch.bounds;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) a->R[3 * r + c] = T_t_h.R(r, c);
-    a->t[r] = T_t_h.t[r];
-    a->theta[r] = theta[r];
-  }
   const Pinhole<double>&h = in.host_camera, &t = in.target_camera;
-  a->host_camera[0] = h.fx;
-  a->host_camera[1] = h.fy;
-  a->host_camera[2] = h.cx;
-  a->host_camera[3] = h.cy;
-  a->target_camera[0] = t.fx;
-  a->target_camera[1] = t.fy;
-  a->target_camera[2] = t.cx;
-  a->target_camera[3] = t.cy;
-  a->exact = options.normalisation == Normalisation::exact;
-  a->huber = options.robust.kind == RobustKind::huber;
-  a->delta = options.robust.delta;
-  a->min_contrast = options.min_contrast;
-  a->min_visible = options.min_visible;
-  a->scratch = workspace.scratch();
-  return true;
+  const std::uint64_t bad = not_finite_bit(h.fx) | not_finite_bit(h.fy) | not_finite_bit(t.fx) | not_finite_bit(t.fy);
+  if (bad >> 63 != 0 || !(h.fx > 0 && h.fy > 0 && t.fx > 0 && t.fy > 0)) return false;
+  const PairView pairs = matching_pairs(in);
+  return simd::readable(
+      {in.target.data(), in.target.stride(), in.target.width(), in.target.height(), pairs.data, pairs.stride});
+}
+
+/// The arguments of the kernels, for a call that they take. In one expression: zeroing them first takes longer than filling them.
+TEXTPLANE_SIMD_INLINE simd::ResidualArgs kernel_args(const PhotometricInput& in, const Vector3<double>& theta,
+                                                     const SE3d& T_t_h, const PhotometricOptions& options,
+                                                     PhotometricWorkspace& workspace, std::uint8_t* flags,
+                                                     const std::uint8_t* on_set) noexcept {
+  const Pinhole<double>&h = in.host_camera, &c = in.target_camera;
+  const PairView pairs = matching_pairs(in);
+  const double *R = T_t_h.R.data(), *t = T_t_h.t.data();
+  return {in.patch.x,
+          in.patch.y,
+          in.patch.intensity,
+          in.patch.n,
+          in.patch.mask,
+          on_set,
+          in.patch.bounds,
+          {in.target.data(), in.target.stride(), in.target.width(), in.target.height(), pairs.data, pairs.stride},
+          {R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]},
+          {t[0], t[1], t[2]},
+          {theta[0], theta[1], theta[2]},
+          {h.fx, h.fy, h.cx, h.cy},
+          {c.fx, c.fy, c.cx, c.cy},
+          options.normalisation == Normalisation::exact,
+          options.robust.kind == RobustKind::huber,
+          options.robust.delta,
+          options.min_contrast,
+          options.min_visible,
+          flags,
+          workspace.scratch()};
 }
 
 /// rank_deficient is how the kernels decline.
@@ -87,28 +96,25 @@ simd::ResidualInfo kernel_sums(const simd::ResidualArgs& args, double* H, double
   if constexpr (P == 9) return simd::linearise_pose_plane(args, H, b);
 }
 
-/// linearise() by the kernels; false where they declined, and then *out is to be made anew.
+/// linearise() by the kernels; false where they do not take the call or declined, and then *out is to be made anew.
 template <int P>
 bool kernel_linearise(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
                       const PhotometricOptions& options, PhotometricWorkspace& workspace,
                       NormalEquations<P>* out) noexcept {
-  simd::ResidualArgs args;
-  if (!kernel_args(in, theta, T_t_h, options, workspace, &args)) return false;
-  args.flags = workspace.visible_flags();
+  if (!kernels_take(in, options, workspace)) return false;
+  const simd::ResidualArgs args = kernel_args(in, theta, T_t_h, options, workspace, workspace.visible_flags(), nullptr);
   const simd::ResidualInfo info = kernel_sums<P>(args, out->H.data(), out->b.data());
   if (declined(info)) return false;
   take_info(info, options.min_visible, out);
   return true;
 }
 
-/// evaluate() by the kernels; false where they declined.
+/// evaluate() by the kernels; false where they do not take the call or declined.
 inline bool kernel_evaluate(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& T_t_h,
                             const PhotometricOptions& options, PhotometricWorkspace& workspace,
                             const std::uint8_t* on_set, PhotometricCost* out) noexcept {
-  simd::ResidualArgs args;
-  if (!kernel_args(in, theta, T_t_h, options, workspace, &args)) return false;
-  args.on_set = on_set;
-  const simd::ResidualInfo info = simd::evaluate(args);
+  if (!kernels_take(in, options, workspace)) return false;
+  const simd::ResidualInfo info = simd::evaluate(kernel_args(in, theta, T_t_h, options, workspace, nullptr, on_set));
   if (declined(info)) return false;
   out->visible = info.visible;
   out->lost = on_set ? info.candidates - info.visible : 0;

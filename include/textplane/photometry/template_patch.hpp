@@ -182,25 +182,19 @@ template <int P>
 bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, const Vector3<double>& theta,
                          const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
                          const TemplatePatch* prepared, NormalEquations<P>* out) noexcept {
-  simd::EsmArgs args;
-  if (!kernel_args(in, theta, T_t_h, options, workspace, &args.base)) return false;
-  args.base.flags = workspace.visible_flags();
+  if (!kernels_take(in, options, workspace)) return false;
+  const bool esm = policy == LinearisePolicy::esm;
+  const simd::EsmArgs args{kernel_args(in, theta, T_t_h, options, workspace, workspace.visible_flags(), nullptr), in.patch.gx,
+                           in.patch.gy, esm, workspace.more_scratch()};
   double block_H[81], block_b[9];
   double *H = P == 9 ? out->H.data() : block_H, *b = P == 9 ? out->b.data() : block_b;
   simd::ResidualInfo info;
   info.status = Status::out_of_view;
-  const bool esm = policy == LinearisePolicy::esm;
   if (!esm && prepared && prepared->size() == in.patch.n && !in.patch.mask)
     info = simd::linearise_template(prepared->model(), args.base,
                                     reinterpret_cast<std::int16_t*>(workspace.more_scratch()), H, b);
   // Not all of the patch is visible: the sums of what is.
-  if (info.status == Status::out_of_view) {
-    args.gx = in.patch.gx;
-    args.gy = in.patch.gy;
-    args.average = esm;
-    args.scratch = workspace.more_scratch();
-    info = simd::linearise_esm(args, H, b);
-  }
+  if (info.status == Status::out_of_view) info = simd::linearise_esm(args, H, b);
   if (declined(info)) return false;
   take_info(info, options.min_visible, out);
   if (P != 9 && is_ok(out->status)) take_block<P>(H, b, out);
@@ -225,7 +219,7 @@ NormalEquations<P> linearise_by(LinearisePolicy policy, const PhotometricInput& 
   }
   const bool known = policy == LinearisePolicy::template_jacobian || policy == LinearisePolicy::esm;
   NormalEquations<P> out{detail::Unset()};
-  if (!known || !in.patch.gx || !in.patch.gy || !is_ok(detail::check_input(in, theta, T_t_h, options, workspace)) ||
+  if (!known || !in.patch.gx || !in.patch.gy ||
       !detail::kernel_linearise_by<P>(policy, in, theta, T_t_h, options, workspace, prepared, &out))
     out = reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
   if (!is_ok(out.status)) out.clear();
