@@ -6,19 +6,15 @@
 // Arrays of at most kRowPixels floats and a vector more, and how far they lie apart.
 enum : int { kFewStep = kRowPixels + kMostLanes };
 
-// Of the pixels: intensities less their mean, e = r sqrt(N) times the root of the weight, and that root.
+// Of the pixels: intensities less their mean; -r times the root of the weight, and that root over s. With these factors the sums
+// of products are H and b themselves.
 struct FewPixels {
   float i[kFewStep], e[kFewStep], root[kFewStep];
 };
 
-// Of the target: its mean, and sum of squares about it; and its norm s.
-struct FewStats {
-  double mean, squares, s;
-};
-
 // From n intensities of target and host: residuals, weights, costs. The status is as that of make_residual().
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
-                                      FewPixels* p, FewStats* stats, simd::ResidualInfo* info) noexcept {
+                                      FewPixels* p, simd::ResidualInfo* info) noexcept {
   const double count = n, by_count = 1 / count;
   vf t = zero(), h = zero();
   for (int k = 0; k < n; k += kLanes) {
@@ -48,15 +44,14 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   info->mean = i_mean + i_offset;
   if (!has_contrast(a, i_squares, info->mean, count) || !has_contrast(a, h_squares, h_mean + h_offset, count))
     return Status::no_contrast;
-  const double root = sqrt_d(count), i_scale = root / sqrt_d(i_squares), h_scale = root / sqrt_d(h_squares);
-  info->s = stats->s = sqrt_d(i_squares);
-  stats->mean = i_mean;
-  stats->squares = i_squares;
+  const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
+  info->s = i_s;
 
   const float delta = static_cast<float>(a.delta);
   const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), by_i = set1(static_cast<float>(i_scale));
   const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
   const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
+  const vf by_s = set1(static_cast<float>(1 / i_s)), by_root = set1(static_cast<float>(-1 / root));
   vf squares = zero(), rho = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf i = load(p->i + k), e = madd(load(p->e + k), by_h, nmadd(i, by_i, shift)), w = set1(1.0F);
@@ -74,8 +69,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
       w = mul(w, sqrt_(div(limit, max_(size, limit))));
     }
     store(p->i + k, i);
-    store(p->e + k, mul(w, e));
-    store(p->root + k, w);
+    store(p->e + k, mul(w, mul(e, by_root)));
+    store(p->root + k, mul(w, by_s));
   }
   hsum4(squares, a.huber ? rho : squares, squares, rho, sum);
   info->error = sum[0] * by_count;
@@ -84,7 +79,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
 }
 
 // Three rows become root (row - mean - i (sum i row) / (sum i^2)); with the normalisation held, root row.
-TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, float by_count, float by_squares, float* row) noexcept {
+TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, float by_count, float by_squares,
+                                      float* row) noexcept {
   float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
   if (!exact) {
     for (int k = 0; k < n; k += kLanes) {
@@ -126,7 +122,8 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
 // Sums of products of three rows among themselves, and with e: nine, in the order of put_square().
 TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, float* out) noexcept {
   const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
-  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(), b2 = zero();
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(),
+     b2 = zero();
   for (int k = 0; k < n; k += kLanes) {
     const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), r = load(e + k);
     s0 = madd(a, a, s0);
@@ -148,7 +145,8 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
 TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n, float* out) noexcept {
   const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
   const float *q0 = other, *q1 = other + kFewStep, *q2 = other + 2 * kFewStep;
-  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(), s8 = zero();
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
+     s8 = zero();
   for (int k = 0; k < n; k += kLanes) {
     const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), x = load(q0 + k), y = load(q1 + k), z = load(q2 + k);
     s0 = madd(a, x, s0);
@@ -167,26 +165,26 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
 }
 
 // Entries of H (`size` columns): the square at (at, at), the block at (r, c) and its mirror image.
-TEXTPLANE_SIMD_INLINE void put_square(const float* p, double scale, int at, int size, double* H) noexcept {
+TEXTPLANE_SIMD_INLINE void put_square(const float* p, int at, int size, double* H) noexcept {
   double* q = H + size * at + at;
-  q[0] = scale * p[0];
-  q[1] = q[size] = scale * p[1];
-  q[2] = q[2 * size] = scale * p[2];
-  q[size + 1] = scale * p[3];
-  q[size + 2] = q[2 * size + 1] = scale * p[4];
-  q[2 * size + 2] = scale * p[5];
+  q[0] = static_cast<double>(p[0]);
+  q[1] = q[size] = static_cast<double>(p[1]);
+  q[2] = q[2 * size] = static_cast<double>(p[2]);
+  q[size + 1] = static_cast<double>(p[3]);
+  q[size + 2] = q[2 * size + 1] = static_cast<double>(p[4]);
+  q[2 * size + 2] = static_cast<double>(p[5]);
 }
-TEXTPLANE_SIMD_INLINE void put_block(const float* p, double scale, int r, int c, int size, double* H) noexcept {
+TEXTPLANE_SIMD_INLINE void put_block(const float* p, int r, int c, int size, double* H) noexcept {
   double *q = H + size * r + c, *mirror = H + size * c + r;
-  q[0] = mirror[0] = scale * p[0];
-  q[1] = mirror[size] = scale * p[1];
-  q[2] = mirror[2 * size] = scale * p[2];
-  q[size] = mirror[1] = scale * p[3];
-  q[size + 1] = mirror[size + 1] = scale * p[4];
-  q[size + 2] = mirror[2 * size + 1] = scale * p[5];
-  q[2 * size] = mirror[2] = scale * p[6];
-  q[2 * size + 1] = mirror[size + 2] = scale * p[7];
-  q[2 * size + 2] = mirror[2 * size + 2] = scale * p[8];
+  q[0] = mirror[0] = static_cast<double>(p[0]);
+  q[1] = mirror[size] = static_cast<double>(p[1]);
+  q[2] = mirror[2 * size] = static_cast<double>(p[2]);
+  q[size] = mirror[1] = static_cast<double>(p[3]);
+  q[size + 1] = mirror[size + 1] = static_cast<double>(p[4]);
+  q[size + 2] = mirror[2 * size + 1] = static_cast<double>(p[5]);
+  q[2 * size] = mirror[2] = static_cast<double>(p[6]);
+  q[2 * size + 1] = mirror[size + 2] = static_cast<double>(p[7]);
+  q[2 * size + 2] = mirror[2 * size + 2] = static_cast<double>(p[8]);
 }
 
 // The cost of at most kRowPixels host pixels.
@@ -195,8 +193,7 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const Re
   SampleStrip strip;
   collect_values(host, f, 0, host.n, s, &strip);
   FewPixels pixels;
-  FewStats stats;
-  return weigh_few(a, s.i, host.h, host.n, &pixels, &stats, info);
+  return weigh_few(a, s.i, host.h, host.n, &pixels, info);
 }
 
 // Normal equations of `parameters` (3, 6 or 9) for at most kRowPixels host pixels.
@@ -212,14 +209,12 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   if (parameters != 3) pose_rows(constants, s.x, s.y, s.a, s.b, n, kFewStep, row);
   if (parameters != 6) plane_rows(constants, s.x, s.y, s.a, s.b, n, kFewStep, row + (parameters - 3) * kFewStep);
   FewPixels pixels;
-  FewStats stats;
-  const Status status = weigh_few(a, s.i, host.h, n, &pixels, &stats, info);
+  const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
   if (status != Status::ok) return status;
 
-  const double by_count = 1.0 / n, scale = 1 / stats.squares, scale_b = -1 / (stats.s * sqrt_d(n));
+  const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
   float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];
-  for (int g = 0; g < parameters; g += 3)
-    project_few(pixels, n, a.exact, static_cast<float>(by_count), static_cast<float>(scale), row + g * kFewStep);
+  for (int g = 0; g < parameters; g += 3) project_few(pixels, n, a.exact, by_count, by_squares, row + g * kFewStep);
   square_few(r0, pixels.e, n, sum[0]);
   if (parameters > 3) {
     square_few(r1, pixels.e, n, sum[1]);
@@ -230,18 +225,18 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
     cross_few(r0, r2, n, sum[4]);
     cross_few(r1, r2, n, sum[5]);
   }
-  put_square(sum[0], scale, 0, parameters, H);
-  for (int k = 0; k < 3; ++k) b[k] = scale_b * sum[0][6 + k];
+  put_square(sum[0], 0, parameters, H);
+  for (int k = 0; k < 3; ++k) b[k] = static_cast<double>(sum[0][6 + k]);
   if (parameters > 3) {
-    put_square(sum[1], scale, 3, parameters, H);
-    put_block(sum[2], scale, 0, 3, parameters, H);
-    for (int k = 0; k < 3; ++k) b[3 + k] = scale_b * sum[1][6 + k];
+    put_square(sum[1], 3, parameters, H);
+    put_block(sum[2], 0, 3, parameters, H);
+    for (int k = 0; k < 3; ++k) b[3 + k] = static_cast<double>(sum[1][6 + k]);
   }
   if (parameters > 6) {
-    put_square(sum[3], scale, 6, parameters, H);
-    put_block(sum[4], scale, 0, 6, parameters, H);
-    put_block(sum[5], scale, 3, 6, parameters, H);
-    for (int k = 0; k < 3; ++k) b[6 + k] = scale_b * sum[3][6 + k];
+    put_square(sum[3], 6, parameters, H);
+    put_block(sum[4], 0, 6, parameters, H);
+    put_block(sum[5], 3, 6, parameters, H);
+    for (int k = 0; k < 3; ++k) b[6 + k] = static_cast<double>(sum[3][6 + k]);
   }
   // By the inequality of Schwarz H and b are finite where the squares of the rows and the costs are.
   double squares = 0;
@@ -249,5 +244,5 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];
     squares += (static_cast<double>(p[0]) + p[3]) + p[5];
   }
-  return finite_d(squares * scale) ? Status::ok : Status::rank_deficient;
+  return finite_d(squares) ? Status::ok : Status::rank_deficient;
 }
