@@ -31,8 +31,8 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
 
 // Positions in units of 2^-15 px; of them the offsets of the cells, in elements of what is read, clamped so that a cell lies in the
 // buffer whatever its position, and the fractions.
-TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset, int high_offset,
-                                          int n, TemplateStrip& s) noexcept {
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset,
+                                          int high_offset, int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
@@ -80,14 +80,16 @@ TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, Te
   }
 }
 
-TEXTPLANE_SIMD_INLINE void template_flush(vi sum, vi* low, vi* high) noexcept {
-  *low = addi(*low, andi(sum, seti(65535)));
-  *high = addi(*high, shr(sum, 16));
+// `first`: nothing is there yet. (Compilers zero arrays by a string instruction that takes longer than a strip's sums.)
+TEXTPLANE_SIMD_INLINE void template_flush(vi sum, bool first, vi* low, vi* high) noexcept {
+  const vi lower = andi(sum, seti(65535)), upper = shr(sum, 16);
+  *low = first ? lower : addi(*low, lower);
+  *high = first ? upper : addi(*high, upper);
 }
 
 // Sums of V, V^2 and V times the first column of the rows.
-TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std::int16_t* values, int n, vi* low,
-                                             vi* high) noexcept {
+TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                             vi* low, vi* high) noexcept {
   vi total = seti(0), square = total, host = total;
   const v16 ones = set16(1);
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
@@ -98,14 +100,14 @@ TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std
       host = addi(host, dot16(value, load16(rows + j)));
     }
   }
-  template_flush(total, low, high);
-  template_flush(square, low + 1, high + 1);
-  template_flush(host, low + 2, high + 2);
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
 }
 
 // Sums of V times the four columns from `rows` on.
-TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const std::int16_t* values, int n, vi* low,
-                                              vi* high) noexcept {
+TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
   vi c0 = seti(0), c1 = c0, c2 = c0, c3 = c0;
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
@@ -116,13 +118,14 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
       c3 = addi(c3, dot16(value, load16(rows + j + 3 * simd::kTemplateBlock)));
     }
   }
-  template_flush(c0, low, high);
-  template_flush(c1, low + 1, high + 1);
-  template_flush(c2, low + 2, high + 2);
-  template_flush(c3, low + 3, high + 3);
+  template_flush(c0, first, low, high);
+  template_flush(c1, first, low + 1, high + 1);
+  template_flush(c2, first, low + 2, high + 2);
+  template_flush(c3, first, low + 3, high + 3);
 }
 
-TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives, simd::TemplateSums& out) noexcept {
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives,
+                                        simd::TemplateSums& out) noexcept {
   const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
   const int used = derivatives ? kTemplateSums : 3;
   const bool paired = a.target.pairs != nullptr;
@@ -135,20 +138,21 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
   for (int begin = 0; begin < padded; begin += kTemplateChunk) {
     const int end = padded - begin < kTemplateChunk ? padded : begin + kTemplateChunk;
     vi low[kTemplateSums], high[kTemplateSums];
-    for (int k = 0; k < used; ++k) low[k] = high[k] = seti(0);
     for (int from = begin; from < end; from += kTemplateStrip) {
       const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       template_divide(a, from, n, strip);
       template_cells(a, from, stride, low_offset, high_offset, n, strip);
-      if (paired) template_pairs(a, n, strip, values);
-      else template_rows(a, n, strip, values);
+      if (paired)
+        template_pairs(a, n, strip, values);
+      else
+        template_rows(a, n, strip, values);
       if (a.n - from < n) zero16(values, a.n - from, n);
-      template_products(rows, values, n, low, high);
+      template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
-        template_products4(rows + simd::kTemplateBlock, values, n, low + 3, high + 3);
-        template_products4(rows + 5 * simd::kTemplateBlock, values, n, low + 7, high + 7);
+        template_products4(rows + simd::kTemplateBlock, values, n, from == begin, low + 3, high + 3);
+        template_products4(rows + 5 * simd::kTemplateBlock, values, n, from == begin, low + 7, high + 7);
       }
     }
     std::int64_t total[kTemplateSums];
