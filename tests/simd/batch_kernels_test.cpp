@@ -25,6 +25,16 @@ struct Objects {
       poses.push_back(s.T_t_h);
     }
   }
+  // All of n pixels, none masked, each from a pose of its own.
+  Objects(int count, int n) {
+    for (int i = 0; i < count; ++i) {
+      scenes.push_back(std::make_unique<PolicyScene>(4, n));
+      PolicyScene& s = *scenes.back();
+      items.push_back({s.policy_input(false).patch, s.host_camera, s.theta});
+      const tp::Vector6<double> xi = 1e-3 * i * (tp::Vector6<double>() << 1, -1, 2, 0.5, 1, -1).finished();
+      poses.push_back(tp::se3_exp<double>(xi) * s.T_t_h);
+    }
+  }
   tp::ImageView8 image() const { return scenes[0]->view(); }
   const tp::Pinhole<double>& camera() const { return scenes[0]->target_camera; }
 };
@@ -105,6 +115,36 @@ TEST(BatchKernels, NeighboursDoNotMatter) {
                             alone);
       EXPECT_EQ(alone.normal_equations<6>(0).H, together.normal_equations<6>(i).H);
       EXPECT_EQ(alone.normal_equations<6>(0).b, together.normal_equations<6>(i).b);
+    }
+  }
+}
+
+// A vector whose objects are of one size and wholly visible is summed without masks: to the same bits as beside one that is not.
+TEST(BatchKernels, WhollyVisibleVectors) {
+  for (const tp::simd::Target target : textplane_test::testable_targets()) {
+    const textplane_test::TargetScope scope(target);
+    SCOPED_TRACE(tp::simd::to_string(target));
+    for (const int n : {5, 15, 40}) {
+      SCOPED_TRACE(n);
+      Objects objects(16, n);
+      tp::PhotometricOptions o;
+      o.min_visible = 4;
+      compare<9>(objects, o);
+      compare<6>(objects, o);
+      const tp::TextBatch batch(objects.items.data(), 16);
+      tp::TextBatchResult whole(batch), beside(batch);
+      tp::evaluate_batch<9>(batch, objects.image(), objects.camera(), objects.poses.data(), o, whole);
+      for (const std::size_t away : {std::size_t{3}, std::size_t{12}}) objects.poses[away].t[0] += 100;
+      tp::evaluate_batch<9>(batch, objects.image(), objects.camera(), objects.poses.data(), o, beside);
+      for (int i = 0; i < 16; ++i) {
+        ASSERT_EQ(whole.status(i), tp::Status::ok);
+        EXPECT_EQ(whole.visible(i), n);
+        EXPECT_EQ(beside.status(i), i == 3 || i == 12 ? tp::Status::out_of_view : tp::Status::ok);
+        if (i == 3 || i == 12) continue;
+        EXPECT_EQ(beside.normal_equations<9>(i).H, whole.normal_equations<9>(i).H);
+        EXPECT_EQ(beside.normal_equations<9>(i).b, whole.normal_equations<9>(i).b);
+        EXPECT_EQ(beside.cost(i), whole.cost(i));
+      }
     }
   }
 }

@@ -69,7 +69,8 @@ struct BatchFrame {
   float u0[simd::kBatchLanes], v0[simd::kBatchLanes];      // normalised target coordinates of the origin
   float hu[2][simd::kBatchLanes], hv[2][simd::kBatchLanes];  // host: mu = hu0 u + hu1
   float x_low[simd::kBatchLanes], x_high[simd::kBatchLanes], y_low[simd::kBatchLanes], y_high[simd::kBatchLanes];
-  std::int32_t base[simd::kBatchLanes], n[simd::kBatchLanes];
+  std::int32_t n[simd::kBatchLanes];
+  bool whole[simd::kBatchLanes];  // all of the object is certainly visible
 };
 }  // namespace detail
 

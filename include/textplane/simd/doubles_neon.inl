@@ -5,6 +5,9 @@ using vp = float64x2_t;
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return vdupq_n_f64(value); }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return vld1q_f64(p); }
+TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexcept {
+  return vld1q_lane_f64(p[1] + at, vld1q_dup_f64(p[0] + at), 1);
+}
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { vst1q_f64(p, v); }
 TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return vaddq_f64(a, b); }
 TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return vsubq_f64(a, b); }

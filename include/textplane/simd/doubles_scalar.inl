@@ -5,6 +5,9 @@ using vp = double;
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return value; }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return *p; }
+TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexcept {
+  return p[0][at];
+}  // each lane from its own array
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { *p = v; }
 TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
 TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }

@@ -22,22 +22,14 @@ TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf*
   product[row + 2] = p2;
 }
 
-// Three rows become weight (row - e - i c): i the centred intensity.
-TEXTPLANE_SIMD_INLINE void batch_project(float* scratch, int n, int row, const vf* e, const vf* c) noexcept {
-  const vf e0 = e[row], e1 = e[row + 1], e2 = e[row + 2], c0 = c[row], c1 = c[row + 1], c2 = c[row + 2];
-  for (int k = 0; k < n; ++k) {
-    float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes), w = load(p + kBatchWeight * kLanes);
-    store(p + row * kLanes, mul(w, nmadd(i, c0, sub(load(p + row * kLanes), e0))));
-    store(p + (row + 1) * kLanes, mul(w, nmadd(i, c1, sub(load(p + (row + 1) * kLanes), e1))));
-    store(p + (row + 2) * kLanes, mul(w, nmadd(i, c2, sub(load(p + (row + 2) * kLanes), e2))));
-  }
+// Where H(r, c), r <= c, lies in the packed upper triangle.
+TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept {
+  return r * parameters - r * (r - 1) / 2 + c - r;
 }
 
-// Where H(r, c), r <= c, lies in the packed upper triangle.
-TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept { return r * parameters - r * (r - 1) / 2 + c - r; }
-
-TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept { store(out + entry * kBatchStep, value); }
+TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
+  store(out + entry * kBatchStep, value);
+}
 
 // Products of the rows row .. row + 2 among themselves and with r.
 TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
@@ -101,7 +93,8 @@ TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int paramete
 }
 
 // Scratch: intensities become centred, sums of their squares.
-TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, vf host_mean, vf* target, vf* host) noexcept {
+TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, vf host_mean, vf* target,
+                                        vf* host) noexcept {
   vf t = zero(), h = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -117,23 +110,29 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
   *host = h;
 }
 
-// The host's centred intensities become e = r sqrt(N) times the root of the weight, weights their root. Costs.
-TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, bool huber, float delta, vf host_scale, vf target_scale, vf* cost,
-                                       vf* error) noexcept {
+// The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i c). Costs.
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
+                                       vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
   const vf limit = set1(delta);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf e = nmadd(load(p + kBatchTarget * kLanes), target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
+    const vf i = load(p + kBatchTarget * kLanes),
+             e = nmadd(i, target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
+    vf root = load(p + kBatchWeight * kLanes);
     s = madd(e, e, s);
     if (huber) {
       const vf size = abs_(e), m = min_(size, limit);
       c = madd(m, add(size, sub(size, m)), c);
-      const vf root = mul(load(p + kBatchWeight * kLanes), sqrt_(div(limit, max_(size, limit))));
-      store(p + kBatchWeight * kLanes, root);
-      store(p + kBatchHost * kLanes, mul(root, e));
-    } else {
-      store(p + kBatchHost * kLanes, e);
+      root = mul(root, sqrt_(div(limit, max_(size, limit))));
+    }
+    if (parameters == 0) continue;
+    store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);
+    for (int j = 0; j < parameters; j += 3) {
+      float* row = p + j * kLanes;
+      store(row, mul(root, nmadd(i, along[j], sub(load(row), mean[j]))));
+      store(row + kLanes, mul(root, nmadd(i, along[j + 1], sub(load(row + kLanes), mean[j + 1]))));
+      store(row + 2 * kLanes, mul(root, nmadd(i, along[j + 2], sub(load(row + 2 * kLanes), mean[j + 2]))));
     }
   }
   *cost = huber ? c : s;
@@ -145,11 +144,20 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                                         const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
   BatchStripMemory strip;
   BatchCounts counts = {zero(), zero(), zero(), zero()};
+  bool whole = true;
+  for (int l = lane; l < lane + kLanes; ++l) whole = whole && f.whole[l] && f.n[l] == n;
+  const int stride = static_cast<int>(a.target.stride);
   for (int k = 0; k < n; k += kBatchStrip) {
     const int m = n - k < kBatchStrip ? n - k : kBatchStrip;
-    batch_warp(f, lane, pixels, k, m, static_cast<int>(a.target.stride), &strip, a.scratch, &counts);
+    if (whole)
+      batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
+    else
+      batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
     batch_taps(a.target, m, &strip);
-    batch_rows(a, f, lane, parameters, pixels, k, m, strip, a.scratch, &counts);
+    if (whole)
+      batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
+    else
+      batch_rows(a, f, lane, false, parameters, pixels, k, m, strip, a.scratch, &counts);
   }
   const vf one = set1(1.0F), inverse_n = div(one, max_(counts.visible, one)), root = sqrt_(counts.visible);
   const vf target_mean = mul(counts.target, inverse_n), host_mean = mul(counts.host, inverse_n);
@@ -167,37 +175,51 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
   const unsigned good = bits(and_(and_(contrast, enough), finite)), many = bits(enough), sane = bits(finite);
   const unsigned none = bits(lt(counts.visible, one));
   const unsigned behind = bits(ge(counts.behind, to_float(loadi(f.n + lane))));
-  unsigned keep_lanes = 0;
-  for (int l = 0; l < lanes; ++l) {
+  const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
+  const bool easy = whole && (good & many) == all_lanes;
+  unsigned keep_lanes = easy ? all_lanes : 0;
+  for (int l = 0; l < lanes && !easy; ++l) {
     if (status[l] != Status::ok) continue;
     const unsigned bit = 1U << l;
-    if (!(many & bit)) status[l] = !(none & bit) ? Status::too_few : behind & bit ? Status::behind_camera : Status::out_of_view;
-    else if (!(sane & bit)) status[l] = Status::non_finite;
-    else if (!(good & bit)) status[l] = Status::no_contrast;
-    else keep_lanes |= bit;
+    if (!(many & bit))
+      status[l] = !(none & bit) ? Status::too_few : behind & bit ? Status::behind_camera : Status::out_of_view;
+    else if (!(sane & bit))
+      status[l] = Status::non_finite;
+    else if (!(good & bit))
+      status[l] = Status::no_contrast;
+    else
+      keep_lanes |= bit;
   }
 
   const int head = parameters * (parameters + 1) / 2 + parameters;
   if (keep_lanes != 0) {
     vf e[9], c[9];
     if (parameters > 0) {
-      for (int row = 0; row < parameters; row += 3) batch_means(a.scratch, n, row, e, c);
+      batch_means(a.scratch, n, 0, e, c);
+      batch_means(a.scratch, n, 3, e, c);
+      if (parameters > 6) batch_means(a.scratch, n, 6, e, c);
       const vf square = div(one, max_(target, tiny));
       for (int j = 0; j < parameters; ++j) {
         e[j] = a.exact ? mul(e[j], inverse_n) : zero();
         c[j] = a.exact ? mul(c[j], square) : zero();
       }
     }
-    if (a.huber) batch_weigh(a.scratch, n, true, static_cast<float>(a.delta), host_scale, target_scale, &cost, &error);
-    else batch_weigh(a.scratch, n, false, 0.0F, host_scale, target_scale, &cost, &error);
+    const float delta = static_cast<float>(a.delta);
+    if (a.huber)
+      batch_weigh(a.scratch, n, parameters, true, delta, host_scale, target_scale, e, c, &cost, &error);
+    else
+      batch_weigh(a.scratch, n, parameters, false, 0.0F, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) {
-      for (int row = 0; row < parameters; row += 3) batch_project(a.scratch, n, row, e, c);
       const vf inverse_s = div(one, max_(target_s, tiny)), scale = mul(inverse_s, inverse_s);
       const vf scale_b = neg(div(inverse_s, max_(root, one)));
-      for (int row = 0; row < parameters; row += 3) {
-        batch_square(a.scratch, n, parameters, row, scale, scale_b, out);
-        for (int column = row + 3; column < parameters; column += 3)
-          batch_cross(a.scratch, n, parameters, row, column, scale, out);
+      // Not a loop: with constants for rows, where things lie is known when this is compiled.
+      batch_square(a.scratch, n, parameters, 0, scale, scale_b, out);
+      batch_square(a.scratch, n, parameters, 3, scale, scale_b, out);
+      batch_cross(a.scratch, n, parameters, 0, 3, scale, out);
+      if (parameters > 6) {
+        batch_square(a.scratch, n, parameters, 6, scale, scale_b, out);
+        batch_cross(a.scratch, n, parameters, 0, 6, scale, out);
+        batch_cross(a.scratch, n, parameters, 3, 6, scale, out);
       }
     }
     float* tail = out + head * kBatchStep;
@@ -208,7 +230,7 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
   }
   const int visible = head + static_cast<int>(simd::BatchEntry::visible);
   batch_put(out, visible, counts.visible);
-  if (keep_lanes != (1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U)))
+  if (keep_lanes != all_lanes)
     for (int l = 0; l < kLanes; ++l)
       if (!(keep_lanes >> l & 1U))
         for (int entry = 0; entry < visible; ++entry) out[entry * kBatchStep + l] = 0.0F;
@@ -229,7 +251,8 @@ TEXTPLANE_SIMD_INLINE void batch_any(const simd::BatchArgs& a, int parameters) n
         for (int entry = 0; entry < entries; ++entry) batch_put(out + lane, entry, zero());
         continue;
       }
-      batch_vector(a, frame, lane, parameters, a.pixels + a.groups[group].start, n, a.status + first + lane, lanes, out + lane);
+      batch_vector(a, frame, lane, parameters, a.pixels + a.groups[group].start, n, a.status + first + lane, lanes,
+                   out + lane);
     }
   }
 }
