@@ -87,6 +87,10 @@ struct Parameters {
   int final_iterations = 30;    ///< Of the adjustment over all key frames at the end,
   int final_text_targets = 64;  ///< in which a plane meets this many key frames.
 
+  // Last poses of the frames between key frames
+  int refit_min_points = 40;   ///< Map points, else the pose stays as it was to its key frame.
+  int refit_max_points = 250;  ///< Remembered of a frame.
+
   // Recovery
   int relocalise_candidates = 5;  ///< Key frames tried for a lost frame.
   int young_map_keyframes = 5;    ///< A map of fewer that is lost soon was not a good one:

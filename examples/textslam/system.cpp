@@ -99,6 +99,7 @@ void System::follow(const Frame& frame, FrameRecord& record) {
 
   const double map_start = now_ms();
   if (parameters_.mode != Mode::points) text_mapper_.associate(frame, tracker_->pose(), tracker_->tracks());
+  record.seen = seen_points(tracker_->tracks(), static_cast<std::size_t>(parameters_.refit_max_points));
   if (keyframe_needed(frame)) add_keyframe(frame, record);
   record.map_ms = now_ms() - map_start;
 }
@@ -165,6 +166,16 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   add_corners(frame, last_keyframe_, quads, parameters_, tracks);
   tracker_->correct(T_c_w);
   set_pose(record, T_c_w);
+  record.seen.clear();
+}
+
+void System::refit_poses() {
+  for (FrameRecord& record : records_) {
+    if (record.state != FrameState::tracked || record.seen.empty()) continue;
+    SE3d T_c_w = final_pose(record).inverse();
+    if (refit_pose(map_, parameters_, record.seen, &T_c_w))
+      record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * T_c_w.inverse();
+  }
 }
 
 void System::fill_in(const std::function<Frame(int)>& load) {
@@ -188,12 +199,13 @@ void System::fill_in(const std::function<Frame(int)>& load) {
 void System::finish() {
   if (!tracker_) return;
   adjust_all(map_, parameters_, parameters_.final_iterations);
-  if (parameters_.mode == Mode::points) return;
+  if (parameters_.mode == Mode::points) return refit_poses();
   // Observations were judged with the plane of their time, a rough one at first: the adjusted planes are seen in more
   // key frames, and a wider base settles their slant.
   text_mapper_.observe_again();
   adjust_all(map_, parameters_, parameters_.final_iterations);
   TextRefiner(map_, parameters_).refine();
+  refit_poses();
 }
 
 }  // namespace textslam

@@ -12,6 +12,7 @@
 #include "textslam/initialiser.hpp"
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
+#include "textslam/pose_refit.hpp"
 #include "textslam/text_mapper.hpp"
 #include "textslam/tracker.hpp"
 
@@ -32,6 +33,7 @@ struct FrameRecord {
   SE3d T_w_c_live;    ///< Camera to world as known when the frame was processed; tracked frames alone.
   bool live = false;  ///< Tracked when it came, not filled in afterwards.
   int points = 0, texts = 0;
+  std::vector<SeenPoint> seen;  ///< Between key frames: what the pose rests on.
   double detect_ms = 0, track_ms = 0, klt_ms = 0, pose_ms = 0, reobserve_ms = 0, map_ms = 0, adjust_ms = 0;
 };
 
@@ -64,6 +66,7 @@ class System {
   void set_pose(FrameRecord& record, const SE3d& T_c_w);
   bool keyframe_needed(const Frame& frame) const;
   void add_keyframe(const Frame& frame, FrameRecord& record);
+  void refit_poses();
 
   Parameters parameters_;
   Map map_;
