@@ -24,7 +24,7 @@ class Adjustment {
     for (const int id : selection.free_frames) add_frame(id, false);
     for (const int id : selection.fixed_frames) add_frame(id, true);
     for (const int id : selection.points) add_point(id);
-    if (parameters.mode != Mode::points)
+    if (parameters.mode == Mode::text)
       for (TextObject& text : map.texts) add_text(text);
   }
 

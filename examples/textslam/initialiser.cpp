@@ -14,7 +14,7 @@ void Initialiser::restart(const Frame& frame) {
   reference_ = last_ = frame;
   tracks_.clear();
   std::vector<Quad<double>> quads;
-  if (parameters_.mode != Mode::points)
+  if (parameters_.mode == Mode::text)
     for (const Detection& detection : frame.detections) quads.push_back(detection.quad);
   add_corners(frame, 0, quads, parameters_, tracks_);
   frames_ = ambiguous_ = 0;

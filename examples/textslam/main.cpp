@@ -25,8 +25,9 @@ int execute(int argc, char** argv) {
   app.add_option("--render", render.kind, "Render a sequence of this kind into OUTPUT/sequence and run on it")
       ->check(CLI::IsMember(textslam::render_kinds()));
   app.add_option("--output", options.output, "Folder for the results")->required();
-  app.add_option("--mode", mode, "text: points and text; points: points alone")
-      ->check(CLI::IsMember({"text", "points"}))
+  app.add_option("--mode", mode,
+                 "text: points and text; points: points alone; loose: as points, text planes fitted to the points")
+      ->check(CLI::IsMember({"text", "points", "loose"}))
       ->capture_default_str();
   app.add_option("--detector", options.detector, "files: the sequence's detections; classical: built in")
       ->check(CLI::IsMember({"files", "classical"}))
@@ -52,7 +53,9 @@ int execute(int argc, char** argv) {
     return kInputError;
   }
 
-  options.parameters.mode = mode == "points" ? textslam::Mode::points : textslam::Mode::text;
+  options.parameters.mode = mode == "points"  ? textslam::Mode::points
+                            : mode == "loose" ? textslam::Mode::loose
+                                              : textslam::Mode::text;
   if (!render.kind.empty()) {
     options.sequence = render.output = options.output + "/sequence";
     textslam::Progress progress("rendering");

@@ -8,6 +8,7 @@ namespace textslam {
 enum class Mode {
   text,    ///< Points and text planes in one cost.
   points,  ///< Points alone; detections are not looked at.
+  loose,   ///< The paper's comparison: poses and points as in `points`; text planes fitted to the points afterwards.
 };
 
 struct Parameters {
@@ -79,6 +80,13 @@ struct Parameters {
   double refine_margin = 3;     ///< px around the quad that belong to it: edges of letters with both their sides.
   double blur_variance = 0.25;  ///< px^2 of a camera's own blur.
   double blur_spread = 2.5;     ///< See textplane::match_blur().
+
+  // Text planes in mode `loose`
+  double loose_inlier = 0.01;    ///< Relative depth error of a point on the plane.
+  int loose_draws = 1000;        ///< Of three points; all that there are where they are fewer.
+  int loose_min_points = 6;      ///< On the plane: as many as the linear system of mode `text` asks for.
+  double loose_min_share = 0.5;  ///< Of the points in the quad.
+  int loose_seen_points = 3;     ///< Of the plane's points, in a key frame that observes it.
 
   // Bundle adjustment
   int window_frames = 8;  ///< Free key frames of the local adjustment.

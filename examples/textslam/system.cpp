@@ -4,6 +4,7 @@
 
 #include "textslam/adjustment.hpp"
 #include "textslam/feature_tracks.hpp"
+#include "textslam/loose_planes.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/recovery.hpp"
 #include "textslam/statistics.hpp"
@@ -60,7 +61,8 @@ void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecor
     text_mapper_.update(1, tracks);
     const std::vector<Detection> fresh = text_mapper_.new_detections(frame, T_c_w, tracks);
     text_mapper_.add_candidates(1, fresh);
-    for (const Detection& detection : fresh) quads.push_back(detection.quad);
+    if (parameters_.mode == Mode::text)
+      for (const Detection& detection : fresh) quads.push_back(detection.quad);
   }
   last_keyframe_points_ = static_cast<int>(tracks.size());
   add_corners(frame, 1, quads, parameters_, tracks);
@@ -159,7 +161,8 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
     text_mapper_.update(last_keyframe_, tracks);
     const std::vector<Detection> fresh = text_mapper_.new_detections(frame, T_c_w, tracks);
     text_mapper_.add_candidates(last_keyframe_, fresh);
-    for (const Detection& detection : fresh) quads.push_back(detection.quad);
+    if (parameters_.mode == Mode::text)
+      for (const Detection& detection : fresh) quads.push_back(detection.quad);
   }
   last_keyframe_points_ = 0;
   for (const Track& track : tracks) last_keyframe_points_ += track.point >= 0 ? 1 : 0;
@@ -199,12 +202,14 @@ void System::fill_in(const std::function<Frame(int)>& load) {
 void System::finish() {
   if (!tracker_) return;
   adjust_all(map_, parameters_, parameters_.final_iterations);
-  if (parameters_.mode == Mode::points) return refit_poses();
-  // Observations were judged with the plane of their time, a rough one at first: the adjusted planes are seen in more
-  // key frames, and a wider base settles their slant.
-  text_mapper_.observe_again();
-  adjust_all(map_, parameters_, parameters_.final_iterations);
-  TextRefiner(map_, parameters_).refine();
+  if (parameters_.mode == Mode::loose) refresh_loose_planes(map_, parameters_);
+  if (parameters_.mode == Mode::text) {
+    // Observations were judged with the plane of their time, a rough one at first: the adjusted planes are seen in more
+    // key frames, and a wider base settles their slant.
+    text_mapper_.observe_again();
+    adjust_all(map_, parameters_, parameters_.final_iterations);
+    TextRefiner(map_, parameters_).refine();
+  }
   refit_poses();
 }
 

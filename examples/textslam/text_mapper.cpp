@@ -9,6 +9,7 @@
 #include "textplane/geometry/plane_fit.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/solver/plane.hpp"
+#include "textslam/loose_planes.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/statistics.hpp"
 
@@ -222,6 +223,7 @@ void TextMapper::observe_again() {
 }
 
 void TextMapper::update(int id, const std::vector<Track>& tracks) {
+  if (parameters_.mode == Mode::loose) return update_loose_planes(map_, parameters_, id);
   for (TextObject& text : map_.texts) {
     if (text.host == id || text.state == TextState::dropped) continue;
     if (text.state == TextState::candidate) {

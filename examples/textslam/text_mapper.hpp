@@ -25,6 +25,7 @@ class TextMapper {
   /// New candidates hosted by key frame `id`.
   void add_candidates(int id, const std::vector<Detection>& detections);
   /// After key frame `id` was added: planes for candidates, observations, refinement, promotion, culling.
+  /// Mode loose: by loose_planes.hpp instead.
   void update(int id, const std::vector<Track>& tracks);
   /// After the planes and poses were adjusted: which key frames show the mapped texts, by what is known now.
   void observe_again();

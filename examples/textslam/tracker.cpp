@@ -142,7 +142,7 @@ TrackReport Tracker::track(const Frame& frame) {
   const double t2 = now_ms();
   reobserve(frame, pose, &report);
   const double t3 = now_ms();
-  fit = fit_pose(frame, parameters_.mode != Mode::points, &pose);
+  fit = fit_pose(frame, parameters_.mode == Mode::text, &pose);
   const double t4 = now_ms();
   report.klt_ms = t1 - t0;
   report.reobserve_ms = t3 - t2;

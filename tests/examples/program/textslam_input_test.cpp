@@ -230,7 +230,7 @@ TEST_F(TextslamInput, SenselessDetections) {
 TEST_F(TextslamInput, BlankImages) {
   make_flat(12, 320);
   write("detections/000003.txt", "10,10,90,10,90,40,10,40,GHOST\n");
-  for (const char* mode : {"text", "points"}) {
+  for (const char* mode : {"text", "points", "loose"}) {
     expect_success(run({"--mode", mode}));
     expect_all_outputs(output());
     EXPECT_EQ(metrics().at("tracked"), 0);

@@ -261,6 +261,22 @@ TEST_F(TextslamRun, PointsModeKnowsNoText) {
   EXPECT_TRUE(json_of(folder_->path("points/text_map.json")).at("texts").empty());
 }
 
+// Loose planes come after tracking and adjustment: poses and points are those of mode points, to the byte.
+TEST_F(TextslamRun, LooseModeMapsTextThatNothingElseKnows) {
+  expect_success(run(room(), "points-alone", {"--mode", "points"}));
+  expect_success(run(room(), "loose", {"--mode", "loose"}));
+  expect_all_outputs(folder_->path("loose"));
+  for (const char* name : {"trajectory.txt", "trajectory_live.txt", "keyframes.txt"})
+    EXPECT_TRUE(bytes_of(folder_->path("loose/") + name) == bytes_of(folder_->path("points-alone/") + name)) << name;
+  const Json metrics = json_of(folder_->path("loose/metrics.json"));
+  EXPECT_EQ(metrics.at("points"), json_of(folder_->path("points-alone/metrics.json")).at("points"));
+  const Json& text = metrics.at("text");
+  EXPECT_GE(2 * text.at("signs_mapped").get<int>(), text.at("signs_visible").get<int>());
+  EXPECT_LE(text.at("angle_median_deg").get<double>(), 8.0);
+  EXPECT_LE(text.at("false_texts").get<int>(), 1);
+  EXPECT_EQ(json_of(folder_->path("loose/text_map.json")).at("texts").size(), metrics.at("texts").get<std::size_t>());
+}
+
 TEST_F(TextslamRun, RunsWithTheClassicalDetector) {
   const std::string bare = folder_->path("no-detections");
   fs::copy(room(), bare, fs::copy_options::recursive);
