@@ -24,11 +24,17 @@ Matrix3<double> horn_rotation(const Matrix3<double>& m /* sum from_i to_i^T */) 
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }
 
+// The errors in order stand at 0, 1/(n - 1), ..., 1; between them the line from one to the next.
+double quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const std::size_t below = static_cast<std::size_t>(at), above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
 double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  return quantile(values, 0.5);
 }
 
 class RelativeErrors {
@@ -136,8 +142,10 @@ ErrorStatistics error_statistics(std::vector<double> errors) {
   const double n = static_cast<double>(errors.size());
   statistics.rmse = std::sqrt(squares / n);
   statistics.mean = sum / n;
-  statistics.max = *std::max_element(errors.begin(), errors.end());
-  statistics.median = median_of(std::move(errors));
+  std::sort(errors.begin(), errors.end());
+  statistics.max = errors.back();
+  statistics.median = quantile(errors, 0.5);
+  statistics.p90 = quantile(errors, 0.9);
   return statistics;
 }
 

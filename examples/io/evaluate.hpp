@@ -43,10 +43,11 @@ std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const 
 Status align_points(const std::vector<Vector3<double>>& from, const std::vector<Vector3<double>>& to, bool with_scale,
                     Similarity* out);
 
-/// Zeros when n is 0. The median of an even number is the mean of the middle two.
+/// Zeros when n is 0. Median and 90th percentile are interpolated between the errors next to them in order, so the median
+/// of an even number is the mean of the middle two.
 struct ErrorStatistics {
   std::size_t n = 0;
-  double rmse = 0, mean = 0, median = 0, max = 0;
+  double rmse = 0, mean = 0, median = 0, p90 = 0, max = 0;
 };
 ErrorStatistics error_statistics(std::vector<double> errors);
 

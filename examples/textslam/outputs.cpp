@@ -106,6 +106,7 @@ Json errors_json(const TrajectoryEvaluation& e) {
           {"path_length", e.path_length},
           {"ate_rmse", e.ate.rmse},
           {"ate_median", e.ate.median},
+          {"ate_p90", e.ate.p90},
           {"ate_max", e.ate.max},
           {"rpe_frame_translation_rmse", e.rpe_frame.translation.rmse},
           {"rpe_frame_rotation_rmse_deg", e.rpe_frame.rotation.rmse},
@@ -131,13 +132,11 @@ std::string metrics_json(const RunSummary& s) {
     for (const SignMatch& m : s.text.matches)
       matches.push_back(
           {{"text", m.text}, {"sign", m.sign}, {"angle_deg", m.angle}, {"centre", m.centre}, {"word_right", m.word}});
-    out["text"] = {{"signs_visible", s.text.signs},
-                   {"signs_mapped", s.text.mapped},
-                   {"false_texts", s.text.false_texts},
-                   {"angle_median_deg", s.text.median_angle},
-                   {"angle_max_deg", s.text.max_angle},
-                   {"centre_median", s.text.median_centre},
-                   {"matches", matches}};
+    out["text"] = {{"signs_visible", s.text.signs},         {"signs_mapped", s.text.mapped},
+                   {"false_texts", s.text.false_texts},     {"angle_median_deg", s.text.angle.median},
+                   {"angle_p90_deg", s.text.angle.p90},     {"angle_max_deg", s.text.angle.max},
+                   {"centre_median", s.text.centre.median}, {"centre_p90", s.text.centre.p90},
+                   {"centre_max", s.text.centre.max},       {"matches", matches}};
   }
   return out.dump(1) + "\n";
 }
@@ -224,7 +223,8 @@ std::string format_summary(const RunSummary& s) {
   if (s.text.available) {
     row("signs mapped", "%d of %d visible, %d false", s.text.mapped, s.text.signs, s.text.false_texts);
     if (s.text.mapped > 0)
-      row("angle error", "%.2f deg median, %.2f deg largest", s.text.median_angle, s.text.max_angle);
+      row("angle error", "%.2f deg median, %.2f deg p90, %.2f deg largest", s.text.angle.median, s.text.angle.p90,
+          s.text.angle.max);
   }
   row("time", "%.1f ms a frame (median)", s.median_ms);
   return out.str();

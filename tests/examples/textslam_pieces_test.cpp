@@ -287,8 +287,8 @@ TEST_F(EvaluateTextTest, MatchesPlacesNormalsAndWords) {
   EXPECT_EQ(exact.signs, 3);
   EXPECT_EQ(exact.mapped, 3);
   EXPECT_EQ(exact.false_texts, 0);
-  EXPECT_LT(exact.max_angle, 1e-5);
-  EXPECT_LT(exact.median_centre, 1e-12);
+  EXPECT_LT(exact.angle.max, 1e-5);
+  EXPECT_LT(exact.centre.max, 1e-12);
   ASSERT_EQ(exact.matches.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(exact.matches[i].sign, signs[i].id);
@@ -308,7 +308,7 @@ TEST_F(EvaluateTextTest, MatchesPlacesNormalsAndWords) {
   EXPECT_EQ(worse.signs, 3) << "the one hardly seen does not count";
   EXPECT_EQ(worse.mapped, 2);
   EXPECT_EQ(worse.false_texts, 0) << "but what stands for it is not false";
-  EXPECT_NEAR(worse.max_angle, 7, 1e-6);
+  EXPECT_NEAR(worse.angle.max, 7, 1e-6);
   EXPECT_FALSE(worse.matches[1].word);
 }
 
@@ -341,7 +341,9 @@ TEST_F(EvaluateTextTest, BrokenTruthNamesFileAndLine) {
   folder.write("truth/quads/000000.txt", "no quad at all\n");
   expect_input_error([&] { read_true_signs(sequence); }, quads, 1, "eight coordinates");
   folder.write("truth/signs.json", "{\"signs\":[{\"id\":3}]}");
-  expect_input_error([&] { read_true_signs(sequence); }, signs, 0, "text");
+  expect_input_error([&] { read_true_signs(sequence); }, signs, 0, "signs[0]");
+  folder.write("truth/signs.json", "{\"signs\":[\n{\"id\":3,}]}");
+  expect_input_error([&] { read_true_signs(sequence); }, signs, 2, "parse error");
 }
 
 }  // namespace

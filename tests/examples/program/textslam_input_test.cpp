@@ -196,7 +196,7 @@ TEST_F(TextslamInput, WrongImageSize) {
 TEST_F(TextslamInput, BrokenTruthCostsNoResult) {
   make_room();
   write("truth/signs.json", "{\"signs\": [");
-  expect_refused(run(), 2, sequence("truth/signs.json") + ": ", "parse error");
+  expect_refused(run(), 2, sequence("truth/signs.json") + ":1: ", "parse error");
   expect_all_outputs(output());
   EXPECT_EQ(read_tum(output("trajectory.txt")).size(), static_cast<std::size_t>(kFrames));
   EXPECT_EQ(metrics().at("trajectory").at("status"), "ok");

@@ -1,4 +1,4 @@
-// What the tests of the program textslam share: running it as a user does, and looking at what it wrote.
+// What the tests of the programs share: running one as a user does, and looking at what it wrote.
 #ifndef TESTS_EXAMPLES_PROGRAM_TEXTSLAM_SUPPORT_HPP
 #define TESTS_EXAMPLES_PROGRAM_TEXTSLAM_SUPPORT_HPP
 
@@ -46,10 +46,10 @@ struct ProgramResult {
   std::string out, err;
 };
 
-/// Runs the program with these words as arguments, its standard error not on a terminal.
-inline ProgramResult textslam_program(const std::vector<std::string>& arguments) {
+/// Runs a program with these words as arguments, its standard error not on a terminal.
+inline ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments) {
   const TemporaryFolder streams;
-  std::string command = quoted(TEXTSLAM_PROGRAM);
+  std::string command = quoted(program);
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   command += " >" + quoted(streams.path("out")) + " 2>" + quoted(streams.path("err"));
   const int status = std::system(command.c_str());
@@ -59,12 +59,17 @@ inline ProgramResult textslam_program(const std::vector<std::string>& arguments)
   result.err = bytes_of(streams.path("err"));
   return result;
 }
+inline ProgramResult textslam_program(const std::vector<std::string>& arguments) {
+  return run_program(TEXTSLAM_PROGRAM, arguments);
+}
 
-/// It ended with this code and one line on standard error that starts with `textslam: ` and `place`, and says `part`.
-inline void expect_refused(const ProgramResult& result, int code, const std::string& place, const std::string& part) {
+/// It ended with this code and one line on standard error that starts with `name: ` and `place`, and says `part`.
+inline void expect_refused(const ProgramResult& result, int code, const std::string& place, const std::string& part,
+                           const std::string& name = "textslam") {
+  const std::string start = name + ": " + place;
   EXPECT_EQ(result.code, code) << result.err;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_EQ(result.err.compare(0, 10 + place.size(), "textslam: " + place), 0) << result.err << " should name " << place;
+  EXPECT_EQ(result.err.compare(0, start.size(), start), 0) << result.err << " should name " << place;
   EXPECT_NE(result.err.find(part), std::string::npos) << result.err << " should say " << part;
 }
 

@@ -1,0 +1,62 @@
+// textslam-eval: the errors of runs against the truth.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "io/input_error.hpp"
+#include "textslam_eval/format.hpp"
+
+namespace {
+
+constexpr int kInputError = 2;
+
+int execute(int argc, char** argv) {
+  std::vector<std::string> runs;
+  std::string truth, scale = "sim3";
+  bool markdown = false, csv = false;
+  CLI::App app{
+      "Errors of runs against the truth: absolute (ATE) and relative (RPE, over 0.1 m and per frame) of the "
+      "trajectory,\n"
+      "coverage, angles and centres of the signs. Lengths in the unit of the truth, angles in degrees."};
+  app.add_option("RUN", runs, "Output folders of textslam: trajectory.txt, and text_map.json where there is one")
+      ->required();
+  app.add_option("--truth", truth,
+                 "Folder with groundtruth.txt, and truth/signs.json where there is one; without it RUN/sequence");
+  app.add_option("--scale", scale, "sim3: aligned with scale; se3: without")
+      ->check(CLI::IsMember({"sim3", "se3"}))
+      ->capture_default_str();
+  CLI::Option* markdown_flag = app.add_flag("--markdown", markdown, "A Markdown table, a column a run");
+  app.add_flag("--csv", csv, "CSV, a line a run")->excludes(markdown_flag);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "textslam-eval: %s (see textslam-eval --help)\n", error.what());
+    return kInputError;
+  }
+
+  std::vector<textslam::RunEvaluation> evaluations;
+  for (const std::string& run : runs) evaluations.push_back(textslam::evaluate_run(run, truth, scale == "sim3"));
+  const textslam::Format format = markdown ? textslam::Format::markdown
+                                  : csv    ? textslam::Format::csv
+                                           : textslam::Format::text;
+  const std::string text = textslam::format_evaluations(evaluations, format);
+  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+    throw std::runtime_error("cannot write to standard output");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return execute(argc, argv);
+  } catch (const textslam::InputError& error) {
+    std::fprintf(stderr, "textslam-eval: %s\n", error.what());
+    return kInputError;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "textslam-eval: %s\n", error.what());
+    return 1;
+  }
+}
