@@ -88,7 +88,9 @@ std::vector<Detection> detect(const std::vector<SignView>& views, const std::vec
     keep_inside(d.quad, camera);
     if (!missed) found.push_back(d);
   }
-  if (!signs.empty() && random.chance(errors.false_per_frame)) {
+  const double whole = std::floor(errors.false_per_frame);
+  const int strays = static_cast<int>(whole) + (random.chance(errors.false_per_frame - whole) ? 1 : 0);
+  for (int i = 0; i < strays && !signs.empty(); ++i) {
     // Somewhere that is no sign; a picture full of signs gets its stray quad on top of one in the end.
     Quad<double> quad = stray_quad(camera, random);
     for (int attempt = 0; attempt < 50; ++attempt) {

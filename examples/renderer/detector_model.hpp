@@ -14,7 +14,7 @@ namespace textslam {
 struct DetectorErrors {
   double corner_sigma = 1.5;     ///< px, each coordinate of each corner, normal and independent
   double missed = 0.15;          ///< share of the legible signs
-  double false_per_frame = 0.1;  ///< chance of one quad where no text is (only where the scene has signs)
+  double false_per_frame = 0.1;  ///< quads where no text is, in the mean (only where the scene has signs)
   double words_right = 0.9;      ///< share of the words; half of the others come back unread, half with a wrong letter
 };
 

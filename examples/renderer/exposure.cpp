@@ -12,20 +12,12 @@ constexpr double kFootprint = 0.5;  // px: the distance of the grid's samples
 constexpr int kMostInstants = 32;
 constexpr double kStill = 0.2;  // px: blur that does not show
 
-}  // namespace
-
-std::vector<Vector2<double>> pixel_grid() { return {{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25}, {0.25, 0.25}}; }
-
-std::vector<double> exposure_times(double middle, double exposure, int n) {
-  std::vector<double> times;
-  for (int i = 0; i < n; ++i) times.push_back(middle + exposure * (2 * i + 1 - n) / (2.0 * n));
-  return times;
-}
-
-Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion, double middle, double exposure) {
+/// How far the images of scene points spread over the image move in `duration` seconds about `middle` (px).
+std::vector<Vector2<double>> displacements(const Scene& scene, const CameraModel& camera, const Motion& motion,
+                                           double middle, double duration) {
   const SE3d T_w_c = motion(middle);
-  const SE3d opened = motion(middle - 0.5 * exposure).inverse(), closed = motion(middle + 0.5 * exposure).inverse();
-  std::vector<double> lengths;
+  const SE3d before = motion(middle - 0.5 * duration).inverse(), after = motion(middle + 0.5 * duration).inverse();
+  std::vector<Vector2<double>> moves;
   constexpr int kColumns = 8, kRows = 6;
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
@@ -37,12 +29,36 @@ Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion
       if (hit.surface < 0) continue;
       const Vector3<double> p = T_w_c.t + hit.distance * direction;
       Vector2<double> a, b;
-      if (project(camera, opened, p, &a) && project(camera, closed, p, &b)) lengths.push_back((b - a).norm());
+      if (project(camera, before, p, &a) && project(camera, after, p, &b)) moves.push_back(b - a);
     }
   }
+  return moves;
+}
+
+}  // namespace
+
+std::vector<Vector2<double>> pixel_grid() { return {{-0.25, -0.25}, {0.25, -0.25}, {-0.25, 0.25}, {0.25, 0.25}}; }
+
+std::vector<double> exposure_times(double middle, double exposure, int n) {
+  std::vector<double> times;
+  for (int i = 0; i < n; ++i) times.push_back(middle + exposure * (2 * i + 1 - n) / (2.0 * n));
+  return times;
+}
+
+Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion, double middle, double exposure) {
+  std::vector<double> lengths;
+  for (const Vector2<double>& move : displacements(scene, camera, motion, middle, exposure))
+    lengths.push_back(move.norm());
   if (lengths.empty()) return {};
   std::sort(lengths.begin(), lengths.end());
   return {lengths[lengths.size() / 2], lengths.back()};
+}
+
+Vector2<double> image_direction(const Scene& scene, const CameraModel& camera, const Motion& motion, double time) {
+  constexpr double kMoment = 1e-3;  // s
+  Vector2<double> sum = Vector2<double>::Zero();
+  for (const Vector2<double>& move : displacements(scene, camera, motion, time, kMoment)) sum += move;
+  return sum.norm() > 1e-9 ? sum.normalized() : Vector2<double>::UnitX();
 }
 
 int instants_for(double blur) {

@@ -21,6 +21,9 @@ struct Blur {
 };
 Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion, double middle, double exposure);
 
+/// The direction (unit vector, px) in which most of the image moves at a time; the x axis where the camera stands still.
+Vector2<double> image_direction(const Scene& scene, const CameraModel& camera, const Motion& motion, double time);
+
 /// Number of instants for a blur of so many pixels: four where it does not show, else at least eight, and more than one a
 /// pixel; a multiple of eight.
 int instants_for(double blur);

@@ -56,6 +56,17 @@ void check(const RenderOptions& options) {
   if (options.width < 64 || options.height < 48 || options.width > 4096 || options.height > 4096) {
     refuse("the image size must be 64x48 to 4096x4096");
   }
+  const auto demand = [&](const char* what, double value, double low, double high) {
+    if (value >= low && value <= high) return;  // NaN is refused
+    refuse(std::string(what) + " must be " + shortest(low) + " to " + shortest(high) + ", not " + shortest(value));
+  };
+  const Conditions& conditions = options.conditions;
+  demand("the blur", conditions.blur.value_or(0.0), 0.0, 200.0);
+  demand("the gain", conditions.gain.value_or(1.0), 0.0, 100.0);
+  demand("the noise", conditions.noise.value_or(0.0), 0.0, 255.0);
+  demand("the jitter of detections", options.detector.corner_sigma, 0.0, 1000.0);
+  demand("the share of missed detections", options.detector.missed, 0.0, 1.0);
+  demand("the number of false detections", options.detector.false_per_frame, 0.0, 100.0);
 }
 
 /// Renders and writes single frames; const, so that several threads may share it.
@@ -68,9 +79,12 @@ class FrameWriter {
   std::string write(int frame) const {
     const double time = frame / kFramesPerSecond;
     const std::uint64_t number = static_cast<std::uint64_t>(frame);
-    const Blur blur = blur_of(shot_.scene, camera_, shot_.motion, time, shot_.exposure);
-    const Image<double> light =
-        expose(shot_.scene, caster_, shot_.motion, time, shot_.exposure, instants_for(blur.max));
+    Blur blur = blur_of(shot_.scene, camera_, shot_.motion, time, shot_.exposure);
+    Image<double> light = expose(shot_.scene, caster_, shot_.motion, time, shot_.exposure, instants_for(blur.max));
+    if (const double length = options_.conditions.blur.value_or(0.0); length > 0.0) {
+      light = blur_along(light, image_direction(shot_.scene, camera_, shot_.motion, time), length);
+      blur = {length, length};
+    }
     const SensorState state = shot_.sensor(time);
     const Image<std::uint8_t> picture = develop(light, state, hash(options_.seed, kNoiseStream, number));
     const std::string name = stem_of(frame);
@@ -127,7 +141,8 @@ std::vector<std::string> write_frames(const FrameWriter& writer, const RenderOpt
 
 void render_sequence(const RenderOptions& options, const std::function<void(int done, int total)>& progress) {
   check(options);
-  const Shot shot = make_shot(options.kind, options.seed, options.width, options.height);
+  Shot shot = make_shot(options.kind, options.seed, options.width, options.height);
+  apply(options.conditions, &shot);
   const CameraModel camera = camera_of(options);
   for (const char* folder : {"/images", "/detections", "/truth/quads"}) create_output_folder(options.output + folder);
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/names.hpp"
+#include "renderer/conditions.hpp"
 #include "renderer/detector_model.hpp"
 
 namespace textslam {
@@ -26,6 +27,7 @@ struct RenderOptions {
   int frames = 240;               ///< at 30 a second
   int width = 640, height = 480;  ///< px; the field of view stays that of 525 px focal length at a width of 640
   RadialTangential<double> lens;  ///< none by default
+  Conditions conditions;
   DetectorErrors detector;
   int threads = 2;  ///< the bytes written do not depend on it
 };

@@ -12,6 +12,21 @@ namespace {
 
 constexpr int kInputError = 2;
 
+// What a rendered sequence has in place of what its kind says; the renderer checks the ranges.
+void add_conditions(CLI::App& app, textslam::RenderOptions& render) {
+  const auto add = [&](const char* name, auto& value, const char* what) {
+    return app.add_option(name, value, what)
+        ->group("Conditions of --render, each in place of the kind's")
+        ->needs("--render");
+  };
+  add("--blur", render.conditions.blur, "Motion blur of every frame, px");
+  add("--gain", render.conditions.gain, "Gain of the sensor, constant in time");
+  add("--noise", render.conditions.noise, "Standard deviation of the noise, grey levels");
+  add("--jitter", render.detector.corner_sigma, "Of the corners of detections, px")->capture_default_str();
+  add("--missed", render.detector.missed, "Share of the signs that the detector misses, 0 to 1")->capture_default_str();
+  add("--false", render.detector.false_per_frame, "False detections a frame, in the mean")->capture_default_str();
+}
+
 int execute(int argc, char** argv) {
   textslam::RunOptions options;
   textslam::RenderOptions render;
@@ -41,6 +56,7 @@ int execute(int argc, char** argv) {
   app.add_option("--frames", render.frames, "Number of rendered frames")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  add_conditions(app, render);
   app.add_flag("--render-only", only_render, "Render without running on it");
   try {
     app.parse(argc, argv);

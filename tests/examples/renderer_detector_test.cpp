@@ -93,6 +93,40 @@ TEST(RendererDetector, SharesAndJitterAreThoseOfTheOptions) {
   EXPECT_NEAR(cross / (0.5 * n), 0.0, 5.0 * 2.25 / std::sqrt(0.5 * n));
 }
 
+TEST(RendererDetector, SweptErrorsAreMetOverTheirWholeRange) {
+  const Views v = four_signs();
+  const CameraModel camera = test_camera();
+  for (const double missed : {0.0, 0.5, 1.0}) {
+    for (const double strays : {0.0, 1.0, 2.5}) {
+      const DetectorErrors errors{8.0, missed, strays, 1.0};
+      int found = 0, stray = 0;
+      double squares = 0.0;
+      for (int frame = 0; frame < kFrames; ++frame) {
+        int strays_here = 0;
+        for (const Detection& d :
+             detect(v.views, v.signs, camera, errors, Random(hash(2, 1, static_cast<std::uint64_t>(frame))))) {
+          if (d.text == kUnreadText) {
+            ++strays_here;
+            continue;
+          }
+          ++found;
+          for (const SignView& view : v.views) {
+            if (v.signs[static_cast<std::size_t>(view.sign)].word != d.text) continue;
+            for (std::size_t k = 0; k < 4; ++k) squares += (d.quad.corner[k] - view.quad.corner[k]).squaredNorm();
+          }
+        }
+        EXPECT_GE(strays_here, std::floor(strays));
+        EXPECT_LE(strays_here, std::ceil(strays));
+        stray += strays_here;
+      }
+      const double whole = 4.0 * kFrames;
+      EXPECT_NEAR(found / whole, 1.0 - missed, 5.0 * std::sqrt(missed * (1.0 - missed) / whole));
+      EXPECT_NEAR(stray / static_cast<double>(kFrames), strays, 5.0 * 0.5 / std::sqrt(kFrames));
+      if (found > 0) EXPECT_NEAR(std::sqrt(squares / (8.0 * found)), 8.0, 5.0 * 8.0 / std::sqrt(16.0 * found));
+    }
+  }
+}
+
 TEST(RendererDetector, WithoutErrorsItReportsTheTruth) {
   const Views v = four_signs();
   const DetectorErrors none{0.0, 0.0, 0.0, 1.0};

@@ -294,6 +294,8 @@ TEST_F(TextslamInput, UnknownOptionsAndNames) {
   expect_refused(run({"another"}), 2, "", "another");
   expect_refused(textslam_program({"--render", "castle", "--output", output()}), 2, "", "castle");
   expect_refused(textslam_program({"--output", output()}), 2, "", "SEQUENCE or --render");
+  expect_refused(run({"--noise", "3"}), 2, "", "--render");
+  expect_refused(textslam_program({"--render", "room", "--missed", "1.5", "--output", output()}), 2, "", "missed");
   expect_refused(textslam_program({sequence(), "--render", "room", "--output", output()}), 2, "", "SEQUENCE or --render");
   expect_refused(textslam_program({sequence()}), 2, "", "--output");
   EXPECT_FALSE(fs::exists(output()));
