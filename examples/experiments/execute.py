@@ -1,0 +1,128 @@
+"""Runs cases and keeps what they gave: OUTPUT/runs/<case>/<mode>/result.json beside the files of textslam.
+
+A result is kept as long as the program and the arguments that made it are the same; a run that was broken off has none and
+is done again. Runs that fail are results, too.
+"""
+import concurrent.futures
+import hashlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+from plan import MODES
+
+INTERRUPTED = (-signal.SIGINT, -signal.SIGTERM)
+_print_lock = threading.Lock()
+
+
+def say(text):
+    with _print_lock:
+        print(text, flush=True)
+
+
+def fingerprint(program):
+    return hashlib.sha256(Path(program).read_bytes()).hexdigest()[:16]
+
+
+def call(command):
+    """Exit code, the last line of standard error, wall and CPU seconds of the command alone."""
+    start = time.monotonic()
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    errors = process.stderr.read().decode("utf-8", "replace").strip().splitlines()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return {
+        "code": process.returncode,
+        "error": errors[-1] if errors else "",
+        "wall_s": time.monotonic() - start,
+        "cpu_s": usage.ru_utime + usage.ru_stime,
+    }
+
+
+def load(path):
+    try:
+        return json.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+
+
+class Runner:
+    def __init__(self, textslam, output, retry_failed=False):
+        self.textslam, self.output = str(textslam), Path(output)
+        self.program = fingerprint(textslam)
+        self.retry_failed = retry_failed
+
+    def folder(self, case, mode):
+        return self.output / "runs" / case.name / mode
+
+    def key(self, case, mode):
+        source = [str(Path(case.sequence).resolve())] if case.sequence else case.arguments
+        return {"program": self.program, "arguments": source + ["--mode", mode]}
+
+    def result(self, case, mode):
+        """What the run gave, or None where there is none of this program and these arguments."""
+        result = load(self.folder(case, mode) / "result.json")
+        return result if result and result.get("key") == self.key(case, mode) else None
+
+    def is_finished(self, case, mode):
+        result = self.result(case, mode)
+        return result is not None and (result["code"] == 0 or not self.retry_failed)
+
+    def run_case(self, case):
+        """Whatever of the case is not finished; its frames are gone afterwards."""
+        missing = [mode for mode in MODES if not self.is_finished(case, mode)]
+        if not missing:
+            return
+        scratch = self.output / "frames" / case.name
+        try:
+            sequence, rendering = case.sequence, None
+            if not case.sequence:
+                shutil.rmtree(scratch, ignore_errors=True)
+                rendering = call([self.textslam, *case.arguments, "--render-only", "--output", str(scratch)])
+                sequence = scratch / "sequence"
+            for mode in missing:
+                self.run_mode(case, mode, sequence, rendering)
+        finally:
+            shutil.rmtree(scratch, ignore_errors=True)
+
+    def run_mode(self, case, mode, sequence, rendering):
+        folder = self.folder(case, mode)
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        if rendering and rendering["code"] != 0:
+            run = rendering
+        else:
+            run = call([self.textslam, str(sequence), "--mode", mode, "--output", str(folder)])
+        if run["code"] in INTERRUPTED:
+            raise KeyboardInterrupt  # by whoever stopped us: not a result
+        result = {"key": self.key(case, mode), **run}
+        result["metrics"] = load(folder / "metrics.json")
+        result["tracking_s"] = seconds_of(load(folder / "timing.json"))
+        part = folder / "result.json.part"
+        part.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        part.rename(folder / "result.json")
+        outcome = "done" if run["code"] == 0 else f"failed ({run['code']}): {run['error']}"
+        say(f"{case.name} {mode}: {outcome}, {run['wall_s']:.1f} s")
+
+    def run_all(self, cases, jobs):
+        """All cases, `jobs` at a time."""
+        with concurrent.futures.ThreadPoolExecutor(max_workers=jobs) as pool:
+            futures = [pool.submit(self.run_case, case) for case in cases]
+            try:
+                for future in concurrent.futures.as_completed(futures):
+                    future.result()
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+
+
+def seconds_of(timing):
+    """Seconds of tracking and mapping, all frames; None without timings."""
+    if not timing:
+        return None
+    return sum(frame["tracking"] + frame["mapping"] for frame in timing["frames"]) / 1000

@@ -1,0 +1,44 @@
+"""What is run: cases (a rendered sequence or one given, by name) and the modes on each.
+
+A case is rendered once and run in every mode, so that the modes meet the same images and detections.
+"""
+MODES = ("text", "points", "loose")
+KINDS = ("room", "corridor", "rapid", "lights", "sparse", "notext")
+SEEDS = (1, 2, 3)
+
+# Sweeps vary one condition of the room; each: the option of textslam, its unit, and the values.
+SWEEPS = {
+    "blur": ("--blur", "px of motion blur", (0, 2, 4, 8, 12, 16, 20, 25, 30)),
+    "gain": ("--gain", "gain of the sensor", (0.3, 0.5, 0.75, 1, 1.25, 1.5, 2)),
+    "noise": ("--noise", "grey levels of noise, one sigma", (0, 2, 4, 6, 8, 10, 12, 15)),
+    "jitter": ("--jitter", "px of jitter of detections, one sigma", (0, 1, 2, 3, 4, 6, 8)),
+    "missed": ("--missed", "share of missed detections", (0, 0.2, 0.4, 0.6, 0.8, 0.9, 1)),
+    "false": ("--false", "false detections a frame", (0, 0.1, 0.5, 1, 2, 4)),
+}
+SWEEP_KIND = "room"
+SWEEP_SEED = 1
+
+
+class Case:
+    """name: its folder in the output; group: `kinds`, `sequence` or a sweep's name; value: of the sweep."""
+
+    def __init__(self, name, group, kind, arguments=(), seed=None, value=None, sequence=None):
+        self.name, self.group, self.kind = name, group, kind
+        self.arguments, self.seed, self.value, self.sequence = list(arguments), seed, value, sequence
+
+
+def cases(kinds, seeds, sweeps, frames, sequence):
+    """The cases asked for, in the order of the report. `sequence`: a folder, or None."""
+    out = []
+    for kind in kinds:
+        for seed in seeds:
+            arguments = ["--render", kind, "--seed", str(seed), "--frames", str(frames)]
+            out.append(Case(f"{kind}-{seed}", "kinds", kind, arguments, seed=seed))
+    if sequence:
+        out.append(Case("sequence", "sequence", "sequence", sequence=sequence))
+    for sweep in sweeps:
+        option, _, values = SWEEPS[sweep]
+        for value in values:
+            arguments = ["--render", SWEEP_KIND, "--seed", str(SWEEP_SEED), "--frames", str(frames), option, str(value)]
+            out.append(Case(f"{sweep}-{value}", sweep, SWEEP_KIND, arguments, seed=SWEEP_SEED, value=value))
+    return out

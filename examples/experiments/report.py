@@ -1,0 +1,199 @@
+"""docs/experiments.md from finished runs. Everything in it but the section on time is the same for the same programs."""
+from figures import (
+    ANGLE_BINS,
+    LARGEST_ATE,
+    LEAST_COVERAGE,
+    angles,
+    centres,
+    failure,
+    has_truth,
+    histogram,
+    mean,
+    millimetres,
+    quantile,
+    text_count,
+    trajectory_value,
+    written,
+)
+from plan import MODES, SWEEP_KIND, SWEEP_SEED, SWEEPS
+from plot import plot
+
+WITH_PLANES = ("text", "loose")
+
+
+def table(head, rows):
+    align = ["---"] + ["---:"] * (len(head) - 1)
+    lines = ["| " + " | ".join(cells) + " |" for cells in [head, align, *rows]]
+    return "\n".join(lines) + "\n"
+
+
+def by_kind(cases):
+    """[(kind, its cases)] of the first two groups, in their order."""
+    kinds = {}
+    for case in cases:
+        if case.group in ("kinds", "sequence"):
+            kinds.setdefault(case.kind, []).append(case)
+    return list(kinds.items())
+
+
+class Report:
+    """results(case, mode) gives the result of a run, or None where it has not been run."""
+
+    def __init__(self, cases, results, setting):
+        self.cases, self.results, self.setting = cases, results, setting
+
+    def runs(self, cases, mode):
+        return [result for result in (self.results(case, mode) for case in cases) if result]
+
+    def text(self):
+        parts = [self.head(), self.accuracy(), self.planes(), self.angle_histogram(), self.time()]
+        parts += [self.sweep(name) for name in SWEEPS if self.sweep_cases(name)]
+        return "\n".join(part for part in parts + [self.failures()] if part)
+
+    def head(self):
+        setting = self.setting
+        return f"""# Experiments
+
+Written by `examples/experiments/run`; do not edit. The modes of `textslam` on rendered sequences of {setting["frames"]} frames
+(640x480, exact truth), seeds {", ".join(map(str, setting["seeds"]))}, and on a real one where its folder was given:
+
+- `text`: points and text planes in one cost, the paper's method;
+- `points`: points alone;
+- `loose`: as `points`, text planes by three-point RANSAC on the map points in a text's quad, the paper's comparison.
+
+ATE is the absolute trajectory error (the paper's APE), rmse after Sim(3) alignment; RPE the relative one over 0.1 m of path, rmse.
+`live` is ATE of the poses as known when their frames were processed. A run counts as failed where the program does not end well,
+fewer than {100 * LEAST_COVERAGE:.0f} % of the frames have a pose, or ATE is above {100 * LARGEST_ATE:.0f} % of the path; it gives no error to any mean, its
+signs count as not mapped, and it is listed at the end.
+"""
+
+    def accuracy(self):
+        rows = []
+        for kind, cases in by_kind(self.cases):
+            for mode in MODES:
+                rows += self.accuracy_row(kind, mode, self.runs(cases, mode))
+        if not rows:
+            return ""
+        head = ["sequence", "mode", "ATE, mm", "mean", "% of path", "live", "RPE, mm", "RPE, deg", "frames with a pose", "failed"]
+        return "## Trajectories (the paper's Table I)\n\n" + table(head, rows)
+
+    @staticmethod
+    def accuracy_row(kind, mode, runs):
+        if not runs:
+            return []
+        failed = sum(1 for run in runs if failure(run))
+        coverage = mean([run["metrics"]["coverage"] for run in runs if run["metrics"]])
+        covered = "-" if coverage is None else f"{100 * coverage:.1f} %"
+        if not any(has_truth(run) for run in runs):
+            return [[f"`{kind}`", mode, "no truth", *["-"] * 5, covered, f"{failed} of {len(runs)}"]]
+
+        def values(name, live=False):
+            found = [trajectory_value(run, name, live) for run in runs]
+            return [value for value in found if value is not None]
+
+        each = ["failed" if failure(run) else millimetres(trajectory_value(run, "ate_rmse")) for run in runs]
+        paths = [trajectory_value(run, "path_length") for run in runs]
+        shares = [100 * ate / path for ate, path in zip(values("ate_rmse"), [p for p in paths if p is not None])]
+        return [[
+            f"`{kind}`", mode, ", ".join(each), millimetres(mean(values("ate_rmse"))), written(mean(shares), 3),
+            millimetres(mean(values("ate_rmse", live=True))),
+            millimetres(mean(values("rpe_distance_translation_rmse"))),
+            written(mean(values("rpe_distance_rotation_rmse_deg")), 3), covered, f"{failed} of {len(runs)}",
+        ]]
+
+    def planes(self):
+        rows, everything = [], {mode: [] for mode in WITH_PLANES}
+        for kind, cases in by_kind(self.cases):
+            for mode in WITH_PLANES:
+                runs = self.runs(cases, mode)
+                everything[mode] += runs
+                if text_count(runs, "signs_visible"):
+                    rows.append(self.plane_row(f"`{kind}`", mode, runs))
+        if not rows:
+            return ""
+        rows += [self.plane_row("all", mode, everything[mode]) for mode in WITH_PLANES]
+        head = ["sequence", "mode", "angle median, deg", "p90", "largest", "centre median, mm", "p90", "signs mapped", "false texts"]
+        return "## Planes (the paper's Table II)\n\nErrors of the normals and centres of all mapped signs.\n\n" + table(head, rows)
+
+    @staticmethod
+    def plane_row(name, mode, runs):
+        errors, offsets = angles(runs), centres(runs)
+        mapped, visible = text_count(runs, "signs_mapped"), text_count(runs, "signs_visible")
+        return [
+            name, mode, written(quantile(errors, 0.5), 2), written(quantile(errors, 0.9), 2),
+            written(max(errors, default=None), 2), millimetres(quantile(offsets, 0.5), 1), millimetres(quantile(offsets, 0.9), 1),
+            f"{mapped} of {visible}", str(text_count(runs, "false_texts")),
+        ]
+
+    def angle_histogram(self):
+        cases = [case for _, group in by_kind(self.cases) for case in group]
+        counts = {mode: histogram(angles(self.runs(cases, mode))) for mode in WITH_PLANES}
+        if not any(sum(count) for count in counts.values()):
+            return ""
+        names = [f"up to {end:g}" for end in ANGLE_BINS] + [f"above {ANGLE_BINS[-1]:g}"]
+        rows = []
+        for i, name in enumerate(names):
+            row = [name]
+            for mode in WITH_PLANES:
+                share = counts[mode][i] / max(1, sum(counts[mode]))
+                row += [str(counts[mode][i]), f"{100 * share:.0f} % " + "█" * round(20 * share)]
+            rows.append(row)
+        head = ["angle error, deg"] + [cell for mode in WITH_PLANES for cell in (mode, "share")]
+        return "## How the angle errors are spread\n\n" + table(head, rows)
+
+    def time(self):
+        rows = []
+        for kind, cases in by_kind(self.cases):
+            for mode in MODES:
+                runs = [r for r in self.runs(cases, mode) if r["code"] == 0 and r["metrics"] and r["tracking_s"]]
+                if not runs:
+                    continue
+                frames = sum(run["metrics"]["frames"] for run in runs)
+                tracking, cpu = sum(run["tracking_s"] for run in runs), sum(run["cpu_s"] for run in runs)
+                rows.append([f"`{kind}`", mode, f"{frames / tracking:.0f}", f"{1000 * cpu / frames:.1f}"])
+        if not rows:
+            return ""
+        jobs = self.setting["jobs"]
+        alone = "one run at a time" if jobs == 1 else f"{jobs} runs at a time, which slows each"
+        return (f"## Time\n\n{self.setting['cpu']}, one thread a run, {alone}. Frames a second: tracking, mapping and local adjustment. CPU: "
+                "the whole program, with\nreading images, filling in, and the adjustment at the end.\n\n"
+                + table(["sequence", "mode", "frames a second", "CPU ms a frame"], rows))
+
+    def sweep_cases(self, name):
+        cases = [case for case in self.cases if case.group == name]
+        return [case for case in cases if any(self.results(case, mode) for mode in MODES)]
+
+    def sweep(self, name):
+        rows, ate, angle = [], {mode: [] for mode in MODES}, {mode: [] for mode in WITH_PLANES}
+        for case in self.sweep_cases(name):
+            row = [f"{case.value:g}"]
+            for mode in MODES:
+                run = self.results(case, mode)
+                value = run and trajectory_value(run, "ate_rmse")
+                ate[mode].append((case.value, value and 1000 * value))
+                row.append("-" if not run else "failed" if failure(run) else millimetres(value))
+            for mode in WITH_PLANES:
+                runs = self.runs([case], mode)
+                errors = angles(runs)
+                angle[mode].append((case.value, quantile(errors, 0.5)))
+                mapped, visible = text_count(runs, "signs_mapped"), text_count(runs, "signs_visible")
+                row += ["-" if visible is None else f"{mapped} of {visible}",
+                        written(quantile(errors, 0.5), 2), written(quantile(errors, 0.9), 2)]
+            rows.append(row)
+        unit = SWEEPS[name][1]
+        picture = f"experiments_{name}.svg"
+        self.setting["pictures"][picture] = plot(unit, [("ATE, mm", ate), ("angle error, median, deg", angle)])
+        head = [unit] + [f"ATE {mode}, mm" for mode in MODES]
+        for mode in WITH_PLANES:
+            head += [f"signs mapped, {mode}", "angle median, deg", "p90"]
+        return (f"## Sweep: {unit}\n\n`{SWEEP_KIND}`, seed {SWEEP_SEED}, `{SWEEPS[name][0]}`.\n\n![{unit}](images/{picture})\n\n"
+                + table(head, rows))
+
+    def failures(self):
+        lines = []
+        for case in self.cases:
+            for mode in MODES:
+                run = self.results(case, mode)
+                if run and failure(run):
+                    lines.append(f"- `{case.name}`, {mode}: {failure(run)}")
+        return "## Runs that failed\n\n" + ("\n".join(lines) if lines else "None.") + "\n"
