@@ -28,14 +28,14 @@ class Case:
 
 
 def cases(kinds, seeds, sweeps, frames, sequence):
-    """The cases asked for, in the order of the report. `sequence`: a folder, or None."""
+    """The cases asked for, in the order of the report. `sequence`: the path of a folder, or None."""
     out = []
     for kind in kinds:
         for seed in seeds:
             arguments = ["--render", kind, "--seed", str(seed), "--frames", str(frames)]
             out.append(Case(f"{kind}-{seed}", "kinds", kind, arguments, seed=seed))
     if sequence:
-        out.append(Case("sequence", "sequence", "sequence", sequence=sequence))
+        out.append(Case("sequence", "sequence", sequence.resolve().name, sequence=sequence))
     for sweep in sweeps:
         option, _, values = SWEEPS[sweep]
         for value in values:

@@ -28,12 +28,12 @@ def table(head, rows):
 
 
 def by_kind(cases):
-    """[(kind, its cases)] of the first two groups, in their order."""
+    """[(name, its cases)] of the rendered kinds and the real sequence, in their order."""
     kinds = {}
     for case in cases:
         if case.group in ("kinds", "sequence"):
-            kinds.setdefault(case.kind, []).append(case)
-    return list(kinds.items())
+            kinds.setdefault((case.group, case.kind), []).append(case)
+    return [(kind, group) for (_, kind), group in kinds.items()]
 
 
 class Report:

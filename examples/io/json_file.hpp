@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "io/input_error.hpp"
 #include "io/names.hpp"
 
 namespace textslam {
@@ -17,15 +18,6 @@ Vector3<double> to_vector3(const nlohmann::json& json);
 
 /// `read(entry)` for every entry of the list `name` of the document; InputError that names the list and the entry for what
 /// is missing or of another type.
-template <class Read>
-void for_each_entry(const nlohmann::json& document, const std::string& name, const std::string& path, Read read);
-
-}  // namespace textslam
-
-#include "io/input_error.hpp"
-
-namespace textslam {
-
 template <class Read>
 void for_each_entry(const nlohmann::json& document, const std::string& name, const std::string& path, Read read) {
   const auto list = document.is_object() ? document.find(name) : document.end();

@@ -1,6 +1,7 @@
 #include "textslam_eval/format.hpp"
 
 #include <algorithm>
+#include <locale>
 #include <sstream>
 
 #include "io/text_file.hpp"

@@ -117,14 +117,14 @@ class Experiments(unittest.TestCase):
     def test_a_missing_sequence_is_left_out_with_a_line(self):
         report = self.run_part("--kinds", "--sweeps", "--sequence", str(self.folder / "none"))
         self.assertIn("no such folder, left out", self.outcome.stdout)
-        self.assertNotIn("`sequence`", report)
+        self.assertNotIn("`none`", report)
 
     def test_a_real_sequence_is_run_where_it_is(self):
         (self.folder / "real").mkdir()
         (self.folder / "real/frames").write_text(json.dumps({"seed": 1, "blur": 0}))
         report = self.run_part("--kinds", "--sweeps", "--sequence", str(self.folder / "real"))
         self.assertEqual(len(self.called), 3)
-        self.assertIn("| `sequence` | text | 1.00 |", report)
+        self.assertIn("| `real` | text | 1.00 |", report)
         self.assertTrue((self.folder / "real/frames").exists())
 
 

@@ -92,9 +92,12 @@ class LoosePlanesTest : public testing::Test {
     std::mt19937 random(4);
     const Vec3 theta = textplane::plane_from_normal<double>(normal, 3);
     for (int i = 0; i < 40; ++i)
-      map.points.push_back(
-          {textplane::plane_point<double>(theta, map.camera.unproject({uniform(random, 250, 390), uniform(random, 210, 270)})),
-           {}, 0, 0, false});
+      map.points.push_back({textplane::plane_point<double>(
+                                theta, map.camera.unproject({uniform(random, 250, 390), uniform(random, 210, 270)})),
+                            {},
+                            0,
+                            0,
+                            false});
     TextObject text;
     text.id = 0;
     text.host = 0;

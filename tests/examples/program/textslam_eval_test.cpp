@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 constexpr const char* kTruth = "0 1 0 0 0 0 0 1\n1 0 1 0 0 0 0 1\n2 -1 0 0 0 0 0 1\n3 0 -1 0 0 0 0 1\n";
 std::string estimate() {
   const double half = 4.5 / 57.295779513082320877;
-  return "# a run\n0 1.1 0 0 0 0 0 1\n1 0 0.9 0 0 0 0 1\n2 -1.1 0 0 0 0 0 1\n3 0 -0.9 0 0 0 " + shortest(std::sin(half)) +
-         " " + shortest(std::cos(half)) + "\n";
+  return "# a run\n0 1.1 0 0 0 0 0 1\n1 0 0.9 0 0 0 0 1\n2 -1.1 0 0 0 0 0 1\n3 0 -0.9 0 0 0 " +
+         shortest(std::sin(half)) + " " + shortest(std::cos(half)) + "\n";
 }
 
 // A sign or text of 1 x 1 whose top left corner is at (x, y, 0), with its normal turned from -z about x.
@@ -75,7 +75,8 @@ class TextslamEval : public testing::Test {
       out[name] = value;
     return out;
   }
-  static void expect_numbers(const std::map<std::string, std::string>& fields, const std::map<std::string, double>& numbers) {
+  static void expect_numbers(const std::map<std::string, std::string>& fields,
+                             const std::map<std::string, double>& numbers) {
     for (const auto& [name, expected] : numbers) {
       ASSERT_EQ(fields.count(name), 1u) << name;
       double value = -1;
@@ -93,11 +94,21 @@ class TextslamEval : public testing::Test {
 TEST_F(TextslamEval, TrajectoryByHandWithoutScale) {
   // By symmetry nothing moves, each pose is off by 0.1, and each step, between neighbours at a right angle, by 0.1 both ways.
   expect_numbers(csv({"--scale", "se3"}),
-                 {{"poses", 4}, {"pairs", 4}, {"path_length", 3 * std::sqrt(2.0)}, {"scale", 1},
-                  {"ate_rmse", 0.1}, {"ate_median", 0.1}, {"ate_p90", 0.1}, {"ate_max", 0.1},
-                  {"rpe_frame_rmse", std::sqrt(0.02)}, {"rpe_distance_rmse", std::sqrt(0.02)}, {"rpe_frame_p90", std::sqrt(0.02)},
+                 {{"poses", 4},
+                  {"pairs", 4},
+                  {"path_length", 3 * std::sqrt(2.0)},
+                  {"scale", 1},
+                  {"ate_rmse", 0.1},
+                  {"ate_median", 0.1},
+                  {"ate_p90", 0.1},
+                  {"ate_max", 0.1},
+                  {"rpe_frame_rmse", std::sqrt(0.02)},
+                  {"rpe_distance_rmse", std::sqrt(0.02)},
+                  {"rpe_frame_p90", std::sqrt(0.02)},
                   // 0, 0 and 9 degrees; 0.9 of the way through them in order is 0.8 of the way from 0 to 9
-                  {"rpe_frame_deg_rmse", std::sqrt(27.0)}, {"rpe_frame_deg_median", 0}, {"rpe_frame_deg_p90", 7.2},
+                  {"rpe_frame_deg_rmse", std::sqrt(27.0)},
+                  {"rpe_frame_deg_median", 0},
+                  {"rpe_frame_deg_p90", 7.2},
                   {"rpe_distance_deg_max", 9}});
 }
 
@@ -105,20 +116,37 @@ TEST_F(TextslamEval, TrajectoryByHandWithScale) {
   // scale = sum to.from / sum from^2 = (1.1 + 1.1 + 0.9 + 0.9) / (2 * 1.21 + 2 * 0.81)
   const double scale = 4 / 4.04, stretched = 1.1 * scale - 1, shrunk = 1 - 0.9 * scale;
   const double rmse = std::sqrt((stretched * stretched + shrunk * shrunk) / 2);
-  expect_numbers(csv({}), {{"scale", scale}, {"ate_rmse", rmse}, {"ate_max", shrunk}, {"ate_median", (stretched + shrunk) / 2},
+  expect_numbers(csv({}), {{"scale", scale},
+                           {"ate_rmse", rmse},
+                           {"ate_max", shrunk},
+                           {"ate_median", (stretched + shrunk) / 2},
                            {"rpe_frame_rmse", rmse * std::sqrt(2.0)}});
 }
 
 TEST_F(TextslamEval, SignsByHand) {
   add_signs();
   expect_numbers(csv({"--scale", "se3"}),
-                 {{"frames", 10}, {"coverage", 0.4}, {"signs_visible", 5}, {"signs_mapped", 4}, {"texts_matched", 4},
-                  {"texts_false", 1}, {"words_right", 3},
+                 {{"frames", 10},
+                  {"coverage", 0.4},
+                  {"signs_visible", 5},
+                  {"signs_mapped", 4},
+                  {"texts_matched", 4},
+                  {"texts_false", 1},
+                  {"words_right", 3},
                   // 0.9, 1.9, 2.9, 3.9: the 90th percentile is 0.7 of the way from the third to the fourth
-                  {"angle_deg_median", 2.4}, {"angle_deg_p90", 3.6}, {"angle_deg_max", 3.9},
-                  {"centre_median", 0.025}, {"centre_p90", 0.037}, {"centre_max", 0.04},
-                  {"angle_to_0.25", 0}, {"angle_to_0.5", 0}, {"angle_to_1", 1}, {"angle_to_2", 1}, {"angle_to_5", 2},
-                  {"angle_to_10", 0}, {"angle_above_10", 0}});
+                  {"angle_deg_median", 2.4},
+                  {"angle_deg_p90", 3.6},
+                  {"angle_deg_max", 3.9},
+                  {"centre_median", 0.025},
+                  {"centre_p90", 0.037},
+                  {"centre_max", 0.04},
+                  {"angle_to_0.25", 0},
+                  {"angle_to_0.5", 0},
+                  {"angle_to_1", 1},
+                  {"angle_to_2", 1},
+                  {"angle_to_5", 2},
+                  {"angle_to_10", 0},
+                  {"angle_above_10", 0}});
 }
 
 TEST_F(TextslamEval, WhatIsNotKnownIsEmpty) {
@@ -171,6 +199,8 @@ TEST_F(TextslamEval, BrokenInputNamesFileAndLine) {
   expect_bad(run + "/text_map.json:3: ", "parse error");
   folder_.write("run/text_map.json", "{\"texts\":[" + sign(1, "A", 0, 0, 0) + ",{\"id\":2}]}");
   expect_bad(run + "/text_map.json: ", "texts[1]");
+  folder_.write("run/text_map.json", "{\"texts\":[{\"id\":1e999}]}");
+  expect_bad(run + "/text_map.json: ", "out of range");
   folder_.write("run/text_map.json", "[]");
   expect_bad(run + "/text_map.json: ", "no list 'texts'");
   folder_.write("run/text_map.json", "{\"texts\":[]}");
@@ -185,7 +215,8 @@ TEST_F(TextslamEval, BrokenInputNamesFileAndLine) {
 }
 
 TEST_F(TextslamEval, MissingInputAndWrongOptions) {
-  const auto refused = [](const std::vector<std::string>& arguments, const std::string& place, const std::string& part) {
+  const auto refused = [](const std::vector<std::string>& arguments, const std::string& place,
+                          const std::string& part) {
     expect_refused(run_program(TEXTSLAM_EVAL_PROGRAM, arguments), 2, place, part, "textslam-eval");
   };
   const std::string run = folder_.path("run");
