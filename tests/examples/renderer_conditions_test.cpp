@@ -49,14 +49,14 @@ TEST(RendererConditions, NoiseHasItsSigmaAtEveryBrightness) {
 }
 
 TEST(RendererConditions, GainIsConstantAndTheRestOfTheSensorStays) {
-  const Shot lights = make_shot("lights", 1, 160, 120);
+  const SensorProgram lights = changing_lights(1, 160, 120);
   Shot shot;
-  shot.sensor = lights.sensor;
+  shot.sensor = lights;
   Conditions conditions;
   conditions.gain = 0.3;
   apply(conditions, &shot);
   for (int frame = 0; frame < 240; frame += 7) {
-    const SensorState kind = lights.sensor(frame / 30.0), state = shot.sensor(frame / 30.0);
+    const SensorState kind = lights(frame / 30.0), state = shot.sensor(frame / 30.0);
     EXPECT_EQ(state.gain, 0.3);
     EXPECT_EQ(state.bias, kind.bias);
     EXPECT_EQ(state.noise, kind.noise);
@@ -117,7 +117,7 @@ TEST(RendererConditions, BlurKeepsAnEvenPictureAndOfLengthZeroEveryPicture) {
 
 RenderOptions small_render(const std::string& output) {
   RenderOptions options;
-  options.kind = "room";
+  options.kind = "sparse";  // the scene that is made fastest
   options.output = output;
   options.frames = 2;
   options.width = 160;

@@ -200,7 +200,7 @@ TEST_F(TextslamEval, BrokenInputNamesFileAndLine) {
   folder_.write("run/text_map.json", "{\"texts\":[" + sign(1, "A", 0, 0, 0) + ",{\"id\":2}]}");
   expect_bad(run + "/text_map.json: ", "texts[1]");
   folder_.write("run/text_map.json", "{\"texts\":[{\"id\":1e999}]}");
-  expect_bad(run + "/text_map.json: ", "out of range");
+  expect_bad(run + "/text_map.json: ", "number overflow");
   folder_.write("run/text_map.json", "[]");
   expect_bad(run + "/text_map.json: ", "no list 'texts'");
   folder_.write("run/text_map.json", "{\"texts\":[]}");
