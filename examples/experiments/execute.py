@@ -52,10 +52,10 @@ def load(path):
 
 
 class Runner:
-    def __init__(self, textslam, output, retry_failed=False):
+    def __init__(self, textslam, output, retry_failed=False, keep_frames=False):
         self.textslam, self.output = str(textslam), Path(output)
         self.program = fingerprint(textslam)
-        self.retry_failed = retry_failed
+        self.retry_failed, self.keep_frames = retry_failed, keep_frames
 
     def folder(self, case, mode):
         return self.output / "runs" / case.name / mode
@@ -74,21 +74,29 @@ class Runner:
         return result is not None and (result["code"] == 0 or not self.retry_failed)
 
     def run_case(self, case):
-        """Whatever of the case is not finished; its frames are gone afterwards."""
+        """Whatever of the case is not finished; its frames are gone afterwards, unless they are to be kept."""
         missing = [mode for mode in MODES if not self.is_finished(case, mode)]
         if not missing:
             return
         scratch = self.output / "frames" / case.name
         try:
-            sequence, rendering = case.sequence, None
-            if not case.sequence:
-                shutil.rmtree(scratch, ignore_errors=True)
-                rendering = call([self.textslam, *case.arguments, "--render-only", "--output", str(scratch)])
-                sequence = scratch / "sequence"
+            rendering = None if case.sequence else self.render(case, scratch)
             for mode in missing:
-                self.run_mode(case, mode, sequence, rendering)
+                self.run_mode(case, mode, case.sequence or scratch / "sequence", rendering)
         finally:
-            shutil.rmtree(scratch, ignore_errors=True)
+            if not self.keep_frames:
+                shutil.rmtree(scratch, ignore_errors=True)
+
+    def render(self, case, folder):
+        """What call() says of the rendering; None where the frames of an earlier time serve."""
+        arguments, note = " ".join(case.arguments), folder / "rendered.txt"
+        if self.keep_frames and note.exists() and note.read_text(encoding="utf-8") == arguments:
+            return None
+        shutil.rmtree(folder, ignore_errors=True)
+        rendering = call([self.textslam, *case.arguments, "--render-only", "--output", str(folder)])
+        if rendering["code"] == 0:
+            note.write_text(arguments, encoding="utf-8")
+        return rendering
 
     def run_mode(self, case, mode, sequence, rendering):
         folder = self.folder(case, mode)

@@ -21,8 +21,9 @@ from plot import plot
 WITH_PLANES = ("text", "loose")
 
 
-def table(head, rows):
-    align = ["---"] + ["---:"] * (len(head) - 1)
+def table(head, rows, names=1):
+    """Markdown; the first `names` columns are words, the others numbers."""
+    align = ["---"] * names + ["---:"] * (len(head) - names)
     lines = ["| " + " | ".join(cells) + " |" for cells in [head, align, *rows]]
     return "\n".join(lines) + "\n"
 
@@ -75,7 +76,7 @@ signs count as not mapped, and it is listed at the end.
         if not rows:
             return ""
         head = ["sequence", "mode", "ATE, mm", "mean", "% of path", "live", "RPE, mm", "RPE, deg", "frames with a pose", "failed"]
-        return "## Trajectories (the paper's Table I)\n\n" + table(head, rows)
+        return "## Trajectories (the paper's Table I)\n\n" + table(head, rows, 2)
 
     @staticmethod
     def accuracy_row(kind, mode, runs):
@@ -113,7 +114,7 @@ signs count as not mapped, and it is listed at the end.
             return ""
         rows += [self.plane_row("all", mode, everything[mode]) for mode in WITH_PLANES]
         head = ["sequence", "mode", "angle median, deg", "p90", "largest", "centre median, mm", "p90", "signs mapped", "false texts"]
-        return "## Planes (the paper's Table II)\n\nErrors of the normals and centres of all mapped signs.\n\n" + table(head, rows)
+        return "## Planes (the paper's Table II)\n\nErrors of the normals and centres of all mapped signs.\n\n" + table(head, rows, 2)
 
     @staticmethod
     def plane_row(name, mode, runs):
@@ -157,7 +158,7 @@ signs count as not mapped, and it is listed at the end.
         alone = "one run at a time" if jobs == 1 else f"{jobs} runs at a time, which slows each"
         return (f"## Time\n\n{self.setting['cpu']}, one thread a run, {alone}. Frames a second: tracking, mapping and local adjustment. CPU: "
                 "the whole program, with\nreading images, filling in, and the adjustment at the end.\n\n"
-                + table(["sequence", "mode", "frames a second", "CPU ms a frame"], rows))
+                + table(["sequence", "mode", "frames a second", "CPU ms a frame"], rows, 2))
 
     def sweep_cases(self, name):
         cases = [case for case in self.cases if case.group == name]

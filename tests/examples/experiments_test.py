@@ -104,6 +104,15 @@ class Experiments(unittest.TestCase):
         self.run_part(*part)
         self.assertEqual(len(self.called), 8)
 
+    def test_kept_frames_serve_a_changed_program(self):
+        part = ("--kinds", "room", "--seeds", "1", "--sweeps", "--frames", "10", "--keep-frames")
+        self.run_part(*part)
+        self.program.write_text(STAND_IN + "\n")
+        self.run_part(*part)
+        self.assertEqual(len(self.called), 3, "three modes, no rendering")
+        self.run_part(*part[:-3], "--frames", "11", "--keep-frames")
+        self.assertEqual(len(self.called), 4, "other frames")
+
     def test_sweep_shows_failing_runs_and_draws_them(self):
         report = self.run_part("--kinds", "--sweeps", "blur", "--frames", "10")
         self.assertEqual(len(self.called), 4 * len(plan.SWEEPS["blur"][2]))
