@@ -67,14 +67,15 @@ def centres(results):
     return [match["centre"] for result in results for match in matches(result)]
 
 
-def text_count(results, name):
-    """Sum over the runs whose sequence has signs; those that failed mapped none."""
-    counts = [
-        0 if failure(result) and name != "signs_visible" else result["metrics"]["text"][name]
-        for result in results
-        if result["metrics"] and "text" in result["metrics"]
-    ]
-    return sum(counts) if counts else None
+def signs_visible(result):
+    """How many true signs the sequence shows; None where the run does not tell."""
+    known = result and result["metrics"] and "text" in result["metrics"]
+    return result["metrics"]["text"]["signs_visible"] if known else None
+
+
+def text_count(result, name):
+    """Of signs mapped or false texts; a run that failed has none."""
+    return 0 if failure(result) or "text" not in result["metrics"] else result["metrics"]["text"][name]
 
 
 def histogram(values):

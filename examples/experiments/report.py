@@ -11,6 +11,7 @@ from figures import (
     mean,
     millimetres,
     quantile,
+    signs_visible,
     text_count,
     trajectory_value,
     written,
@@ -45,6 +46,20 @@ class Report:
 
     def runs(self, cases, mode):
         return [result for result in (self.results(case, mode) for case in cases) if result]
+
+    def signs(self, cases, mode):
+        """(mapped, visible, false texts) of the cases that were run; visible is None where they show no signs. Any mode tells what
+        is visible, so that a run without a trajectory counts with all of it."""
+        mapped = visible = strays = 0
+        for case in cases:
+            run = self.results(case, mode)
+            told = [signs_visible(self.results(case, other)) for other in MODES]
+            if run is None or not any(told):
+                continue
+            visible += next(count for count in told if count)
+            mapped += text_count(run, "signs_mapped")
+            strays += text_count(run, "false_texts")
+        return mapped, visible or None, strays
 
     def text(self):
         parts = [self.head(), self.accuracy(), self.planes(), self.angle_histogram(), self.time()]
@@ -103,27 +118,23 @@ signs count as not mapped, and it is listed at the end.
         ]]
 
     def planes(self):
-        rows, everything = [], {mode: [] for mode in WITH_PLANES}
-        for kind, cases in by_kind(self.cases):
-            for mode in WITH_PLANES:
-                runs = self.runs(cases, mode)
-                everything[mode] += runs
-                if text_count(runs, "signs_visible"):
-                    rows.append(self.plane_row(f"`{kind}`", mode, runs))
+        kinds = [(f"`{kind}`", cases) for kind, cases in by_kind(self.cases)]
+        kinds.append(("all", [case for _, cases in kinds for case in cases]))
+        rows = [self.plane_row(name, cases, mode) for name, cases in kinds for mode in WITH_PLANES
+                if self.signs(cases, mode)[1] is not None]
         if not rows:
             return ""
-        rows += [self.plane_row("all", mode, everything[mode]) for mode in WITH_PLANES]
         head = ["sequence", "mode", "angle median, deg", "p90", "largest", "centre median, mm", "p90", "signs mapped", "false texts"]
         return "## Planes (the paper's Table II)\n\nErrors of the normals and centres of all mapped signs.\n\n" + table(head, rows, 2)
 
-    @staticmethod
-    def plane_row(name, mode, runs):
+    def plane_row(self, name, cases, mode):
+        runs = self.runs(cases, mode)
         errors, offsets = angles(runs), centres(runs)
-        mapped, visible = text_count(runs, "signs_mapped"), text_count(runs, "signs_visible")
+        mapped, visible, strays = self.signs(cases, mode)
         return [
             name, mode, written(quantile(errors, 0.5), 2), written(quantile(errors, 0.9), 2),
             written(max(errors, default=None), 2), millimetres(quantile(offsets, 0.5), 1), millimetres(quantile(offsets, 0.9), 1),
-            f"{mapped} of {visible}", str(text_count(runs, "false_texts")),
+            f"{mapped} of {visible}", str(strays),
         ]
 
     def angle_histogram(self):
@@ -174,10 +185,9 @@ signs count as not mapped, and it is listed at the end.
                 ate[mode].append((case.value, value and 1000 * value))
                 row.append("-" if not run else "failed" if failure(run) else millimetres(value))
             for mode in WITH_PLANES:
-                runs = self.runs([case], mode)
-                errors = angles(runs)
+                errors = angles(self.runs([case], mode))
                 angle[mode].append((case.value, quantile(errors, 0.5)))
-                mapped, visible = text_count(runs, "signs_mapped"), text_count(runs, "signs_visible")
+                mapped, visible, _ = self.signs([case], mode)
                 row += ["-" if visible is None else f"{mapped} of {visible}",
                         written(quantile(errors, 0.5), 2), written(quantile(errors, 0.9), 2)]
             rows.append(row)
