@@ -5,6 +5,7 @@ from html import escape
 WIDTH, HEIGHT = 420, 260  # of a panel
 LEFT, RIGHT, TOP, BOTTOM = 58, 14, 30, 44
 COLOURS = {"text": "#1f5fbf", "points": "#8a8a8a", "loose": "#d9731a"}
+DASHES = {"loose": ' stroke-dasharray="7 6"'}  # poses of modes loose and points are the same: both show
 
 
 def decades(values):
@@ -53,7 +54,9 @@ class Panel:
                 continue
             pen += ("L" if pen and pen[-1] != " " else "M") + f"{self.x(x):.1f} {self.y(y):.1f}"
             out.append(f'<circle cx="{self.x(x):.1f}" cy="{self.y(y):.1f}" r="3" fill="{colour}"/>')
-        return [f'<path d="{pen.strip()}" fill="none" stroke="{colour}" stroke-width="2"/>'] + out if pen.strip() else out
+        if pen.strip():
+            out.insert(0, f'<path d="{pen.strip()}" fill="none" stroke="{colour}" stroke-width="2"{DASHES.get(mode, "")}/>')
+        return out
 
 
 def plot(x_label, panels):
