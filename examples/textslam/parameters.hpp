@@ -93,7 +93,9 @@ struct Parameters {
   int window_fixed = 12;  ///< Fixed key frames around them.
   int window_iterations = 8;
   int final_iterations = 30;    ///< Of the adjustment over all key frames at the end,
-  int final_text_targets = 64;  ///< in which a plane meets this many key frames.
+  int final_text_targets = 64;  ///< in which a plane meets this many key frames,
+  double final_point_sigma =
+      0.5;  ///< px, and a corner is trusted more: what does not fit is left out, not averaged in.
 
   // Last poses of the frames between key frames
   int refit_min_points = 40;   ///< Map points, else the pose stays as it was to its key frame.
