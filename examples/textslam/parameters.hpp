@@ -92,10 +92,9 @@ struct Parameters {
   int window_frames = 8;  ///< Free key frames of the local adjustment.
   int window_fixed = 12;  ///< Fixed key frames around them.
   int window_iterations = 8;
-  int final_iterations = 30;    ///< Of the adjustment over all key frames at the end,
-  int final_text_targets = 64;  ///< in which a plane meets this many key frames,
-  double final_point_sigma =
-      0.5;  ///< px, and a corner is trusted more: what does not fit is left out, not averaged in.
+  int final_iterations = 30;       ///< Of the adjustment over all key frames at the end,
+  int final_text_targets = 64;     ///< in which a plane meets this many key frames.
+  double final_point_sigma = 0.5;  ///< px; below point_sigma: what does not fit weighs little.
 
   // Last poses of the frames between key frames
   int refit_min_points = 40;   ///< Map points, else the pose stays as it was to its key frame.
