@@ -17,11 +17,8 @@ struct Selection {
 
 class Adjustment {
  public:
-  Adjustment(Map& map, const Parameters& parameters, const Selection& selection, int text_targets, double point_sigma)
-      : map_(map),
-        parameters_(parameters),
-        text_targets_(static_cast<std::size_t>(text_targets)),
-        point_sigma_(point_sigma) {
+  Adjustment(Map& map, const Parameters& parameters, const Selection& selection, int text_targets)
+      : map_(map), parameters_(parameters), text_targets_(static_cast<std::size_t>(text_targets)) {
     slot_of_.assign(map.keyframes.size(), -1);
     window_.camera = map.camera;
     for (const int id : selection.free_frames) add_frame(id, false);
@@ -113,7 +110,7 @@ class Adjustment {
       observation.frame = slot;
       observation.point = static_cast<int>(points_.size());
       observation.px = o.px;
-      observation.sigma = point_sigma_;
+      observation.sigma = parameters_.window_point_sigma;
       window_.point_observations.push_back(observation);
     }
     textplane::WindowPoint window_point;
@@ -148,7 +145,6 @@ class Adjustment {
   Map& map_;
   const Parameters& parameters_;
   std::size_t text_targets_;  // at most, of a text
-  double point_sigma_;        // px
   textplane::Window window_;
   std::vector<int> slot_of_;                  // key frame id -> frame of the window, -1: not in it
   std::vector<int> frames_, points_, texts_;  // index in the window -> id
@@ -208,7 +204,7 @@ void adjust_local(Map& map, const Parameters& parameters) {
     selection.free_frames.erase(oldest);
   }
 
-  Adjustment adjustment(map, parameters, selection, parameters.text_targets, parameters.point_sigma);
+  Adjustment adjustment(map, parameters, selection, parameters.text_targets);
   adjustment.solve(parameters.window_iterations, -1, -1);
   adjustment.write_back();
   adjustment.remove_outliers();
@@ -232,7 +228,7 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
     }
   }
   for (int round = 0; round < 2; ++round) {
-    Adjustment adjustment(map, parameters, selection, parameters.final_text_targets, parameters.final_point_sigma);
+    Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
     adjustment.weigh_texts();
     adjustment.solve(iterations, 0, far);
     adjustment.write_back();

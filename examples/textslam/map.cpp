@@ -37,4 +37,11 @@ double facing(const Map& map, const TextObject& text, const SE3d& T_c_w) {
   return -normal.dot(centre.normalized());
 }
 
+double normal_sigma(const TextObject& text) {
+  const Vec3 n = textplane::plane_normal(text.theta);
+  const Eigen::Matrix3d J = (Eigen::Matrix3d::Identity() - n * n.transpose()) / text.theta.norm();
+  const Eigen::Matrix3d covariance = J * text.covariance * J.transpose();
+  return std::sqrt(std::max(0.0, textplane::symmetric_eigen<double, 3>(covariance).values[2]));
+}
+
 }  // namespace textslam

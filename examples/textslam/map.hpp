@@ -118,6 +118,9 @@ int scale_shift(const TextObject& text, const Quad<double>& quad);
 /// Cosine of the angle between a text's normal and the ray to its centre, seen from T_c_w; positive towards the camera.
 double facing(const Map& map, const TextObject& text, const SE3d& T_c_w);
 
+/// Largest standard deviation of the direction of a text's normal, radians: n = -theta / |theta|.
+double normal_sigma(const TextObject& text);
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_MAP_HPP

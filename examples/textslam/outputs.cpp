@@ -23,14 +23,6 @@ double percentile95(std::vector<double> values) {
 
 Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-// Largest standard deviation of the normal's direction, radians: n = -theta / |theta|.
-double normal_sigma(const TextObject& text) {
-  const Vec3 n = textplane::plane_normal(text.theta);
-  const Eigen::Matrix3d J = (Eigen::Matrix3d::Identity() - n * n.transpose()) / text.theta.norm();
-  const Eigen::Matrix3d covariance = J * text.covariance * J.transpose();
-  return std::sqrt(std::max(0.0, textplane::symmetric_eigen<double, 3>(covariance).values[2]));
-}
-
 std::string text_map_json(const Map& map) {
   Json texts = Json::array();
   for (const TextObject& text : map.texts) {

@@ -75,8 +75,11 @@ struct Parameters {
   // Last refinement of the text planes
   int refine_hosts = 4;         ///< Key frames that a text is compared from, the largest views among them,
   double refine_area = 0.4;     ///< each showing it at least this large, as a share of the largest view.
+  double refine_scale = 2;      ///< One that shows it this much smaller than the host is not compared with it.
   int refine_targets = 24;      ///< Key frames that each is compared with.
+  double refine_unlike = 1.5;   ///< One whose 1 - ZNCC is this many times the median is blurred or hidden: left out.
   int refine_pixels = 1000;     ///< Of the text.
+  double refine_max_sigma = 5;  ///< Degrees: a text whose normal is known no better is no part of the map.
   double refine_margin = 3;     ///< px around the quad that belong to it: edges of letters with both their sides.
   double blur_variance = 0.25;  ///< px^2 of a camera's own blur.
   double blur_spread = 2.5;     ///< See textplane::match_blur().
@@ -89,12 +92,12 @@ struct Parameters {
   int loose_seen_points = 3;     ///< Of the plane's points, in a key frame that observes it.
 
   // Bundle adjustment
-  int window_frames = 8;  ///< Free key frames of the local adjustment.
-  int window_fixed = 12;  ///< Fixed key frames around them.
+  int window_frames = 14;  ///< Free key frames of the local adjustment.
+  int window_fixed = 20;   ///< Fixed key frames around them.
   int window_iterations = 8;
-  int final_iterations = 30;       ///< Of the adjustment over all key frames at the end,
-  int final_text_targets = 64;     ///< in which a plane meets this many key frames.
-  double final_point_sigma = 0.5;  ///< px; below point_sigma: what does not fit weighs little.
+  int final_iterations = 30;        ///< Of the adjustment over all key frames at the end,
+  int final_text_targets = 64;      ///< in which a plane meets this many key frames.
+  double window_point_sigma = 0.5;  ///< px; below point_sigma: what does not fit weighs little.
 
   // Last poses of the frames between key frames
   int refit_min_points = 40;   ///< Map points, else the pose stays as it was to its key frame.

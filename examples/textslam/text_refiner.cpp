@@ -6,13 +6,14 @@
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textplane/photometry/residual.hpp"
+#include "textslam/statistics.hpp"
 
 namespace textslam {
 namespace {
 
 constexpr int kReach = 8;                // px around a quad that are filtered
 constexpr double kSampling = 1.0 / 6.0;  // px^2: mean variance of bilinear interpolation
-constexpr double kMostScale = 3;         // a view that shows the text this much smaller says little
 
 // Moves the sides of a quad outwards by `margin` px.
 Quad<double> grown(const Quad<double>& quad, double margin) {
@@ -60,7 +61,7 @@ bool TextRefiner::add_target(const textplane::TextPatch& patch, const Vec3& thet
   target.T_t_h = view.T_c_w * map_.keyframe(host.keyframe).T_w_c;
   textplane::Matrix2d A;
   textplane::BlurMatch match;
-  if (host.area > kMostScale * kMostScale * view.area ||
+  if (host.area > parameters_.refine_scale * parameters_.refine_scale * view.area ||
       !affine_at(map_.camera, theta, target.T_t_h, textplane::centroid(patch.quad), &A) ||
       !textplane::is_ok(textplane::match_blur(A, parameters_.blur_variance, parameters_.blur_variance + kSampling,
                                               parameters_.blur_spread, &match)))
@@ -78,6 +79,24 @@ bool TextRefiner::add_target(const textplane::TextPatch& patch, const Vec3& thet
           &patches_.back().levels[0]);
   targets_.push_back(target);
   return true;
+}
+
+// What moved while the shutter was open, or is half hidden, is less like the host than the others are.
+bool TextRefiner::drop_unlike(const Vec3& theta) {
+  std::vector<double> unlike;
+  for (const textplane::PlaneTarget& target : targets_) {
+    const auto input = textplane::photometric_input(*target.patch, 0, target.image, map_.camera);
+    photometric_.reserve(input.patch.n);
+    const auto cost = textplane::evaluate(input, theta, target.T_t_h, textplane::PhotometricOptions{}, photometric_);
+    unlike.push_back(textplane::is_ok(cost.status) ? 1 - cost.zncc : 2);
+  }
+  const double limit = parameters_.refine_unlike * median(unlike);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < targets_.size(); ++i)
+    if (unlike[i] <= limit) targets_[kept++] = targets_[i];
+  const bool dropped = kept < targets_.size();
+  targets_.resize(kept);
+  return dropped;
 }
 
 bool TextRefiner::estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out) {
@@ -102,15 +121,21 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
   if (targets_.empty()) return false;
   for (std::size_t i = 0; i < targets_.size(); ++i) targets_[i].patch = &patches_[i];
 
-  const int count = static_cast<int>(targets_.size());
-  workspace_.reserve(patch, count);
+  workspace_.reserve(patch, static_cast<int>(targets_.size()));
   textplane::PlaneOptions plane;
   plane.coarsest_level = 0;
-  const auto fit = textplane::refine_plane(patch, theta, targets_.data(), count, map_.camera, plane, workspace_);
+  const auto fit_to_targets = [&](const Vec3& start) {
+    return textplane::refine_plane(patch, start, targets_.data(), static_cast<int>(targets_.size()), map_.camera, plane,
+                                   workspace_);
+  };
+  auto fit = fit_to_targets(theta);
+  if (!textplane::is_ok(fit.status)) return false;
+  if (drop_unlike(fit.theta)) fit = fit_to_targets(fit.theta);
   if (!textplane::is_ok(fit.status) || fit.zncc < parameters_.text_min_zncc) return false;
   textplane::Matrix3<double> J;
   out->theta = textplane::reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
   out->covariance = J * fit.covariance * J.transpose();
+  out->zncc = fit.zncc;
   return out->theta.norm() > 0;
 }
 
@@ -127,6 +152,13 @@ void TextRefiner::refine(TextObject& text) {
     if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
   }
   if (estimates.empty()) return;
+  // A host that was blurred itself is like none of its targets.
+  double most = 0;
+  for (const Estimate& e : estimates) most = std::max(most, e.zncc);
+  estimates.erase(
+      std::remove_if(estimates.begin(), estimates.end(),
+                     [&](const Estimate& e) { return 1 - e.zncc > parameters_.refine_unlike * (1 - most); }),
+      estimates.end());
   const double n = static_cast<double>(estimates.size());
   Vec3 mean = Vec3::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -135,6 +167,7 @@ void TextRefiner::refine(TextObject& text) {
     covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
   text.theta = mean;
   text.covariance = covariance;
+  if (!(normal_sigma(text) <= parameters_.refine_max_sigma * M_PI / 180)) text.state = TextState::dropped;
 }
 
 void TextRefiner::refine() {

@@ -19,7 +19,8 @@ class TextRefiner {
  public:
   TextRefiner(Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
 
-  /// Theta and covariance of every mapped text. A text that too few key frames show whole keeps what it has.
+  /// Theta and covariance of every mapped text; drops those whose normal stays unknown. A text that too few key frames show
+  /// whole keeps what it has.
   void refine();
 
  private:
@@ -32,17 +33,20 @@ class TextRefiner {
   struct Estimate {
     Vec3 theta;  // in the text's host
     Eigen::Matrix3d covariance;
+    double zncc;
   };
 
   std::vector<View> views_of(const TextObject& text) const;
   bool estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out);
   bool add_target(const textplane::TextPatch& patch, const Vec3& theta, const View& host, const View& view);
+  bool drop_unlike(const Vec3& theta);
   void refine(TextObject& text);
 
   Map& map_;
   const Parameters& parameters_;
   textplane::BlurFilter filter_;
   textplane::PlaneWorkspace workspace_;
+  textplane::PhotometricWorkspace photometric_;
   std::vector<textplane::PlaneTarget> targets_;
   std::vector<textplane::TextPatch> patches_;             // as each target's blur shows the host
   std::vector<textplane::Image<std::uint8_t>> filtered_;  // the targets, where the text is
