@@ -1,0 +1,82 @@
+// From the JSON of textplane_scaling to the table of docs/scaling.md, between its marks.
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "results.hpp"
+#include "text.hpp"
+
+namespace textplane_bench {
+
+namespace {
+
+std::string megabytes(const Json& solver) { return short_number(solver.at("bytes").get<double>() / 1e6); }
+std::string milliseconds(const Json& solver) {
+  return short_number(solver.at("ms_min").get<double>()) + ", " + short_number(solver.at("ms_median").get<double>());
+}
+double processor(const Json& solver) { return solver.at("cpu_ms_min").get<double>(); }
+double cost(const Json& solver) { return solver.at("final_cost").get<double>(); }
+std::string scientific(double v) {
+  char out[32];
+  std::snprintf(out, sizeof out, "%.1e", v);
+  return out;
+}
+
+std::string row(const Json& r) {
+  const Json &ours = r.at("ours"), &sparse = r.at("sparse_schur"), &d = r.at("difference");
+  const bool dense = r.contains("dense_schur");
+  std::ostringstream out;
+  out << "| " << r.at("path").get<std::string>() << " | " << r.at("frames") << " | " << r.at("points") << " | "
+      << r.at("texts") << " | " << r.at("point_observations") << " + " << r.at("text_observations") << " | "
+      << milliseconds(ours) << " | " << milliseconds(sparse) << " | "
+      << (dense ? milliseconds(r.at("dense_schur")) : "") << " | " << fixed(processor(sparse) / processor(ours), 1)
+      << (dense ? ", " + fixed(processor(r.at("dense_schur")) / processor(ours), 1) : "") << " | " << megabytes(ours)
+      << ", " << megabytes(sparse) << " | " << ours.at("iterations") << ", " << sparse.at("iterations") << " | "
+      << scientific((cost(sparse) - cost(ours)) / cost(ours)) << " | " << scientific(d.at("position")) << ", "
+      << scientific(d.at("rotation")) << ", " << scientific(d.at("point")) << ", " << scientific(d.at("plane"))
+      << " |\n";
+  return out.str();
+}
+
+std::string table(const Json& run, const std::string& cpu) {
+  std::string out = cpu + ", " + run.at("compiler").get<std::string>() + ", `" + run.at("flags").get<std::string>() +
+                    "`, kernels `" + run.at("target").get<std::string>() + "`; Ceres " +
+                    run.at("ceres").get<std::string>() + " as packaged; one thread, " +
+                    std::to_string(run.at("repetitions").get<int>()) + " repetitions in turn.\n\n";
+  out +=
+      "| path | key frames | points | texts | observations | ours, ms | SPARSE_SCHUR, ms | DENSE_SCHUR, ms | times as "
+      "fast | MB: ours, Ceres | steps: ours, Ceres | cost of Ceres over ours | apart: m, rad, point m, plane |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const Json& r : run.at("rows")) out += row(r);
+  return out;
+}
+
+int run(int argc, char** argv) {
+  if (argc != 4) {
+    std::cerr << "usage: report_scaling SCALING.json PAGE.md CPU\n";
+    return 2;
+  }
+  const std::string begin = "<!-- scaling: begin -->\n", end = "<!-- scaling: end -->", path = argv[2];
+  std::stringstream all;
+  all << std::ifstream(path).rdbuf();
+  std::string text = all.str();
+  const std::size_t a = text.find(begin), b = text.find(end);
+  if (a == std::string::npos || b == std::string::npos || b < a) throw std::runtime_error(path + ": has no marks");
+  text.replace(a + begin.size(), b - a - begin.size(), table(read_json(argv[1]), argv[3]));
+  std::ofstream(path) << text;
+  return 0;
+}
+
+}  // namespace
+}  // namespace textplane_bench
+
+int main(int argc, char** argv) {
+  try {
+    return textplane_bench::run(argc, argv);
+  } catch (const std::exception& e) {
+    std::cerr << "report_scaling: " << e.what() << "\n";
+    return 1;
+  }
+}
