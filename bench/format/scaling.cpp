@@ -43,7 +43,7 @@ std::string row(const Json& r) {
 std::string table(const Json& run, const std::string& cpu) {
   std::string out = cpu + ", " + run.at("compiler").get<std::string>() + ", `" + run.at("flags").get<std::string>() +
                     "`, kernels `" + run.at("target").get<std::string>() + "`; Ceres " +
-                    run.at("ceres").get<std::string>() + " as packaged; one thread, " +
+                    run.at("ceres").get<std::string>() + " as packaged; one thread, 3 to " +
                     std::to_string(run.at("repetitions").get<int>()) + " repetitions in turn.\n\n";
   out +=
       "| path | key frames | points | texts | observations | ours, ms | SPARSE_SCHUR, ms | DENSE_SCHUR, ms | times as "

@@ -16,14 +16,22 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-// c -= a b^T for column-major c (6 x 6), a and b (6 x K).
-template <int K>
-inline void subtract_outer(const double* a, const double* b, double* c) noexcept {
-  for (int col = 0; col < 6; ++col) {
-    double s[6] = {};
-    for (int k = 0; k < K; ++k)
-      for (int row = 0; row < 6; ++row) s[row] += a[6 * k + row] * b[6 * k + col];
-    for (int row = 0; row < 6; ++row) c[6 * col + row] -= s[row];
+// c -= a b^T for column-major c (6 x 6), a and b (6 x n). Half of c at a time, which stays in registers over all of n.
+inline void subtract_outer(const double* a, const double* b, int n, double* c) noexcept {
+  using Column = Vector6<double>;
+  for (int half = 0; half < 6; half += 3) {
+    Column s0 = Column::Zero(), s1 = Column::Zero(), s2 = Column::Zero();
+    for (int k = 0; k < 6 * n; k += 6) {
+      const Eigen::Map<const Column> column(a + k);
+      const double* row = b + k + half;
+      s0 += row[0] * column;
+      s1 += row[1] * column;
+      s2 += row[2] * column;
+    }
+    double* out = c + 6 * half;
+    Eigen::Map<Column>{out} -= s0;
+    Eigen::Map<Column>{out + 6} -= s1;
+    Eigen::Map<Column>{out + 12} -= s2;
   }
 }
 
@@ -60,8 +68,9 @@ class BlockCholesky {
       const int first_i = first_[static_cast<std::size_t>(i)];
       for (int j = first_i; j <= i; ++j) {
         double* c = blocks_[index(i, j)].data();
-        for (int k = std::max(first_i, first_[static_cast<std::size_t>(j)]); k < j; ++k)
-          subtract_outer<6>(blocks_[index(i, k)].data(), blocks_[index(j, k)].data(), c);
+        // The blocks of a row follow one another, so that those of columns k to j are one 6 x 6 (j - k) matrix.
+        const int k = std::max(first_i, first_[static_cast<std::size_t>(j)]);
+        if (k < j) subtract_outer(blocks_[index(i, k)].data(), blocks_[index(j, k)].data(), 6 * (j - k), c);
         if (j < i) divide_by_transpose(blocks_[index(j, j)].data(), c);
       }
       const int zero = factorise_diagonal(scale + 6 * i, tolerance, blocks_[index(i, i)].data());

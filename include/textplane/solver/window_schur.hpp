@@ -98,8 +98,8 @@ class BasicWindowSchur {
         const Vector6<S> g = at(eliminated_, i) * at(landmark_gradient_, l);
         for (int k = 0; k < 6; ++k) at(camera_step_, 6 * ci + k) += g[k];
         for (int j = begin; j <= i; ++j)
-          subtract_outer<3>(at(eliminated_, i).data(), at(coupling_, j).data(),
-                            reduced_.at(ci, at(s.slot_camera, j)).data());
+          subtract_outer(at(eliminated_, i).data(), at(coupling_, j).data(), 3,
+                         reduced_.at(ci, at(s.slot_camera, j)).data());
       }
     }
     add_scale_weight();
