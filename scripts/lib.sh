@@ -13,7 +13,7 @@ fi
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev fonts-dejavu-core"
-packages_test="$packages_demo libgtest-dev libopencv-dev"
+packages_test="$packages_demo libgtest-dev libopencv-dev libceres-dev"
 packages_ci="$packages_test clang libclang-rt-dev binutils qemu-user libsimde-dev g++-aarch64-linux-gnu googletest"
 
 say() { printf '\n== %s\n' "$*"; }
