@@ -52,13 +52,23 @@ const WindowSize kSizes[] = {
     {Path::stare, 200, 1000, 50},
 };
 
+constexpr int kLocal = 50;        // Key frames of a local window, which is measured more closely.
 constexpr double kEnough = 3000;  // Processor time for one size after which three repetitions do, ms.
 
 // Covariances of planes are left to solve_window() alone: Ceres makes them in another call.
-tp::WindowOptions options() {
+tp::WindowOptions timed() {
   tp::WindowOptions o;
   o.max_iterations = 50;
   o.covariance = false;
+  return o;
+}
+
+// Where both stop when neither rounding of the kernels nor patience ends them.
+tp::WindowOptions exact() {
+  tp::WindowOptions o = timed();
+  o.max_iterations = 200;
+  o.cost_tolerance = 1e-10;
+  o.photometric.precise = true;
   return o;
 }
 
@@ -71,13 +81,13 @@ struct Solution {
   bool converged = false;
 };
 
-void solve_ours(const tp::Window& start, Solution* out) {
+void solve_ours(const tp::Window& start, const tp::WindowOptions& options, Solution* out) {
   out->window = start;
   start_heap_peak();
   {
     const Stopwatch watch;
     tp::WindowWorkspace workspace;
-    const tp::WindowSummary summary = tp::solve_window(out->window, options(), workspace);
+    const tp::WindowSummary summary = tp::solve_window(out->window, options, workspace);
     out->ms.push_back(watch.ms());
     out->cpu_ms.push_back(watch.cpu_ms());
     out->iterations = summary.iterations;
@@ -87,10 +97,10 @@ void solve_ours(const tp::Window& start, Solution* out) {
   out->bytes = heap_peak();
 }
 
-void solve_ceres(const tp::Window& start, CeresSolver solver, Solution* out) {
+void solve_ceres(const tp::Window& start, const tp::WindowOptions& options, CeresSolver solver, Solution* out) {
   out->window = start;
   start_heap_peak();
-  const CeresResult result = solve_with_ceres(out->window, options(), solver);
+  const CeresResult result = solve_with_ceres(out->window, options, solver);
   out->bytes = heap_peak();
   out->ms.push_back(result.solve_ms);
   out->cpu_ms.push_back(result.cpu_ms);
@@ -116,8 +126,9 @@ Json describe(const Solution& s) {
   return out;
 }
 
-// The largest differences: positions of cameras and points in m, angles in rad, planes relative to their size.
-Json difference(const tp::Window& a, const tp::Window& b) {
+// The largest differences: positions of cameras and points in m, angles in rad, costs and planes relative.
+Json difference(const Solution& ours, const Solution& peer) {
+  const tp::Window &a = ours.window, &b = peer.window;
   double position = 0, rotation = 0, point = 0, plane = 0;
   for (std::size_t f = 0; f < a.frames.size(); ++f) {
     const tp::SE3d T = a.frames[f].T_w_c.inverse() * b.frames[f].T_w_c;
@@ -127,19 +138,31 @@ Json difference(const tp::Window& a, const tp::Window& b) {
   for (std::size_t p = 0; p < a.points.size(); ++p) point = std::max(point, (a.points[p].p_w - b.points[p].p_w).norm());
   for (std::size_t t = 0; t < a.texts.size(); ++t)
     plane = std::max(plane, (a.texts[t].theta - b.texts[t].theta).norm() / a.texts[t].theta.norm());
-  return {{"position", position}, {"rotation", rotation}, {"point", point}, {"plane", plane}};
+  return {{"cost", (peer.cost - ours.cost) / ours.cost},
+          {"position", position},
+          {"rotation", rotation},
+          {"point", point},
+          {"plane", plane}};
+}
+
+// The same for solutions that are followed to the optimum.
+Json optimum(const tp::Window& start) {
+  Solution ours, sparse;
+  solve_ours(start, exact(), &ours);
+  solve_ceres(start, exact(), CeresSolver::sparse_schur, &sparse);
+  return difference(ours, sparse);
 }
 
 Json measure(const WindowSize& size, int repetitions) {
   const ScalingWindow start(size);
   Solution ours, sparse, dense;
-  const bool with_dense = size.frames <= 50;
+  const bool with_dense = size.frames <= kLocal;
   const Stopwatch watch;
   // In turn, so that a spell of load from outside hits all alike; fewer of the large ones.
   for (int i = 0; i < repetitions && (i < 3 || watch.cpu_ms() < kEnough); ++i) {
-    solve_ours(start.window, &ours);
-    solve_ceres(start.window, CeresSolver::sparse_schur, &sparse);
-    if (with_dense) solve_ceres(start.window, CeresSolver::dense_schur, &dense);
+    solve_ours(start.window, timed(), &ours);
+    solve_ceres(start.window, timed(), CeresSolver::sparse_schur, &sparse);
+    if (with_dense) solve_ceres(start.window, timed(), CeresSolver::dense_schur, &dense);
   }
   Json out = {{"path", to_string(size.path)},
               {"frames", size.frames},
@@ -150,7 +173,8 @@ Json measure(const WindowSize& size, int repetitions) {
               {"ours", describe(ours)},
               {"sparse_schur", describe(sparse)}};
   if (with_dense) out["dense_schur"] = describe(dense);
-  out["difference"] = difference(ours.window, sparse.window);
+  out["difference"] = difference(ours, sparse);
+  if (size.frames <= kLocal) out["optimum"] = optimum(start.window);
   return out;
 }
 
@@ -170,10 +194,7 @@ int run(int argc, char** argv) {
                              std::to_string(size.points) + "/" + std::to_string(size.texts);
     if (name.find(only) == std::string::npos) continue;
     out["rows"].push_back(measure(size, repetitions));
-    const Json& row = out["rows"].back();
-    std::cerr << name << ": " << row.at("ours").dump() << "\n  " << row.at("sparse_schur").dump() << "\n  "
-              << (row.contains("dense_schur") ? row.at("dense_schur").dump() : "") << "\n  "
-              << row.at("difference").dump() << std::endl;
+    std::cerr << out["rows"].back().dump() << std::endl;
   }
   std::cout << out.dump(1) << "\n";
   return 0;
