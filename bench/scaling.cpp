@@ -21,34 +21,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const WindowSize kSizes[] = {
-    // Key frames, at a common density.
-    {Path::walk, 5, 100, 10},
-    {Path::walk, 5, 1000, 10},
-    {Path::walk, 10, 1000, 50},
-    {Path::walk, 20, 1000, 50},
-    {Path::walk, 50, 1000, 50},
-    {Path::walk, 100, 1000, 50},
-    {Path::walk, 200, 1000, 50},
-    // Points.
-    {Path::walk, 50, 100, 50},
-    {Path::walk, 50, 10000, 50},
-    {Path::walk, 200, 10000, 50},
-    {Path::walk, 20, 10000, 0},
-    {Path::walk, 50, 10000, 0},
-    // Texts.
-    {Path::walk, 20, 100, 500},
-    {Path::walk, 50, 1000, 10},
-    {Path::walk, 50, 1000, 500},
-    {Path::walk, 200, 1000, 500},
-    {Path::walk, 200, 10000, 500},
-    // Every camera with every other.
-    {Path::stare, 5, 10000, 500},
-    {Path::stare, 10, 1000, 50},
-    {Path::stare, 20, 1000, 50},
-    {Path::stare, 50, 100, 10},
-    {Path::stare, 50, 1000, 50},
-    {Path::stare, 50, 10000, 50},
-    {Path::stare, 100, 1000, 50},
+    {Path::walk, 5, 100, 10},     {Path::walk, 5, 1000, 10},     {Path::walk, 10, 1000, 50},
+    {Path::walk, 20, 100, 500},   {Path::walk, 20, 1000, 50},    {Path::walk, 20, 10000, 0},
+    {Path::walk, 50, 100, 50},    {Path::walk, 50, 1000, 10},    {Path::walk, 50, 1000, 50},
+    {Path::walk, 50, 1000, 500},  {Path::walk, 50, 10000, 0},    {Path::walk, 50, 10000, 50},
+    {Path::walk, 100, 1000, 50},  {Path::walk, 200, 1000, 50},   {Path::walk, 200, 1000, 500},
+    {Path::walk, 200, 10000, 50}, {Path::walk, 200, 10000, 500}, {Path::stare, 5, 10000, 500},
+    {Path::stare, 10, 1000, 50},  {Path::stare, 20, 1000, 50},   {Path::stare, 50, 100, 10},
+    {Path::stare, 50, 1000, 50},  {Path::stare, 50, 10000, 50},  {Path::stare, 100, 1000, 50},
     {Path::stare, 200, 1000, 50},
 };
 
