@@ -16,6 +16,8 @@ class Initialiser {
   /// Takes the next frame. True when `map` now holds two key frames (the reference and this frame) and their points, and
   /// `tracks` the corners in this frame. The map's median depth is 1.
   bool add(const Frame& frame, Map& map, std::vector<Track>* tracks);
+  /// The next frame begins anew.
+  void forget() { tracks_.clear(); }
 
  private:
   void restart(const Frame& frame);

@@ -82,6 +82,8 @@ int execute(int argc, char** argv) {
   }
   const textslam::RunResult result = textslam::run(options);
   std::printf("%s  %-22s %s\n", textslam::format_summary(result.summary).c_str(), "output", options.output.c_str());
+  const std::string warning = textslam::warning(result.summary);
+  if (!warning.empty()) std::fprintf(stderr, "textslam: %s\n", warning.c_str());
   if (result.error.empty()) return 0;
   std::fprintf(stderr, "textslam: %s\n", result.error.c_str());
   return kInputError;

@@ -84,6 +84,7 @@ struct TextObject {
 };
 
 struct Map {
+  int number = -1;  ///< Maps are numbered in the order in which they began.
   Pinhole<double> camera;
   int width = 0, height = 0;
   std::vector<KeyFrame> keyframes;

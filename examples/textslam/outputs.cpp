@@ -114,7 +114,9 @@ std::string metrics_json(const RunSummary& s) {
            {"coverage", s.frames == 0 ? 0.0 : static_cast<double>(s.tracked) / static_cast<double>(s.frames)},
            {"keyframes", s.keyframes},
            {"points", s.points},
-           {"texts", s.texts}};
+           {"texts", s.texts},
+           {"maps", s.map_frames.size()},
+           {"map_frames", s.map_frames}};
   if (s.has_truth) {
     out["trajectory"] = errors_json(s.trajectory);
     out["trajectory_live"] = errors_json(s.live);
@@ -133,9 +135,12 @@ std::string metrics_json(const RunSummary& s) {
   return out.dump(1) + "\n";
 }
 
+// In order of time, which that of the ids is not where maps were joined.
 std::vector<StampedPose> keyframe_trajectory(const Map& map) {
   std::vector<StampedPose> poses;
   for (const KeyFrame& keyframe : map.keyframes) poses.push_back({keyframe.frame.timestamp, keyframe.T_w_c});
+  std::sort(poses.begin(), poses.end(),
+            [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
   return poses;
 }
 
@@ -168,6 +173,7 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
     ms.push_back(record.track_ms + record.map_ms);
   }
   s.median_ms = median(ms);
+  s.map_frames = system.map_frames();
   const Map& map = system.map();
   s.keyframes = map.keyframes.size();
   for (const MapPoint& point : map.points) s.points += point.bad ? 0 : 1;
@@ -220,6 +226,14 @@ std::string format_summary(const RunSummary& s) {
   }
   row("time", "%.1f ms a frame (median)", s.median_ms);
   return out.str();
+}
+
+std::string warning(const RunSummary& s) {
+  if (s.map_frames.size() < 2) return "";
+  std::string frames;
+  for (const std::size_t count : s.map_frames) frames += (frames.empty() ? "" : ", ") + std::to_string(count);
+  return "warning: " + std::to_string(s.map_frames.size()) + " separate maps, of " + frames +
+         " frames; the outputs hold the first of these";
 }
 
 }  // namespace textslam

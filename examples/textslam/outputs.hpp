@@ -7,10 +7,14 @@
 //   text_map.ply         text quads as faces, points, colours
 //   timing.json          milliseconds by stage; the only file that differs between two runs
 //   metrics.json         counts; errors where ground truth exists
+//
+// Where parts of a sequence were mapped apart and never joined, the outputs are those of the map with most frames, and the
+// frames of the others count as lost; metrics.json says so.
 #ifndef TEXTSLAM_OUTPUTS_HPP
 #define TEXTSLAM_OUTPUTS_HPP
 
 #include <string>
+#include <vector>
 
 #include "io/evaluate.hpp"
 #include "io/sequence.hpp"
@@ -24,6 +28,7 @@ struct RunSummary {
   std::size_t frames = 0, tracked = 0, tracked_live = 0;
   int first_tracked_live = -1;  ///< Index of the frame at which the map began.
   std::size_t keyframes = 0, points = 0, texts = 0;
+  std::vector<std::size_t> map_frames;  ///< Of each map, that of the outputs first; more than one: they were never joined.
   bool has_truth = false;
   TrajectoryEvaluation trajectory, live;
   TextEvaluation text;
@@ -43,6 +48,9 @@ void write_outputs(const std::string& folder, const System& system, const RunSum
 
 /// The table for the terminal.
 std::string format_summary(const RunSummary& summary);
+
+/// What the user should know beyond the table, a line without its end; empty where all is well.
+std::string warning(const RunSummary& summary);
 
 }  // namespace textslam
 

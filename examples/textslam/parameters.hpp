@@ -104,9 +104,19 @@ struct Parameters {
   int refit_max_points = 250;  ///< Remembered of a frame.
 
   // Recovery
-  int relocalise_candidates = 5;  ///< Key frames tried for a lost frame.
-  int young_map_keyframes = 5;    ///< A map of fewer that is lost soon was not a good one:
-  int young_map_patience = 15;    ///< after this many lost frames it is given up and a new one begun.
+  int relocalise_candidates = 5;        ///< Key frames tried for a lost frame.
+  int relocalise_hypotheses = 6;        ///< Poses by single texts that are tried in full.
+  double relocalise_search_zncc = 0.4;  ///< Of a text under the pose of its corners, after a coarse search.
+  double relocalise_min_share = 0.2;    ///< Of the map points that a pose should see; fewer speak against it.
+  int young_map_keyframes = 5;          ///< A map of fewer that is lost soon was not a good one:
+  int young_map_patience = 15;          ///< after this many lost frames a new one is begun,
+  int lost_patience = 30;               ///< after this many where the map is older.
+
+  // Joining of maps
+  int join_keyframes = 6;        ///< Newest key frames of a map that are looked for in an older one.
+  int join_min_keyframes = 2;    ///< That must agree.
+  int join_min_pairs = 20;       ///< Points, and corners of texts, that must agree in both maps,
+  double join_tolerance = 0.05;  ///< within this share of their depth.
 };
 
 }  // namespace textslam

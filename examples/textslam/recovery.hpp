@@ -1,19 +1,28 @@
-// Recovery: the pose of a frame after tracking was lost, from the key frames that look most like it.
+// Recovery: the pose of a frame after tracking was lost, from the signs that it shows and from the key frames that look most
+// like it.
 #ifndef TEXTSLAM_RECOVERY_HPP
 #define TEXTSLAM_RECOVERY_HPP
 
-#include <memory>
+#include <vector>
 
 #include "textslam/tracker.hpp"
 
 namespace textslam {
 
 struct Recovery {
-  std::unique_ptr<Tracker> tracker;  ///< At the frame, ready to go on; null where the frame was not recognised.
+  bool ok = false;  ///< The frame was recognised; else nothing below counts.
+  SE3d T_c_w;
+  std::vector<Track> tracks;  ///< Map points found in the frame: what a tracker that starts there follows.
   TrackReport report;
 };
 
-/// Tries the key frames whose coarsest images correlate best with the frame's; the one with most consistent points wins.
+/// The frame as seen from about T_c_w: texts and map points are looked for where that pose expects them, and the pose is
+/// fitted to them.
+Recovery observe_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
+
+/// Tries the poses that the frame's detections suggest (mode text), and where none holds the key frames whose coarsest images
+/// correlate best with the frame's. A pose holds when two texts agree with it, or enough of the points that it should see,
+/// not all of them on one sign: signs are printed more than once.
 Recovery relocalise(const Map& map, const Parameters& parameters, const Frame& frame);
 
 }  // namespace textslam

@@ -24,21 +24,26 @@ const FrameRecord& System::process(const Frame& frame, double detect_ms) {
   FrameRecord& record = records_.back();
   record.timestamp = frame.timestamp;
   record.detect_ms = detect_ms;
-  if (tracker_) {
-    follow(frame, record);
-    return record;
-  }
-  std::vector<Track> tracks;
   const double start = now_ms();
-  const bool begun = initialiser_.add(frame, map_, &tracks);
+  const bool found = (tracker_ && lost_frames_ == 0 && track(frame, record)) || recover(frame, record);
   record.track_ms = now_ms() - start;
-  if (begun) begin_map(frame, std::move(tracks), record);
+  if (found) {
+    follow(frame, record);
+  } else if (tracker_) {
+    lose(record);
+  } else {
+    std::vector<Track> tracks;
+    const bool begun = initialiser_.add(frame, map_, &tracks);
+    record.track_ms = now_ms() - start;
+    if (begun) begin_map(frame, std::move(tracks), record);
+  }
   return record;
 }
 
 void System::set_pose(FrameRecord& record, const SE3d& T_c_w) {
   record.state = FrameState::tracked;
   record.live = true;
+  record.map = map_.number;
   record.keyframe = last_keyframe_;
   record.T_w_c_live = T_c_w.inverse();
   record.T_k_c = map_.keyframe(last_keyframe_).T_w_c.inverse() * record.T_w_c_live;
@@ -46,9 +51,11 @@ void System::set_pose(FrameRecord& record, const SE3d& T_c_w) {
 
 void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecord& record) {
   const double start = now_ms();
+  map_.number = maps_++;
   const KeyFrame& first = map_.keyframe(0);
   FrameRecord& first_record = records_[static_cast<std::size_t>(first.frame.index)];
   first_record.state = FrameState::tracked;
+  first_record.map = map_.number;
   first_record.keyframe = 0;
   last_keyframe_ = 1;
   const SE3d T_c_w = map_.keyframe(1).T_w_c.inverse();
@@ -85,48 +92,23 @@ bool System::track(const Frame& frame, FrameRecord& record) {
 }
 
 void System::follow(const Frame& frame, FrameRecord& record) {
-  const double start = now_ms();
-  const bool found = (lost_frames_ == 0 && track(frame, record)) || recover(frame, record);
-  record.track_ms = now_ms() - start;
-  if (!found) {
-    record.state = FrameState::lost;
-    ++lost_frames_;
-    if (lost_frames_ >= parameters_.young_map_patience &&
-        static_cast<int>(map_.keyframes.size()) < parameters_.young_map_keyframes)
-      restart();
-    return;
-  }
   lost_frames_ = 0;
   set_pose(record, tracker_->pose());
-
-  const double map_start = now_ms();
+  const double start = now_ms();
   if (parameters_.mode != Mode::points) text_mapper_.associate(frame, tracker_->pose(), tracker_->tracks());
   record.seen = seen_points(tracker_->tracks(), static_cast<std::size_t>(parameters_.refit_max_points));
-  if (keyframe_needed(frame)) add_keyframe(frame, record);
-  record.map_ms = now_ms() - map_start;
+  if (keyframe_needed(frame)) {
+    add_keyframe(frame, record);
+    join_stored(frame, record);
+  }
+  record.map_ms = now_ms() - start;
 }
 
-void System::restart() {
-  for (FrameRecord& record : records_)
-    if (record.state == FrameState::tracked) {
-      record.state = FrameState::lost;
-      record.live = false;
-      record.keyframe = -1;
-    }
-  tracker_.reset();
-  map_.keyframes.clear();
-  map_.points.clear();
-  map_.texts.clear();
-  lost_frames_ = 0;
-}
-
-bool System::recover(const Frame& frame, FrameRecord& record) {
-  Recovery found = relocalise(map_, parameters_, frame);
-  if (!found.tracker) return false;
-  tracker_ = std::move(found.tracker);
-  record.points = found.report.inliers;
-  record.texts = found.report.texts;
-  return true;
+void System::lose(FrameRecord& record) {
+  record.state = FrameState::lost;
+  ++lost_frames_;
+  const bool young = static_cast<int>(map_.keyframes.size()) < parameters_.young_map_keyframes;
+  if (lost_frames_ >= (young ? parameters_.young_map_patience : parameters_.lost_patience)) store_map();
 }
 
 bool System::keyframe_needed(const Frame& frame) const {
@@ -184,15 +166,25 @@ void System::refit_poses() {
 void System::fill_in(const std::function<Frame(int)>& load) {
   if (map_.keyframes.size() < 2) return;
   Tracker backwards(map_, parameters_);
-  const KeyFrame& second = map_.keyframe(1);
-  backwards.start(second.frame, second.T_w_c.inverse(), tracks_of_keyframe(map_, 1));
-  for (int index = second.frame.index - 1; index >= 0; --index) {
-    const TrackReport report = backwards.track(load(index));
-    if (!report.ok) return;
+  bool going = false;  // the frame after this one was tracked backwards
+  for (int index = static_cast<int>(records_.size()) - 2; index >= 0; --index) {
     FrameRecord& record = records_[static_cast<std::size_t>(index)];
-    if (record.state == FrameState::tracked) continue;
+    const FrameRecord& next = records_[static_cast<std::size_t>(index) + 1];
+    if (record.state == FrameState::tracked || next.state != FrameState::tracked) {
+      going = false;
+      continue;
+    }
+    if (!going) {
+      const Frame start = load(index + 1);
+      const SE3d T_c_w = final_pose(next).inverse();
+      backwards.start(start, T_c_w, observe_from(map_, parameters_, start, T_c_w).tracks);
+    }
+    const TrackReport report = backwards.track(load(index));
+    going = report.ok;
+    if (!going) continue;
     record.state = FrameState::tracked;
-    record.keyframe = index > map_.keyframe(0).frame.index ? 1 : 0;
+    record.map = map_.number;
+    record.keyframe = next.keyframe;
     record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * report.T_c_w.inverse();
     record.points = report.inliers;
     record.texts = report.texts;
@@ -200,7 +192,8 @@ void System::fill_in(const std::function<Frame(int)>& load) {
 }
 
 void System::finish() {
-  if (!tracker_) return;
+  keep_largest();
+  if (map_.keyframes.size() < 2) return;
   adjust_all(map_, parameters_, parameters_.final_iterations);
   if (parameters_.mode == Mode::loose) refresh_loose_planes(map_, parameters_);
   if (parameters_.mode == Mode::text) {

@@ -2,6 +2,10 @@
 //
 // Frame -> (initialiser | tracker | recovery) -> key frame? -> points, text, local adjustment. Single-threaded and without
 // random draws: the same frames give the same bytes.
+//
+// One map is worked on at a time. Where it is lost for long another begins, and it is stored; a lost frame is looked for in
+// the stored maps, too, and a key frame that shows a stored map joins the two (system_maps.cpp). In the end the map with most
+// frames is the result.
 #ifndef TEXTSLAM_SYSTEM_HPP
 #define TEXTSLAM_SYSTEM_HPP
 
@@ -28,10 +32,11 @@ enum class FrameState {
 struct FrameRecord {
   double timestamp = 0;
   FrameState state = FrameState::waiting;
+  int map = -1;       ///< Number of the map that it was tracked in; in the end those of other maps than the result are lost.
   int keyframe = -1;  ///< The key frame that the pose is relative to.
   SE3d T_k_c;         ///< Camera to that key frame.
   SE3d T_w_c_live;    ///< Camera to world as known when the frame was processed; tracked frames alone.
-  bool live = false;  ///< Tracked when it came, not filled in afterwards.
+  bool live = false;  ///< Tracked in the map when it came, not filled in or joined afterwards.
   int points = 0, texts = 0;
   std::vector<SeenPoint> seen;  ///< Between key frames: what the pose rests on.
   double detect_ms = 0, track_ms = 0, klt_ms = 0, pose_ms = 0, reobserve_ms = 0, map_ms = 0, adjust_ms = 0;
@@ -45,14 +50,17 @@ class System {
   /// `detect_ms` is what the detector took, for the record.
   const FrameRecord& process(const Frame& frame, double detect_ms = 0);
 
-  /// Gives poses to the frames before the map began, by tracking them backwards from its first frame. `load` returns
-  /// the frame of an index again.
+  /// Gives poses to frames before the map began or was found again, by tracking them backwards from the frame after them.
+  /// `load` returns the frame of an index again.
   void fill_in(const std::function<Frame(int)>& load);
 
-  /// The adjustment over all key frames at the end.
+  /// The map with most frames becomes the result; the adjustment over all its key frames.
   void finish();
 
+  /// The map that is worked on, in the end the result.
   const Map& map() const { return map_; }
+  /// Frames tracked in each map, those of map() first, then by size.
+  std::vector<std::size_t> map_frames() const;
   const std::vector<FrameRecord>& records() const { return records_; }
   /// Final pose of a tracked frame.
   SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
@@ -60,9 +68,16 @@ class System {
  private:
   void begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecord& record);
   void follow(const Frame& frame, FrameRecord& record);
+  void lose(FrameRecord& record);
   bool track(const Frame& frame, FrameRecord& record);
+  // system_maps.cpp
   bool recover(const Frame& frame, FrameRecord& record);
-  void restart();
+  void clear_map();
+  void store_map();
+  void take_map(std::size_t stored);
+  bool join_stored(const Frame& frame, FrameRecord& record);
+  void keep_largest();
+
   void set_pose(FrameRecord& record, const SE3d& T_c_w);
   bool keyframe_needed(const Frame& frame) const;
   void add_keyframe(const Frame& frame, FrameRecord& record);
@@ -70,6 +85,8 @@ class System {
 
   Parameters parameters_;
   Map map_;
+  std::vector<Map> stored_;  // in the order in which they were left
+  int maps_ = 0;             // begun so far
   Initialiser initialiser_;
   TextMapper text_mapper_;
   std::unique_ptr<Tracker> tracker_;  // null until the map begins

@@ -1,0 +1,127 @@
+// System, the part that deals with more than one map: what becomes of a map that is lost, and how frames come back to it.
+#include <algorithm>
+#include <map>
+
+#include "textslam/adjustment.hpp"
+#include "textslam/map_join.hpp"
+#include "textslam/recovery.hpp"
+#include "textslam/system.hpp"
+
+namespace textslam {
+
+void System::clear_map() {
+  map_.keyframes.clear();
+  map_.points.clear();
+  map_.texts.clear();
+  tracker_.reset();
+  initialiser_.forget();
+  lost_frames_ = 0;
+}
+
+void System::store_map() {
+  if (!map_.keyframes.empty()) stored_.push_back(std::move(map_));
+  clear_map();
+}
+
+// A stored map is worked on again.
+void System::take_map(std::size_t stored) {
+  Map taken = std::move(stored_[stored]);
+  stored_.erase(stored_.begin() + static_cast<std::ptrdiff_t>(stored));
+  store_map();
+  map_ = std::move(taken);
+  last_keyframe_ = static_cast<int>(map_.keyframes.size()) - 1;
+}
+
+bool System::recover(const Frame& frame, FrameRecord& record) {
+  Recovery found;
+  if (!map_.keyframes.empty()) found = relocalise(map_, parameters_, frame);
+  // The map left last is the likeliest.
+  for (std::size_t i = stored_.size(); i > 0 && !found.ok; --i) {
+    found = relocalise(stored_[i - 1], parameters_, frame);
+    if (found.ok) take_map(i - 1);
+  }
+  if (!found.ok) return false;
+  record.points = found.report.inliers;
+  record.texts = found.report.texts;
+  last_keyframe_points_ = found.report.inliers;
+  // How the frame lies to the one before it is not known: the tracker starts without a velocity.
+  tracker_ = std::make_unique<Tracker>(map_, parameters_);
+  tracker_->start(frame, found.T_c_w, std::move(found.tracks));
+  return true;
+}
+
+// The key frame just added may show a stored map. Then the map that is worked on moves into it.
+bool System::join_stored(const Frame& frame, FrameRecord& record) {
+  for (std::size_t i = stored_.size(); i > 0; --i) {
+    const Recovery seen = relocalise(stored_[i - 1], parameters_, frame);
+    if (!seen.ok) continue;
+    const MapLink link = link_maps(stored_[i - 1], map_, parameters_, seen);
+    if (!link.ok) continue;
+
+    std::vector<Track> tracks = tracker_->tracks();
+    Map joined = std::move(stored_[i - 1]);
+    stored_.erase(stored_.begin() + static_cast<std::ptrdiff_t>(i - 1));
+    const JoinedIds ids = join_maps(joined, map_, link);
+    for (FrameRecord& r : records_) {
+      if (r.map != map_.number) continue;
+      r.map = joined.number;
+      r.keyframe += ids.first_keyframe;
+      r.T_k_c.t *= link.S_a_b.scale;
+      for (SeenPoint& seen_point : r.seen) seen_point.point = ids.points[static_cast<std::size_t>(seen_point.point)];
+      r.seen.erase(std::remove_if(r.seen.begin(), r.seen.end(), [](const SeenPoint& s) { return s.point < 0; }),
+                   r.seen.end());
+      r.live = false;
+    }
+    for (Track& track : tracks) {
+      if (track.point >= 0) track.point = ids.points[static_cast<std::size_t>(track.point)];
+      for (PointObservation& o : track.observations) o.keyframe += ids.first_keyframe;
+    }
+    map_ = std::move(joined);
+    last_keyframe_ += ids.first_keyframe;
+
+    adjust_all(map_, parameters_, parameters_.final_iterations);
+    if (parameters_.mode == Mode::text) text_mapper_.observe_again();
+    tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
+                                [&](const Track& t) { return t.point >= 0 && map_.point(t.point).bad; }),
+                 tracks.end());
+    const SE3d T_c_w = map_.keyframe(last_keyframe_).T_w_c.inverse();
+    tracker_ = std::make_unique<Tracker>(map_, parameters_);
+    tracker_->start(frame, T_c_w, std::move(tracks));
+    set_pose(record, T_c_w);
+    return true;
+  }
+  return false;
+}
+
+std::vector<std::size_t> System::map_frames() const {
+  std::map<int, std::size_t> counts;
+  for (const FrameRecord& record : records_)
+    if (record.map >= 0) ++counts[record.map];
+  std::vector<std::size_t> frames;
+  for (const auto& [number, count] : counts)
+    if (number != map_.number) frames.push_back(count);
+  std::sort(frames.rbegin(), frames.rend());
+  if (counts.count(map_.number) > 0) frames.insert(frames.begin(), counts[map_.number]);
+  return frames;
+}
+
+void System::keep_largest() {
+  std::map<int, int> counts;
+  for (const FrameRecord& record : records_)
+    if (record.map >= 0) ++counts[record.map];
+  std::size_t largest = stored_.size();
+  int most = map_.keyframes.empty() ? 0 : counts[map_.number];
+  for (std::size_t i = 0; i < stored_.size(); ++i)
+    if (counts[stored_[i].number] > most) {
+      most = counts[stored_[i].number];
+      largest = i;
+    }
+  if (largest < stored_.size()) take_map(largest);
+  for (FrameRecord& record : records_) {
+    if (record.state != FrameState::tracked || record.map == map_.number) continue;
+    record.state = FrameState::lost;
+    record.live = false;
+  }
+}
+
+}  // namespace textslam
