@@ -11,7 +11,7 @@
 namespace textslam {
 namespace {
 
-constexpr double kSamePlace = 4;     // px between the corners of one text under two poses that count as one
+constexpr double kSamePose = 3;      // degrees between two poses by one text that count as one
 constexpr double kConfirming = 0.3;  // overlap, IoU, of a detection with the text that it confirms
 
 bool is_read(const std::string& word) { return !word.empty() && word != "###"; }
@@ -49,8 +49,11 @@ class TextSearch {
     hypothesis.text = text.id;
     hypothesis.T_c_w = guess;
     if (!search(text, &hypothesis.T_c_w) || !refine(text, &hypothesis)) return;
-    for (const TextHypothesis& other : found_)
-      if (other.text == text.id && same_place(text, other.T_c_w, hypothesis.T_c_w)) return;
+    // The two solutions may differ by little in the image: it is the pose that tells them apart.
+    for (const TextHypothesis& other : found_) {
+      const Eigen::Matrix3d turn = other.T_c_w.R * hypothesis.T_c_w.R.transpose();
+      if (other.text == text.id && textplane::so3_log(turn).norm() < kSamePose * M_PI / 180) return;
+    }
     hypothesis.confirmed = confirmed(hypothesis.T_c_w);
     found_.push_back(hypothesis);
   }
@@ -82,14 +85,6 @@ class TextSearch {
     if (fit.texts != 1 || fit.zncc < parameters_.text_min_zncc) return false;
     hypothesis->T_c_w = textplane::renormalised(fit.T_t_w);
     hypothesis->zncc = fit.zncc;
-    return true;
-  }
-
-  bool same_place(const TextObject& text, const SE3d& a, const SE3d& b) const {
-    Quad<double> in_a, in_b;
-    if (!project_text(map_, text, a, &in_a) || !project_text(map_, text, b, &in_b)) return false;
-    for (std::size_t i = 0; i < 4; ++i)
-      if ((in_a.corner[i] - in_b.corner[i]).norm() > kSamePlace) return false;
     return true;
   }
 
