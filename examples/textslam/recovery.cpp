@@ -39,12 +39,10 @@ int points_off_texts(const Map& map, const Recovery& recovery) {
 
 // A wrong pose would spoil the map; a frame more of being lost costs little.
 bool holds(const Map& map, const Parameters& parameters, const Recovery& recovery) {
-  if (!recovery.ok) return false;
-  if (recovery.report.texts >= 2) return true;
   const int expected = std::min(static_cast<int>(recovery.report.visible.size()), parameters.max_reobserved);
-  return recovery.report.inliers >= 2 * parameters.min_inliers &&
-         recovery.report.inliers >= parameters.relocalise_min_share * expected &&
-         points_off_texts(map, recovery) >= parameters.min_inliers;
+  if (!recovery.ok || recovery.report.inliers < parameters.relocalise_min_share * expected) return false;
+  return recovery.report.texts >= 2 || (recovery.report.inliers >= 2 * parameters.min_inliers &&
+                                        points_off_texts(map, recovery) >= parameters.min_inliers);
 }
 
 Recovery relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame) {
@@ -81,6 +79,8 @@ Recovery relocalise_by_keyframes(const Map& map, const Parameters& parameters, c
     if (!report.ok || report.inliers <= best.report.inliers) continue;
     best = recovery_of(tracker, std::move(report));
   }
+  // Over so long a way tracks go astray, and many of them the same way; what the pose expects has no past.
+  if (best.ok) best = observe_from(map, parameters, frame, best.T_c_w);
   if (!holds(map, parameters, best)) return {};
   return best;
 }

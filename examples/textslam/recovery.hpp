@@ -21,8 +21,8 @@ struct Recovery {
 Recovery observe_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
 
 /// Tries the poses that the frame's detections suggest (mode text), and where none holds the key frames whose coarsest images
-/// correlate best with the frame's. A pose holds when two texts agree with it, or enough of the points that it should see,
-/// not all of them on one sign: signs are printed more than once.
+/// correlate best with the frame's. A pose holds when the image shows enough of the points that it should see, and two texts
+/// agree with it or there are points off the signs: signs are printed more than once.
 Recovery relocalise(const Map& map, const Parameters& parameters, const Frame& frame);
 
 }  // namespace textslam
