@@ -11,11 +11,11 @@
 namespace textslam {
 namespace {
 
-constexpr float kSamePixel = 1.5F;      // px between two sightings of one point
-constexpr double kSameText = 0.4;       // IoU of the quads of one text
-constexpr double kMinAgreement = 0.6;   // share of the pairs that one similarity must explain
-constexpr int kTrims = 5;               // rounds of fitting and leaving out what does not agree
-constexpr double kMaxTurn = 3;          // degrees between a key frame's pose in a and where the similarity puts it
+constexpr float kSamePixel = 1.5F;     // px between two sightings of one point
+constexpr double kSameText = 0.4;      // IoU of the quads of one text
+constexpr double kMinAgreement = 0.6;  // share of the pairs that one similarity must explain
+constexpr int kTrims = 5;              // rounds of fitting and leaving out what does not agree
+constexpr double kMaxTurn = 3;         // degrees between a key frame's pose in a and where the similarity puts it
 
 // The same place in both maps, seen from a key frame.
 struct Pair {

@@ -86,10 +86,10 @@ PlanarPose planar_pose(const std::array<Vec3, 4>& corners, const Quad<double>& i
   PlaneFrame frame;
   out.status = plane_frame(corners, &frame);
   if (!textplane::is_ok(out.status)) return out;
-  out.status = !textplane::all_finite(image)        ? Status::non_finite
-               : !textplane::is_convex(image)       ? Status::degenerate
-               : !(textplane::area(image) > 0)      ? Status::behind_camera
-                                                    : Status::ok;
+  out.status = !textplane::all_finite(image)   ? Status::non_finite
+               : !textplane::is_convex(image)  ? Status::degenerate
+               : !(textplane::area(image) > 0) ? Status::behind_camera
+                                               : Status::ok;
   Mat3 H;
   if (textplane::is_ok(out.status)) out.status = homography(frame.quad, image, &H);
   if (!textplane::is_ok(out.status)) return out;

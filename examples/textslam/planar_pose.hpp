@@ -15,9 +15,9 @@ namespace textslam {
 
 struct PlanarPose {
   textplane::Status status = textplane::Status::invalid_argument;
-  int count = 0;                          ///< Solutions with the quad in front of the camera: 1 or 2 where status is ok.
-  std::array<SE3d, 2> T_c_q;              ///< Frame of the corners to camera; the better one first.
-  std::array<double, 2> error{{0, 0}};    ///< Root mean square over the corners, normalised units.
+  int count = 0;                        ///< Solutions with the quad in front of the camera: 1 or 2 where status is ok.
+  std::array<SE3d, 2> T_c_q;            ///< Frame of the corners to camera; the better one first.
+  std::array<double, 2> error{{0, 0}};  ///< Root mean square over the corners, normalised units.
 };
 
 /// `corners`: on one plane, in any frame, clockwise as the text's reader sees them; `image`: their normalised images. Seen

@@ -32,7 +32,7 @@ enum class FrameState {
 struct FrameRecord {
   double timestamp = 0;
   FrameState state = FrameState::waiting;
-  int map = -1;       ///< Number of the map that it was tracked in; in the end those of other maps than the result are lost.
+  int map = -1;  ///< Number of the map that it was tracked in; in the end those of other maps than the result are lost.
   int keyframe = -1;  ///< The key frame that the pose is relative to.
   SE3d T_k_c;         ///< Camera to that key frame.
   SE3d T_w_c_live;    ///< Camera to world as known when the frame was processed; tracked frames alone.

@@ -25,8 +25,7 @@ class TextSearch {
     std::array<Vec3, 4> corners;
     if (!textplane::is_ok(textplane::quad_points(text.patch.quad, map_.camera, text.theta, &corners))) return;
     Quad<double> image;
-    for (std::size_t i = 0; i < 4; ++i)
-      image.corner[i] = map_.camera.unproject(detection.quad.corner[i]).hnormalized();
+    for (std::size_t i = 0; i < 4; ++i) image.corner[i] = map_.camera.unproject(detection.quad.corner[i]).hnormalized();
     const PlanarPose pose = planar_pose(corners, image);
     for (int i = 0; i < pose.count; ++i) {
       const SE3d T_w_h = map_.keyframe(text.host).T_w_c;

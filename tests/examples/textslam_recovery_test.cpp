@@ -30,8 +30,7 @@ class PlanarPoseTest : public testing::Test {
   }
   Quad<double> seen_from(const SE3d& T_c_sign) const {
     Quad<double> image;
-    for (std::size_t i = 0; i < 4; ++i)
-      image.corner[i] = (T_c_sign * T_q_sign.inverse() * corners[i]).hnormalized();
+    for (std::size_t i = 0; i < 4; ++i) image.corner[i] = (T_c_sign * T_q_sign.inverse() * corners[i]).hnormalized();
     return image;
   }
   SE3d T_q_sign;
@@ -69,7 +68,8 @@ TEST_F(PlanarPoseTest, FarAwayBothSolutionsFitAndOneIsRight) {
   EXPECT_LT(pose.error[0], px);
   EXPECT_LT(pose.error[1], 2 * px) << "half a pixel decides which of them is better";
   EXPECT_GT(turn_between(pose.T_c_q[0], pose.T_c_q[1]), 20 * kDegree);
-  const double nearest = std::min(turn_between(pose.T_c_q[0] * T_q_sign, T_c_sign), turn_between(pose.T_c_q[1] * T_q_sign, T_c_sign));
+  const double nearest =
+      std::min(turn_between(pose.T_c_q[0] * T_q_sign, T_c_sign), turn_between(pose.T_c_q[1] * T_q_sign, T_c_sign));
   EXPECT_LT(nearest, 15 * kDegree);
 }
 
@@ -115,7 +115,8 @@ class TextRecoveryTest : public testing::Test {
     map.width = 320;
     map.height = 240;
     map.number = 0;
-    boards = {{moved({-0.9, -0.2, 3}, {0, -0.5, 0}), 1}, {moved({0.1, 0.5, 3.4}, {0.3, 0, 0}), 2},
+    boards = {{moved({-0.9, -0.2, 3}, {0, -0.5, 0}), 1},
+              {moved({0.1, 0.5, 3.4}, {0.3, 0, 0}), 2},
               {moved({1.0, -0.4, 3.1}, {0, 0.4, 0.1}), 3}};
     map.keyframes.push_back({frame_at(SE3d{}), SE3d{}, {}});
     const char* const words[] = {"EXIT", "OPEN", "TAXI"};
@@ -140,8 +141,8 @@ class TextRecoveryTest : public testing::Test {
 
   // Letters of a kind: random spots of 6 cm, other ones for each print.
   static double spot(int i, int j, unsigned print) {
-    std::uint32_t h = static_cast<std::uint32_t>(i) * 2654435761U ^ static_cast<std::uint32_t>(j) * 2246822519U ^
-                      print * 3266489917U;
+    std::uint32_t h =
+        static_cast<std::uint32_t>(i) * 2654435761U ^ static_cast<std::uint32_t>(j) * 2246822519U ^ print * 3266489917U;
     h = (h ^ (h >> 15)) * 739982445U;
     h = (h ^ (h >> 12)) * 695872825U;
     return (h ^ (h >> 15)) % 2 == 0 ? 30 : 220;
@@ -158,7 +159,8 @@ class TextRecoveryTest : public testing::Test {
     Quad<double> quad;
     const double signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     for (std::size_t i = 0; i < 4; ++i)
-      quad.corner[i] = map.camera.project(T_c_w * board.T_w_b * Vec3(signs[i][0] * kHalfWidth, signs[i][1] * kHalfHeight, 0));
+      quad.corner[i] =
+          map.camera.project(T_c_w * board.T_w_b * Vec3(signs[i][0] * kHalfWidth, signs[i][1] * kHalfHeight, 0));
     return quad;
   }
 
@@ -280,7 +282,8 @@ TEST_F(TextRecoveryTest, JoinedMapsAreOne) {
   b.number = 1;
   for (const SE3d& T_c_a : poses) {
     const SE3d T_a_c = T_c_a.inverse();
-    b.keyframes.push_back({frame_at(T_c_a), {S_a_b.R.transpose() * T_a_c.R, scale * (S_a_b.R.transpose() * (T_a_c.t - S_a_b.t))}, {}});
+    b.keyframes.push_back(
+        {frame_at(T_c_a), {S_a_b.R.transpose() * T_a_c.R, scale * (S_a_b.R.transpose() * (T_a_c.t - S_a_b.t))}, {}});
   }
   for (const TextObject& text : map.texts) {
     TextObject other = text;

@@ -48,7 +48,8 @@ class TextslamRecovery : public testing::Test {
     const std::vector<StampedPose> truth = read_tum(room(seed) + "/groundtruth.txt");
     for (int i = first; first <= last ? i <= last : i >= last; i += first <= last ? 1 : -1) {
       fs::copy(room(seed) + "/images/" + stem(i) + ".png", folder_.path("seq/images/" + stem(frames_) + ".png"));
-      fs::copy(room(seed) + "/detections/" + stem(i) + ".txt", folder_.path("seq/detections/" + stem(frames_) + ".txt"));
+      fs::copy(room(seed) + "/detections/" + stem(i) + ".txt",
+               folder_.path("seq/detections/" + stem(frames_) + ".txt"));
       truth_.push_back({time(frames_), truth[static_cast<std::size_t>(i)].T_w_c});
       ++frames_;
     }
