@@ -22,6 +22,8 @@
 
 namespace textslam {
 
+struct MapLink;
+
 enum class FrameState {
   waiting,  ///< No map yet.
   tracked,
@@ -75,7 +77,8 @@ class System {
   void clear_map();
   void store_map();
   void take_map(std::size_t stored);
-  bool join_stored(const Frame& frame, FrameRecord& record);
+  void join_stored(const Frame& frame, FrameRecord& record);
+  void join(std::size_t stored, const MapLink& link);
   void keep_largest();
 
   void set_pose(FrameRecord& record, const SE3d& T_c_w);

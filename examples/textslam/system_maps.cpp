@@ -51,46 +51,51 @@ bool System::recover(const Frame& frame, FrameRecord& record) {
 }
 
 // The key frame just added may show a stored map. Then the map that is worked on moves into it.
-bool System::join_stored(const Frame& frame, FrameRecord& record) {
+void System::join_stored(const Frame& frame, FrameRecord& record) {
   for (std::size_t i = stored_.size(); i > 0; --i) {
     const Recovery seen = relocalise(stored_[i - 1], parameters_, frame);
     if (!seen.ok) continue;
     const MapLink link = link_maps(stored_[i - 1], map_, parameters_, seen);
     if (!link.ok) continue;
-
-    std::vector<Track> tracks = tracker_->tracks();
-    Map joined = std::move(stored_[i - 1]);
-    stored_.erase(stored_.begin() + static_cast<std::ptrdiff_t>(i - 1));
-    const JoinedIds ids = join_maps(joined, map_, link);
-    for (FrameRecord& r : records_) {
-      if (r.map != map_.number) continue;
-      r.map = joined.number;
-      r.keyframe += ids.first_keyframe;
-      r.T_k_c.t *= link.S_a_b.scale;
-      for (SeenPoint& seen_point : r.seen) seen_point.point = ids.points[static_cast<std::size_t>(seen_point.point)];
-      r.seen.erase(std::remove_if(r.seen.begin(), r.seen.end(), [](const SeenPoint& s) { return s.point < 0; }),
-                   r.seen.end());
-      r.live = false;
-    }
-    for (Track& track : tracks) {
-      if (track.point >= 0) track.point = ids.points[static_cast<std::size_t>(track.point)];
-      for (PointObservation& o : track.observations) o.keyframe += ids.first_keyframe;
-    }
-    map_ = std::move(joined);
-    last_keyframe_ += ids.first_keyframe;
-
-    adjust_all(map_, parameters_, parameters_.final_iterations);
-    if (parameters_.mode == Mode::text) text_mapper_.observe_again();
-    tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
-                                [&](const Track& t) { return t.point >= 0 && map_.point(t.point).bad; }),
-                 tracks.end());
+    join(i - 1, link);
     const SE3d T_c_w = map_.keyframe(last_keyframe_).T_w_c.inverse();
+    std::vector<Track> tracks = std::move(tracker_->tracks());
     tracker_ = std::make_unique<Tracker>(map_, parameters_);
     tracker_->start(frame, T_c_w, std::move(tracks));
     set_pose(record, T_c_w);
-    return true;
+    return;
   }
-  return false;
+}
+
+void System::join(std::size_t stored, const MapLink& link) {
+  Map joined = std::move(stored_[stored]);
+  stored_.erase(stored_.begin() + static_cast<std::ptrdiff_t>(stored));
+  const JoinedIds ids = join_maps(joined, map_, link);
+  const auto point_in_joined = [&](int id) { return ids.points[static_cast<std::size_t>(id)]; };
+  for (FrameRecord& record : records_) {
+    if (record.map != map_.number) continue;
+    record.map = joined.number;
+    record.keyframe += ids.first_keyframe;
+    record.T_k_c.t *= link.S_a_b.scale;
+    record.live = false;
+    for (SeenPoint& seen : record.seen) seen.point = point_in_joined(seen.point);
+    record.seen.erase(
+        std::remove_if(record.seen.begin(), record.seen.end(), [](const SeenPoint& seen) { return seen.point < 0; }),
+        record.seen.end());
+  }
+  std::vector<Track>& tracks = tracker_->tracks();
+  for (Track& track : tracks) {
+    if (track.point >= 0) track.point = point_in_joined(track.point);
+    for (PointObservation& o : track.observations) o.keyframe += ids.first_keyframe;
+  }
+  map_ = std::move(joined);
+  last_keyframe_ += ids.first_keyframe;
+
+  adjust_all(map_, parameters_, parameters_.final_iterations);
+  if (parameters_.mode == Mode::text) text_mapper_.observe_again();
+  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
+                              [&](const Track& track) { return track.point >= 0 && map_.point(track.point).bad; }),
+               tracks.end());
 }
 
 std::vector<std::size_t> System::map_frames() const {
