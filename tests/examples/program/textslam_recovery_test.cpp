@@ -120,7 +120,12 @@ TEST_F(TextslamRecovery, MapsOfOneRoomBecomeOne) {
   EXPECT_EQ(metrics().at("maps"), 1);
   EXPECT_GE(tracked(77, 156), 76) << "the frames of the second map are in the first one's world";
   EXPECT_LT(ate(), 0.005 * metrics().at("trajectory").at("path_length").get<double>());
-  RecordProperty("joined", metrics().at("tracked").get<int>() - metrics().at("tracked_live").get<int>());
+  // It did begin: some key frames were no part of the first map when they came.
+  const std::vector<double> live = times_of(read_tum(folder_.path("out/trajectory_live.txt")));
+  int joined = 0;
+  for (const double t : times_of(read_tum(folder_.path("out/keyframes.txt"))))
+    joined += t > time(77) - 1e-3 && std::find(live.begin(), live.end(), t) == live.end() ? 1 : 0;
+  EXPECT_GE(joined, 2);
 }
 
 TEST_F(TextslamRecovery, AnotherRoomIsAnotherMap) {
