@@ -11,6 +11,7 @@
 
 #include "basin.hpp"
 #include "comparisons.hpp"
+#include "page.hpp"
 #include "plot.hpp"
 #include "results.hpp"
 #include "text.hpp"
@@ -137,25 +138,6 @@ std::vector<Line> growth(const Results& all, const std::string& kind, const std:
     if (!line.points.empty()) lines.push_back(line);
   }
   return lines;
-}
-
-void write(const std::string& path, const std::string& content) {
-  std::ofstream file(path);
-  file << content;
-  if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
-}
-
-// The file with what stands between two marks replaced. Unchanged where it has no such marks.
-void replace_block(const std::string& path, const std::string& mark, const std::string& content) {
-  std::ifstream in(path);
-  std::stringstream all;
-  all << in.rdbuf();
-  std::string text = all.str();
-  const std::string begin = "<!-- " + mark + ": begin -->\n", end = "<!-- " + mark + ": end -->";
-  const std::size_t a = text.find(begin), b = text.find(end);
-  if (a == std::string::npos || b == std::string::npos || b < a) return;
-  text.replace(a + begin.size(), b - a - begin.size(), content);
-  write(path, text);
 }
 
 int run(int argc, char** argv) {

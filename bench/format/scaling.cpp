@@ -1,10 +1,10 @@
 // From the JSON of textplane_scaling to the table of docs/scaling.md, between its marks.
-#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "page.hpp"
 #include "results.hpp"
 #include "text.hpp"
 
@@ -68,14 +68,8 @@ int run(int argc, char** argv) {
     std::cerr << "usage: report_scaling SCALING.json PAGE.md CPU\n";
     return 2;
   }
-  const std::string begin = "<!-- scaling: begin -->\n", end = "<!-- scaling: end -->", path = argv[2];
-  std::stringstream all;
-  all << std::ifstream(path).rdbuf();
-  std::string text = all.str();
-  const std::size_t a = text.find(begin), b = text.find(end);
-  if (a == std::string::npos || b == std::string::npos || b < a) throw std::runtime_error(path + ": has no marks");
-  text.replace(a + begin.size(), b - a - begin.size(), table(read_json(argv[1]), argv[3]));
-  std::ofstream(path) << text;
+  if (!replace_block(argv[2], "scaling", table(read_json(argv[1]), argv[3])))
+    throw std::runtime_error(std::string(argv[2]) + ": has no marks");
   return 0;
 }
 
