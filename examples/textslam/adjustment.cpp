@@ -17,15 +17,16 @@ struct Selection {
 
 class Adjustment {
  public:
-  Adjustment(Map& map, const Parameters& parameters, const Selection& selection, int text_targets)
-      : map_(map), parameters_(parameters), text_targets_(static_cast<std::size_t>(text_targets)) {
+  Adjustment(const Map& map, const Parameters& parameters, const Selection& selection, int text_targets)
+      : parameters_(parameters), text_targets_(static_cast<std::size_t>(text_targets)) {
     slot_of_.assign(map.keyframes.size(), -1);
     window_.camera = map.camera;
-    for (const int id : selection.free_frames) add_frame(id, false);
-    for (const int id : selection.fixed_frames) add_frame(id, true);
-    for (const int id : selection.points) add_point(id);
+    for (const int id : selection.free_frames) add_frame(map, id, false);
+    for (const int id : selection.fixed_frames) add_frame(map, id, true);
+    for (const int id : selection.points) add_point(map, id);
+    patches_.reserve(map.texts.size());  // the window points to them
     if (parameters.mode == Mode::text)
-      for (TextObject& text : map.texts) add_text(text);
+      for (const TextObject& text : map.texts) add_text(map, text);
   }
 
   void solve(int iterations, int scale_a, int scale_b) {
@@ -40,18 +41,18 @@ class Adjustment {
 
   // A text is seen sharp here and blurred there. What its observations weigh goes with the inverse variance of a pixel's
   // residual, 1 - zncc up to a factor; together they weigh as before.
-  void weigh_texts() {
+  void weigh_texts(const Map& map) {
     constexpr double kLeastVariance = 0.02;  // below it, interpolation counts for more than the image
     std::vector<double> sums(texts_.size(), 0), counts(texts_.size(), 0);
     textplane::PhotometricWorkspace workspace;
     for (textplane::WindowTextObservation& o : window_.text_observations) {
       const auto slot = static_cast<std::size_t>(o.text);
-      const TextObject& text = map_.texts[static_cast<std::size_t>(texts_[slot])];
-      const KeyFrame& keyframe = map_.keyframe(frames_[static_cast<std::size_t>(o.frame)]);
+      const TextObject& text = map.texts[static_cast<std::size_t>(texts_[slot])];
+      const KeyFrame& keyframe = map.keyframe(frames_[static_cast<std::size_t>(o.frame)]);
       const auto input =
-          textplane::photometric_input(text.patch, 0, keyframe.frame.image->view(), map_.camera, o.scale_shift);
+          textplane::photometric_input(text.patch, 0, keyframe.frame.image->view(), map.camera, o.scale_shift);
       workspace.reserve(input.patch.n);
-      const auto cost = textplane::evaluate(input, text.theta, map_.T_c_h(keyframe.T_w_c.inverse(), text.host),
+      const auto cost = textplane::evaluate(input, text.theta, map.T_c_h(keyframe.T_w_c.inverse(), text.host),
                                             textplane::PhotometricOptions{}, workspace);
       o.weight = 1 / std::max(kLeastVariance, 1 - (textplane::is_ok(cost.status) ? cost.zncc : 0));
       sums[slot] += o.weight;
@@ -63,12 +64,12 @@ class Adjustment {
     }
   }
 
-  void write_back() {
+  void write_back(Map& map) const {
     for (std::size_t i = 0; i < frames_.size(); ++i)
-      map_.keyframe(frames_[i]).T_w_c = textplane::renormalised(window_.frames[i].T_w_c);
-    for (std::size_t i = 0; i < points_.size(); ++i) map_.point(points_[i]).p_w = window_.points[i].p_w;
+      map.keyframe(frames_[i]).T_w_c = textplane::renormalised(window_.frames[i].T_w_c);
+    for (std::size_t i = 0; i < points_.size(); ++i) map.point(points_[i]).p_w = window_.points[i].p_w;
     for (std::size_t i = 0; i < texts_.size(); ++i) {
-      TextObject& text = map_.texts[static_cast<std::size_t>(texts_[i])];
+      TextObject& text = map.texts[static_cast<std::size_t>(texts_[i])];
       if (!textplane::is_ok(window_.texts[i].status)) continue;
       text.theta = window_.texts[i].theta;
       text.covariance = window_.texts[i].covariance;
@@ -76,30 +77,31 @@ class Adjustment {
     }
   }
 
-  int remove_outliers() {
+  int remove_outliers(Map& map) const {
     int removed = 0;
     for (const textplane::WindowPointObservation& o : window_.point_observations) {
       const int point = points_[static_cast<std::size_t>(o.point)];
-      if (o.chi2 <= 1.5 * parameters_.outlier_chi2 || map_.point(point).bad) continue;
-      remove_observation(map_, point, frames_[static_cast<std::size_t>(o.frame)]);
+      if (o.chi2 <= 1.5 * parameters_.outlier_chi2 || map.point(point).bad) continue;
+      remove_observation(map, point, frames_[static_cast<std::size_t>(o.frame)]);
       ++removed;
     }
     return removed;
   }
 
  private:
-  void add_frame(int id, bool fixed) {
+  void add_frame(const Map& map, int id, bool fixed) {
     slot_of_[static_cast<std::size_t>(id)] = static_cast<int>(frames_.size());
     frames_.push_back(id);
     textplane::WindowFrame frame;
-    frame.T_w_c = map_.keyframe(id).T_w_c;
+    frame.T_w_c = map.keyframe(id).T_w_c;
     frame.fixed = fixed;
-    frame.image = map_.keyframe(id).frame.image->view();
+    images_.push_back(map.keyframe(id).frame.image);
+    frame.image = images_.back()->view();
     window_.frames.push_back(frame);
   }
 
-  void add_point(int id) {
-    const MapPoint& point = map_.point(id);
+  void add_point(const Map& map, int id) {
+    const MapPoint& point = map.point(id);
     int usable = 0;
     for (const PointObservation& o : point.observations) usable += slot_of_[static_cast<std::size_t>(o.keyframe)] >= 0;
     if (usable < 2) return;
@@ -119,7 +121,7 @@ class Adjustment {
     points_.push_back(id);
   }
 
-  void add_text(TextObject& text) {
+  void add_text(const Map& map, const TextObject& text) {
     if (text.state != TextState::mapped || slot_of_[static_cast<std::size_t>(text.host)] < 0) return;
     std::vector<int> usable;
     for (const int id : text.targets)
@@ -130,24 +132,26 @@ class Adjustment {
       observation.text = static_cast<int>(texts_.size());
       observation.frame = slot_of_[static_cast<std::size_t>(id)];
       Quad<double> quad;
-      if (project_text(map_, text, map_.keyframe(id).T_w_c.inverse(), &quad))
+      if (project_text(map, text, map.keyframe(id).T_w_c.inverse(), &quad))
         observation.scale_shift = scale_shift(text, quad);
       window_.text_observations.push_back(observation);
     }
     textplane::WindowText window_text;
     window_text.host = slot_of_[static_cast<std::size_t>(text.host)];
     window_text.theta = text.theta;
-    window_text.patch = &text.patch;
+    patches_.push_back(text.patch);
+    window_text.patch = &patches_.back();
     window_.texts.push_back(window_text);
     texts_.push_back(text.id);
   }
 
-  Map& map_;
-  const Parameters& parameters_;
+  Parameters parameters_;
   std::size_t text_targets_;  // at most, of a text
   textplane::Window window_;
-  std::vector<int> slot_of_;                  // key frame id -> frame of the window, -1: not in it
-  std::vector<int> frames_, points_, texts_;  // index in the window -> id
+  std::vector<std::shared_ptr<const Pyramid>> images_;  // of the window's frames
+  std::vector<textplane::TextPatch> patches_;           // of its texts
+  std::vector<int> slot_of_;                            // key frame id -> frame of the window, -1: not in it
+  std::vector<int> frames_, points_, texts_;            // index in the window -> id
 };
 
 // Number of points that each key frame shares with the given points.
@@ -180,11 +184,9 @@ std::vector<int> points_of(const Map& map, const std::vector<int>& keyframes) {
   return points;
 }
 
-}  // namespace
-
-void adjust_local(Map& map, const Parameters& parameters) {
+// Around the newest key frame; no free frames where there is nothing to adjust.
+Selection local_selection(const Map& map, const Parameters& parameters) {
   const int newest = static_cast<int>(map.keyframes.size()) - 1;
-  if (newest < 2) return adjust_all(map, parameters, parameters.window_iterations);
   std::vector<int> shared = shared_points(map, map.keyframe(newest).points);
   shared[static_cast<std::size_t>(newest)] = static_cast<int>(map.points.size()) + 1;
   Selection selection;
@@ -199,15 +201,57 @@ void adjust_local(Map& map, const Parameters& parameters) {
   if (selection.fixed_frames.size() < 2) {
     // A young map: its oldest free key frame besides the first holds the scale.
     const auto oldest = std::min_element(selection.free_frames.begin(), selection.free_frames.end());
-    if (selection.free_frames.size() < 2) return;
+    if (selection.free_frames.size() < 2) return {};
     selection.fixed_frames.push_back(*oldest);
     selection.free_frames.erase(oldest);
   }
+  return selection;
+}
 
-  Adjustment adjustment(map, parameters, selection, parameters.text_targets);
-  adjustment.solve(parameters.window_iterations, -1, -1);
-  adjustment.write_back();
-  adjustment.remove_outliers();
+class AdjustmentAroundNewest : public LocalAdjustment {
+ public:
+  AdjustmentAroundNewest(const Map& map, const Parameters& parameters, const Selection& selection)
+      : adjustment_(map, parameters, selection, parameters.text_targets),
+        iterations_(parameters.window_iterations),
+        newest_(static_cast<int>(map.keyframes.size()) - 1),
+        points_(map.points.size()),
+        T_w_c_(map.keyframe(newest_).T_w_c) {}
+
+  void solve() override { adjustment_.solve(iterations_, -1, -1); }
+
+  SE3d apply(Map& map) const override {
+    adjustment_.write_back(map);
+    adjustment_.remove_outliers(map);
+    const SE3d moved = map.keyframe(newest_).T_w_c * T_w_c_.inverse();
+    for (std::size_t i = static_cast<std::size_t>(newest_) + 1; i < map.keyframes.size(); ++i)
+      map.keyframes[i].T_w_c = textplane::renormalised(moved * map.keyframes[i].T_w_c);
+    for (std::size_t i = points_; i < map.points.size(); ++i) map.points[i].p_w = moved * map.points[i].p_w;
+    return moved;
+  }
+
+ private:
+  Adjustment adjustment_;
+  int iterations_;
+  int newest_;          // key frame
+  std::size_t points_;  // of the map, when it was prepared
+  SE3d T_w_c_;          // of the newest key frame then
+};
+
+}  // namespace
+
+std::unique_ptr<LocalAdjustment> LocalAdjustment::prepare(const Map& map, const Parameters& parameters) {
+  if (map.keyframes.size() < 3) return nullptr;
+  const Selection selection = local_selection(map, parameters);
+  if (selection.free_frames.empty()) return nullptr;
+  return std::make_unique<AdjustmentAroundNewest>(map, parameters, selection);
+}
+
+void adjust_local(Map& map, const Parameters& parameters) {
+  if (map.keyframes.size() < 3) return adjust_all(map, parameters, parameters.window_iterations);
+  const auto adjustment = LocalAdjustment::prepare(map, parameters);
+  if (!adjustment) return;
+  adjustment->solve();
+  adjustment->apply(map);
 }
 
 void adjust_all(Map& map, const Parameters& parameters, int iterations) {
@@ -229,10 +273,10 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
   }
   for (int round = 0; round < 2; ++round) {
     Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
-    adjustment.weigh_texts();
+    adjustment.weigh_texts(map);
     adjustment.solve(iterations, 0, far);
-    adjustment.write_back();
-    if (adjustment.remove_outliers() == 0) break;
+    adjustment.write_back(map);
+    if (adjustment.remove_outliers(map) == 0) break;
     selection.points.erase(
         std::remove_if(selection.points.begin(), selection.points.end(), [&](int id) { return map.point(id).bad; }),
         selection.points.end());

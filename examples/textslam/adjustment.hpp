@@ -2,10 +2,25 @@
 #ifndef TEXTSLAM_ADJUSTMENT_HPP
 #define TEXTSLAM_ADJUSTMENT_HPP
 
+#include <memory>
+
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
 
 namespace textslam {
+
+/// The local adjustment in its three steps, so that the long one may run beside tracking: solve() touches nothing but
+/// what prepare() copied (images are shared and constant).
+class LocalAdjustment {
+ public:
+  /// Around the newest key frame; null where there is nothing to adjust, as in a map of fewer than three key frames.
+  static std::unique_ptr<LocalAdjustment> prepare(const Map& map, const Parameters& parameters);
+  virtual ~LocalAdjustment() = default;
+  virtual void solve() = 0;
+  /// Writes the result into the map it was prepared from, which may have grown since: key frames and points that came later
+  /// move along with the newest of then. Returns this motion of the world, for what else came later.
+  virtual SE3d apply(Map& map) const = 0;
+};
 
 /// Adjusts the newest key frame and those that share most points with it, with their points and text planes; key frames
 /// around them stay fixed. Observations that no longer fit are removed.

@@ -47,6 +47,10 @@ int execute(int argc, char** argv) {
   app.add_option("--detector", options.detector, "files: the sequence's detections; classical: built in")
       ->check(CLI::IsMember({"files", "classical"}))
       ->capture_default_str();
+  app.add_flag(
+      "--real-time", options.parameters.real_time,
+      "Frames come at the times of their stamps, and local adjustment has a thread of its own; without it, all is "
+      "done in step and the same input gives the same bytes");
   app.add_option("--first", options.first, "Index of the first frame")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -71,7 +71,7 @@ std::string text_map_ply(const Map& map) {
   return out.str();
 }
 
-std::string timing_json(const System& system) {
+std::string timing_json(const System& system, const std::vector<double>& latency_ms) {
   const auto stage = [&](double FrameRecord::*member) {
     std::vector<double> values;
     for (const FrameRecord& record : system.records())
@@ -85,6 +85,7 @@ std::string timing_json(const System& system) {
               {"tracking.reobservation", stage(&FrameRecord::reobserve_ms)},
               {"mapping", stage(&FrameRecord::map_ms)},
               {"mapping.adjustment", stage(&FrameRecord::adjust_ms)}};
+  if (!latency_ms.empty()) stages["latency"] = Json{{"median", median(latency_ms)}, {"p95", percentile95(latency_ms)}};
   Json frames = Json::array();
   for (const FrameRecord& r : system.records())
     frames.push_back({{"timestamp", r.timestamp}, {"tracking", r.track_ms}, {"mapping", r.map_ms}});
@@ -191,7 +192,7 @@ void write_outputs(const std::string& folder, const System& system, const RunSum
   write_tum(folder + "/keyframes.txt", keyframe_trajectory(system.map()));
   write_file(folder + "/text_map.json", text_map_json(system.map()));
   write_file(folder + "/text_map.ply", text_map_ply(system.map()));
-  write_file(folder + "/timing.json", timing_json(system));
+  write_file(folder + "/timing.json", timing_json(system, summary.latency_ms));
   write_file(folder + "/metrics.json", metrics_json(summary));
 }
 
@@ -225,6 +226,8 @@ std::string format_summary(const RunSummary& s) {
           s.text.angle.max);
   }
   row("time", "%.1f ms a frame (median)", s.median_ms);
+  if (!s.latency_ms.empty())
+    row("latency", "%.1f ms (median), %.1f ms (95th percentile)", median(s.latency_ms), percentile95(s.latency_ms));
   return out.str();
 }
 

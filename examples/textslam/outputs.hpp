@@ -33,7 +33,8 @@ struct RunSummary {
   bool has_truth = false;
   TrajectoryEvaluation trajectory, live;
   TextEvaluation text;
-  double median_ms = 0;  ///< A frame, detection aside.
+  double median_ms = 0;            ///< A frame, detection aside.
+  std::vector<double> latency_ms;  ///< Real time: of each frame, from when it came to when its pose was known.
 };
 
 /// Final poses, and poses as known live, of the tracked frames.

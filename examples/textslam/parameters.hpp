@@ -13,6 +13,7 @@ enum class Mode {
 
 struct Parameters {
   Mode mode = Mode::text;
+  bool real_time = false;  ///< Local adjustment on a thread of its own; what comes out depends on its timing.
 
   // Images
   int pyramid_levels = 4;

@@ -1,6 +1,8 @@
 #include "textslam/run.hpp"
 
+#include <chrono>
 #include <memory>
+#include <thread>
 
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
@@ -45,6 +47,34 @@ class FrameSource {
   std::unique_ptr<TextDetector> detector_;
 };
 
+// Real time: frames come when their time stamps say, counted from the first. One that is late is worked on at once; none is
+// left out.
+class Clock {
+ public:
+  explicit Clock(bool real_time) : real_time_(real_time) {}
+
+  void wait_for(double timestamp) {
+    if (!real_time_) return;
+    if (start_ms_ < 0) {
+      start_ms_ = now_ms();
+      first_ = timestamp;
+    }
+    due_ms_ = start_ms_ + 1000 * (timestamp - first_);
+    const double early = due_ms_ - now_ms();
+    if (early > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(early));
+  }
+  void done() {
+    if (real_time_) latency_ms_.push_back(now_ms() - due_ms_);
+  }
+  /// From when each frame came to when its pose was known.
+  std::vector<double> latency_ms() { return std::move(latency_ms_); }
+
+ private:
+  bool real_time_;
+  double start_ms_ = -1, due_ms_ = 0, first_ = 0;
+  std::vector<double> latency_ms_;
+};
+
 // Broken input ends a step but not the run: what was computed is written. The first message is the one reported.
 template <class Step>
 void keep_going(RunResult& result, Step step) {
@@ -71,12 +101,15 @@ RunResult run(const RunOptions& options) {
   const int total = last - options.first + 1;
   FrameSource source(sequence, options);
   System system(sequence.camera.pinhole, sequence.camera.width, sequence.camera.height, options.parameters);
+  Clock clock(options.parameters.real_time);
   keep_going(result, [&] {
     Progress progress("tracking");
     for (int index = 0; index < total; ++index) {
       double detect_ms = 0;
+      clock.wait_for(sequence.frames[static_cast<std::size_t>(options.first + index)].timestamp);
       const Frame frame = source.load(index, &detect_ms);
       const FrameRecord& record = system.process(frame, detect_ms);
+      clock.done();
       const char* state = record.state == FrameState::tracked ? "tracked"
                           : record.state == FrameState::lost  ? "lost"
                                                               : "waiting";
@@ -89,6 +122,7 @@ RunResult run(const RunOptions& options) {
   keep_going(result, [&] { system.fill_in([&](int index) { return source.load(index, nullptr); }); });
   RunSummary& summary = result.summary;
   summary = summarise(system, sequence, static_cast<std::size_t>(total));
+  summary.latency_ms = clock.latency_ms();
   if (summary.has_truth && textplane::is_ok(summary.trajectory.status))
     keep_going(result, [&] {
       summary.text = evaluate_text(system.map(), read_true_signs(sequence), summary.trajectory.alignment);

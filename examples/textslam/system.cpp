@@ -13,7 +13,7 @@
 namespace textslam {
 
 System::System(const Pinhole<double>& camera, int width, int height, const Parameters& parameters)
-    : parameters_(parameters), initialiser_(parameters_), text_mapper_(map_, parameters_) {
+    : parameters_(parameters), initialiser_(parameters_), text_mapper_(map_, parameters_), adjuster_(parameters_) {
   map_.camera = camera;
   map_.width = width;
   map_.height = height;
@@ -25,6 +25,7 @@ const FrameRecord& System::process(const Frame& frame, double detect_ms) {
   record.timestamp = frame.timestamp;
   record.detect_ms = detect_ms;
   const double start = now_ms();
+  take_over(adjuster_.collect(map_));
   const bool found = (tracker_ && lost_frames_ == 0 && track(frame, record)) || recover(frame, record);
   record.track_ms = now_ms() - start;
   if (found) {
@@ -133,7 +134,7 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   triangulate_tracks(map_, parameters_, tracks);
 
   const double start = now_ms();
-  adjust_local(map_, parameters_);
+  adjuster_.keyframe_added(map_);
   record.adjust_ms = now_ms() - start;
   cull_points(map_, parameters_, tracks);
   const SE3d T_c_w = map_.keyframe(last_keyframe_).T_w_c.inverse();
@@ -152,6 +153,13 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   tracker_->correct(T_c_w);
   set_pose(record, T_c_w);
   record.seen.clear();
+}
+
+// The frames since that key frame were tracked in the map as it was before.
+void System::take_over(const Adjuster::Collected& adjusted) {
+  if (!adjusted.changed) return;
+  records_[static_cast<std::size_t>(adjusted.frame)].adjust_ms = adjusted.ms;
+  if (tracker_) tracker_->correct(tracker_->pose() * adjusted.moved.inverse());
 }
 
 void System::refit_poses() {
@@ -192,6 +200,7 @@ void System::fill_in(const std::function<Frame(int)>& load) {
 }
 
 void System::finish() {
+  take_over(adjuster_.settle(map_));
   keep_largest();
   if (map_.keyframes.size() < 2) return;
   adjust_all(map_, parameters_, parameters_.final_iterations);

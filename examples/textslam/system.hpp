@@ -1,7 +1,7 @@
 // System: monocular SLAM with points and planar text, one frame at a time.
 //
-// Frame -> (initialiser | tracker | recovery) -> key frame? -> points, text, local adjustment. Single-threaded and without
-// random draws: the same frames give the same bytes.
+// Frame -> (initialiser | tracker | recovery) -> key frame? -> points, text, local adjustment. Without random draws, and
+// single-threaded but for the local adjustment in real time (adjuster.hpp): without that the same frames give the same bytes.
 //
 // One map is worked on at a time. Where it is lost for long another begins, and it is stored; a lost frame is looked for in
 // the stored maps, too, and a key frame that shows a stored map joins the two (system_maps.cpp). In the end the map with most
@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "textslam/adjuster.hpp"
 #include "textslam/initialiser.hpp"
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
@@ -71,6 +72,7 @@ class System {
   void begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecord& record);
   void follow(const Frame& frame, FrameRecord& record);
   void lose(FrameRecord& record);
+  void take_over(const Adjuster::Collected& adjusted);
   bool track(const Frame& frame, FrameRecord& record);
   // system_maps.cpp
   bool recover(const Frame& frame, FrameRecord& record);
@@ -92,6 +94,7 @@ class System {
   int maps_ = 0;             // begun so far
   Initialiser initialiser_;
   TextMapper text_mapper_;
+  Adjuster adjuster_;
   std::unique_ptr<Tracker> tracker_;  // null until the map begins
   std::vector<FrameRecord> records_;
   int last_keyframe_ = -1;        // id of the newest

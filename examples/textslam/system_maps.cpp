@@ -19,6 +19,7 @@ void System::clear_map() {
 }
 
 void System::store_map() {
+  take_over(adjuster_.settle(map_));
   if (!map_.keyframes.empty()) stored_.push_back(std::move(map_));
   clear_map();
 }
@@ -55,6 +56,7 @@ void System::join_stored(const Frame& frame, FrameRecord& record) {
   for (std::size_t i = stored_.size(); i > 0; --i) {
     const Recovery seen = relocalise(stored_[i - 1], parameters_, frame);
     if (!seen.ok) continue;
+    take_over(adjuster_.settle(map_));
     const MapLink link = link_maps(stored_[i - 1], map_, parameters_, seen);
     if (!link.ok) continue;
     join(i - 1, link);

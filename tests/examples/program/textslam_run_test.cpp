@@ -288,6 +288,21 @@ TEST_F(TextslamRun, RunsWithTheClassicalDetector) {
             0.01 * metrics.at("trajectory").at("path_length").get<double>());
 }
 
+// What it gives depends on timing, but not how good it is.
+TEST_F(TextslamRun, RealTime) {
+  const ProgramResult result = run(room(), "real-time", {"--real-time"});
+  expect_success(result);
+  expect_all_outputs(folder_->path("real-time"));
+  const Json metrics = json_of(folder_->path("real-time/metrics.json"));
+  EXPECT_GE(metrics.at("coverage").get<double>(), 0.9);
+  const Json& trajectory = metrics.at("trajectory");
+  EXPECT_LE(trajectory.at("ate_rmse").get<double>(), 0.01 * trajectory.at("path_length").get<double>());
+  EXPECT_GE(2 * metrics.at("text").at("signs_mapped").get<int>(), metrics.at("text").at("signs_visible").get<int>());
+  EXPECT_GT(json_of(folder_->path("real-time/timing.json")).at("stages").at("latency").at("median").get<double>(), 0);
+  EXPECT_NE(result.out.find("latency"), std::string::npos);
+  EXPECT_FALSE(json_of(output("timing.json")).at("stages").contains("latency")) << "of a run that was not in real time";
+}
+
 // A part of a sequence is a sequence: the same as a folder that holds no more than that part.
 TEST_F(TextslamRun, RangeIsASequence) {
   const std::string part = folder_->path("part");
