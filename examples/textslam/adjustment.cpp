@@ -9,10 +9,13 @@
 namespace textslam {
 namespace {
 
+constexpr int kSharedPoints = 15;  // that make neighbours of two key frames
+
 // What of the map takes part, and as what.
 struct Selection {
   std::vector<int> free_frames, fixed_frames;
   std::vector<int> points;
+  int scale_frame = -1;  // its distance to the first of the fixed frames is kept; -1: the fixed frames hold the scale
 };
 
 class Adjustment {
@@ -23,18 +26,22 @@ class Adjustment {
     window_.camera = map.camera;
     for (const int id : selection.free_frames) add_frame(map, id, false);
     for (const int id : selection.fixed_frames) add_frame(map, id, true);
+    if (selection.scale_frame >= 0) {
+      scale_frame_a_ = slot_of_[static_cast<std::size_t>(selection.fixed_frames[0])];
+      scale_frame_b_ = slot_of_[static_cast<std::size_t>(selection.scale_frame)];
+    }
     for (const int id : selection.points) add_point(map, id);
     patches_.reserve(map.texts.size());  // the window points to them
     if (parameters.mode == Mode::text)
       for (const TextObject& text : map.texts) add_text(map, text);
   }
 
-  void solve(int iterations, int scale_a, int scale_b) {
+  void solve(int iterations) {
     textplane::WindowOptions options;
     options.sigma_photo = parameters_.photometric_sigma;
     options.max_iterations = iterations;
-    options.scale_frame_a = scale_a < 0 ? -1 : slot_of_[static_cast<std::size_t>(scale_a)];
-    options.scale_frame_b = scale_b < 0 ? -1 : slot_of_[static_cast<std::size_t>(scale_b)];
+    options.scale_frame_a = scale_frame_a_;
+    options.scale_frame_b = scale_frame_b_;
     textplane::WindowWorkspace workspace;
     textplane::solve_window(window_, options, workspace);
   }
@@ -146,7 +153,8 @@ class Adjustment {
   }
 
   Parameters parameters_;
-  std::size_t text_targets_;  // at most, of a text
+  std::size_t text_targets_;                     // at most, of a text
+  int scale_frame_a_ = -1, scale_frame_b_ = -1;  // of the window
   textplane::Window window_;
   std::vector<std::shared_ptr<const Pyramid>> images_;  // of the window's frames
   std::vector<textplane::TextPatch> patches_;           // of its texts
@@ -160,6 +168,20 @@ std::vector<int> shared_points(const Map& map, const std::vector<int>& points) {
   for (const int id : points)
     for (const PointObservation& o : map.point(id).observations) ++shared[static_cast<std::size_t>(o.keyframe)];
   return shared;
+}
+
+// The key frame farthest from key frame `id` that shares points with it; -1 where none does.
+int farthest_seen_from(const Map& map, int id) {
+  const std::vector<int> shared = shared_points(map, map.keyframe(id).points);
+  int farthest = -1;
+  double distance = 0;
+  for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
+    const double d = (map.keyframes[i].T_w_c.t - map.keyframe(id).T_w_c.t).norm();
+    if (shared[i] < kSharedPoints || d <= distance) continue;
+    farthest = static_cast<int>(i);
+    distance = d;
+  }
+  return farthest;
 }
 
 // Ids of key frames with the largest counts, at least `least` each; ties to the newer.
@@ -190,7 +212,7 @@ Selection local_selection(const Map& map, const Parameters& parameters) {
   std::vector<int> shared = shared_points(map, map.keyframe(newest).points);
   shared[static_cast<std::size_t>(newest)] = static_cast<int>(map.points.size()) + 1;
   Selection selection;
-  selection.free_frames = strongest(shared, 15, static_cast<std::size_t>(parameters.window_frames));
+  selection.free_frames = strongest(shared, kSharedPoints, static_cast<std::size_t>(parameters.window_frames));
   selection.free_frames.erase(std::remove(selection.free_frames.begin(), selection.free_frames.end(), 0),
                               selection.free_frames.end());
   selection.points = points_of(map, selection.free_frames);
@@ -198,13 +220,9 @@ Selection local_selection(const Map& map, const Parameters& parameters) {
   shared = shared_points(map, selection.points);
   for (const int id : selection.free_frames) shared[static_cast<std::size_t>(id)] = 0;
   selection.fixed_frames = strongest(shared, 1, static_cast<std::size_t>(parameters.window_fixed));
-  if (selection.fixed_frames.size() < 2) {
-    // A young map: its oldest free key frame besides the first holds the scale.
-    const auto oldest = std::min_element(selection.free_frames.begin(), selection.free_frames.end());
-    if (selection.free_frames.size() < 2) return {};
-    selection.fixed_frames.push_back(*oldest);
-    selection.free_frames.erase(oldest);
-  }
+  if (selection.fixed_frames.empty()) return {};
+  // Where one alone is fixed, as in a young map, its distance to another holds the scale.
+  if (selection.fixed_frames.size() == 1) selection.scale_frame = farthest_seen_from(map, selection.fixed_frames[0]);
   return selection;
 }
 
@@ -217,7 +235,7 @@ class AdjustmentAroundNewest : public LocalAdjustment {
         points_(map.points.size()),
         T_w_c_(map.keyframe(newest_).T_w_c) {}
 
-  void solve() override { adjustment_.solve(iterations_, -1, -1); }
+  void solve() override { adjustment_.solve(iterations_); }
 
   SE3d apply(Map& map) const override {
     adjustment_.write_back(map);
@@ -261,20 +279,11 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
   for (std::size_t i = 1; i < map.keyframes.size(); ++i) selection.free_frames.push_back(static_cast<int>(i));
   for (std::size_t i = 0; i < map.points.size(); ++i)
     if (!map.points[i].bad) selection.points.push_back(static_cast<int>(i));
-  const std::vector<int> shared = shared_points(map, map.keyframe(0).points);
-  int far = 1;
-  double distance = 0;
-  for (std::size_t i = 1; i < map.keyframes.size(); ++i) {
-    const double d = (map.keyframes[i].T_w_c.t - map.keyframes[0].T_w_c.t).norm();
-    if (shared[i] >= 15 && d > distance) {
-      far = static_cast<int>(i);
-      distance = d;
-    }
-  }
+  selection.scale_frame = std::max(1, farthest_seen_from(map, 0));
   for (int round = 0; round < 2; ++round) {
     Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
     adjustment.weigh_texts(map);
-    adjustment.solve(iterations, 0, far);
+    adjustment.solve(iterations);
     adjustment.write_back(map);
     if (adjustment.remove_outliers(map) == 0) break;
     selection.points.erase(
