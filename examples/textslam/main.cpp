@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "io/input_error.hpp"
+#include "io/interrupt.hpp"
 #include "renderer/render_sequence.hpp"
 #include "textslam/progress.hpp"
 #include "textslam/run.hpp"
@@ -11,6 +12,7 @@
 namespace {
 
 constexpr int kInputError = 2;
+constexpr int kSignal = 128;  // plus the signal's number, as shells have it
 
 // What a rendered sequence has in place of what its kind says; the renderer checks the ranges.
 void add_conditions(CLI::App& app, textslam::RenderOptions& render) {
@@ -90,12 +92,13 @@ int execute(int argc, char** argv) {
   if (!warning.empty()) std::fprintf(stderr, "textslam: %s\n", warning.c_str());
   if (result.error.empty()) return 0;
   std::fprintf(stderr, "textslam: %s\n", result.error.c_str());
-  return kInputError;
+  return result.interrupted ? kSignal + textslam::interrupted() : kInputError;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  textslam::note_interrupts();
   try {
     return execute(argc, argv);
   } catch (const textslam::InputError& error) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -187,13 +189,25 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
 }
 
 void write_outputs(const std::string& folder, const System& system, const RunSummary& summary) {
-  write_tum(folder + "/trajectory.txt", final_trajectory(system));
-  write_tum(folder + "/trajectory_live.txt", live_trajectory(system));
-  write_tum(folder + "/keyframes.txt", keyframe_trajectory(system.map()));
-  write_file(folder + "/text_map.json", text_map_json(system.map()));
-  write_file(folder + "/text_map.ply", text_map_ply(system.map()));
-  write_file(folder + "/timing.json", timing_json(system, summary.latency_ms));
-  write_file(folder + "/metrics.json", metrics_json(summary));
+  const auto at = [&](const char* name) { return folder + "/" + name; };
+  const std::vector<std::function<void()>> writers = {
+      [&] { write_tum(at("trajectory.txt"), final_trajectory(system)); },
+      [&] { write_tum(at("trajectory_live.txt"), live_trajectory(system)); },
+      [&] { write_tum(at("keyframes.txt"), keyframe_trajectory(system.map())); },
+      [&] { write_file(at("text_map.json"), text_map_json(system.map())); },
+      [&] { write_file(at("text_map.ply"), text_map_ply(system.map())); },
+      [&] { write_file(at("timing.json"), timing_json(system, summary.latency_ms)); },
+      [&] { write_file(at("metrics.json"), metrics_json(summary)); },
+  };
+  std::exception_ptr first;
+  for (const auto& write : writers) {
+    try {
+      write();
+    } catch (const std::exception&) {
+      if (!first) first = std::current_exception();
+    }
+  }
+  if (first) std::rethrow_exception(first);
 }
 
 std::string format_summary(const RunSummary& s) {

@@ -45,7 +45,8 @@ std::vector<StampedPose> live_trajectory(const System& system);
 /// the run was to process.
 RunSummary summarise(const System& system, const Sequence& sequence, std::size_t frames);
 
-/// Writes every file into `folder`, which exists. Throws std::runtime_error where one cannot be written.
+/// Writes every file into `folder`, which exists. Where one cannot be written, the others are, and then the first error is
+/// thrown: std::runtime_error.
 void write_outputs(const std::string& folder, const System& system, const RunSummary& summary);
 
 /// The table for the terminal.

@@ -6,6 +6,7 @@
 
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
+#include "io/interrupt.hpp"
 #include "io/output_file.hpp"
 #include "textslam/progress.hpp"
 #include "textslam/text_detector.hpp"
@@ -104,7 +105,7 @@ RunResult run(const RunOptions& options) {
   Clock clock(options.parameters.real_time);
   keep_going(result, [&] {
     Progress progress("tracking");
-    for (int index = 0; index < total; ++index) {
+    for (int index = 0; index < total && !result.interrupted; ++index) {
       double detect_ms = 0;
       clock.wait_for(sequence.frames[static_cast<std::size_t>(options.first + index)].timestamp);
       const Frame frame = source.load(index, &detect_ms);
@@ -116,6 +117,9 @@ RunResult run(const RunOptions& options) {
       progress.show(static_cast<std::size_t>(index + 1), static_cast<std::size_t>(total),
                     std::string(state) + ", " + std::to_string(record.points) + " points, " +
                         std::to_string(record.texts) + " texts");
+      if (interrupted() == 0 || index + 1 == total) continue;
+      result.interrupted = true;
+      result.error = "interrupted after frame " + std::to_string(index) + "; what was computed is in " + options.output;
     }
   });
   system.finish();

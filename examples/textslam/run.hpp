@@ -19,7 +19,8 @@ struct RunOptions {
 
 struct RunResult {
   RunSummary summary;
-  std::string error;  ///< Empty, or the one line about the input that ended the run early; what came before is written.
+  std::string error;         ///< Empty, or one line about what ended the run early; what came before is written.
+  bool interrupted = false;  ///< By a signal: see io/interrupt.hpp.
 };
 
 /// Throws InputError where nothing could be computed at all, std::runtime_error where the output cannot be written.

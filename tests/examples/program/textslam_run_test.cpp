@@ -1,5 +1,6 @@
 // Whole runs of the program on rendered rooms: how well, how completely, the same each time, and what the outputs mean.
 #include <cmath>
+#include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -18,7 +19,9 @@ using Vec3 = Vector3<double>;
 constexpr int kFrames = 80;
 
 Json json_of(const std::string& path) { return Json::parse(bytes_of(path)); }
-Vec3 vec3_of(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()}; }
+Vec3 vec3_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
 
 // A third of the room's loop, and the program's results on it, made once.
 class TextslamRun : public testing::Test {
@@ -33,8 +36,12 @@ class TextslamRun : public testing::Test {
     delete folder_;
   }
 
-  static std::string room(const std::string& name = "") { return folder_->path(name.empty() ? "room" : "room/" + name); }
-  static std::string output(const std::string& name = "") { return folder_->path(name.empty() ? "out" : "out/" + name); }
+  static std::string room(const std::string& name = "") {
+    return folder_->path(name.empty() ? "room" : "room/" + name);
+  }
+  static std::string output(const std::string& name = "") {
+    return folder_->path(name.empty() ? "out" : "out/" + name);
+  }
   static ProgramResult run(const std::string& sequence, const std::string& to, std::vector<std::string> more = {}) {
     more.insert(more.begin(), {sequence, "--output", folder_->path(to)});
     return textslam_program(more);
@@ -104,7 +111,8 @@ TEST_F(TextslamRun, TrajectoriesAndMetricsAgree) {
 
   const TrajectoryEvaluation errors = evaluate_trajectory(final_poses, sequence.groundtruth, sequence.frames.size());
   EXPECT_NEAR(metrics.at("trajectory").at("ate_rmse").get<double>(), errors.ate.rmse, 1e-9);
-  EXPECT_NEAR(metrics.at("trajectory").at("scale").get<double>(), errors.alignment.scale, 1e-6 * errors.alignment.scale);
+  EXPECT_NEAR(metrics.at("trajectory").at("scale").get<double>(), errors.alignment.scale,
+              1e-6 * errors.alignment.scale);
   EXPECT_NEAR(metrics.at("coverage").get<double>(), errors.coverage, 1e-12);
 }
 
@@ -155,9 +163,8 @@ TEST_F(TextslamRun, TextMapIsConsistent) {
     // Corners on the plane theta . p = 1, where the sign is in the host's image: a detector's error of 1.5 px a corner.
     ASSERT_EQ(text.at("corners").size(), 4u);
     ASSERT_EQ(sign_of.count(id), 1u);
-    const auto frame = std::find_if(sequence.frames.begin(), sequence.frames.end(), [&](const FrameRef& f) {
-      return std::abs(f.timestamp - host->timestamp) < 1e-9;
-    });
+    const auto frame = std::find_if(sequence.frames.begin(), sequence.frames.end(),
+                                    [&](const FrameRef& f) { return std::abs(f.timestamp - host->timestamp) < 1e-9; });
     ASSERT_NE(frame, sequence.frames.end());
     std::vector<double> exact;
     for (const TextLine& line : read_lines(room("truth/quads/" + frame->stem + ".txt"))) {
@@ -303,6 +310,30 @@ TEST_F(TextslamRun, RealTime) {
   EXPECT_FALSE(json_of(output("timing.json")).at("stages").contains("latency")) << "of a run that was not in real time";
 }
 
+// In real time the run takes longer than it is given; what came before the signal is written.
+TEST_F(TextslamRun, AnInterruptKeepsWhatIsComputed) {
+  for (const char* signal : {"INT", "TERM"}) {
+    const std::string out = folder_->path(std::string("interrupted-") + signal);
+    const ProgramResult result = run_program("timeout", {"--preserve-status", "--signal", signal, "1.5",
+                                                         TEXTSLAM_PROGRAM, room(), "--output", out, "--real-time"});
+    EXPECT_EQ(result.code, 128 + (signal == std::string("INT") ? SIGINT : SIGTERM)) << result.err;
+    EXPECT_NE(result.err.find("interrupted after frame "), std::string::npos) << result.err;
+    expect_all_outputs(out);
+    EXPECT_LT(read_tum(out + "/trajectory.txt").size(), static_cast<std::size_t>(kFrames));
+    EXPECT_EQ(json_of(out + "/metrics.json").at("frames"), kFrames) << "those not processed count as not tracked";
+  }
+}
+
+// A folder in place of a file stands for a disk that refuses one: the other files are there, and the line names it.
+TEST_F(TextslamRun, OneOutputThatCannotBeWrittenCostsNoOther) {
+  const std::string out = folder_->path("refused");
+  fs::create_directories(out + "/text_map.json/in-the-way");
+  const ProgramResult result = run(room(), "refused", {"--last", "5"});
+  expect_refused(result, 1, out + "/text_map.json", "cannot write");
+  for (const char* name : kOutputs)
+    EXPECT_EQ(fs::is_regular_file(out + "/" + name), name != std::string("text_map.json")) << name;
+}
+
 // A part of a sequence is a sequence: the same as a folder that holds no more than that part.
 TEST_F(TextslamRun, RangeIsASequence) {
   const std::string part = folder_->path("part");
@@ -335,7 +366,8 @@ TEST_F(TextslamRun, RendersAndRuns) {
   expect_success(render_notext("only", {"--frames", "2", "--render-only"}));
   EXPECT_FALSE(fs::exists(folder_->path("only/trajectory.txt")));
   for (const char* image : {"images/000000.png", "images/000001.png"})
-    EXPECT_TRUE(bytes_of(folder_->path("only/sequence/") + image) == bytes_of(folder_->path("rendered/sequence/") + image));
+    EXPECT_TRUE(bytes_of(folder_->path("only/sequence/") + image) ==
+                bytes_of(folder_->path("rendered/sequence/") + image));
 }
 
 }  // namespace
