@@ -1,0 +1,77 @@
+// Files that the example programs read: any bytes give a result or an InputError whose message is one line and begins with
+// the file's name. The first byte says what the rest is taken for.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <string>
+
+#include "fuzz.hpp"
+#include "io/detections.hpp"
+#include "io/evaluate_signs.hpp"
+#include "io/image_codecs.hpp"
+#include "io/image_file.hpp"
+#include "io/input_error.hpp"
+#include "io/json_file.hpp"
+#include "io/sequence.hpp"
+#include "io/text_file.hpp"
+#include "io/trajectory.hpp"
+
+namespace textplane_fuzz {
+namespace {
+
+// A file in memory, with a name to open it by.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::vector<std::uint8_t>& bytes) : descriptor_(memfd_create("fuzz", 0)) {
+    TEXTPLANE_FUZZ_REQUIRE(descriptor_ >= 0);
+    TEXTPLANE_FUZZ_REQUIRE(write(descriptor_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+void read_as(int what, const std::string& path) {
+  using namespace textslam;
+  switch (what) {
+    case 0:
+      for (const Detection& d : read_icdar(path)) TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(d.quad));
+      break;
+    case 1:
+      for (const StampedPose& pose : read_tum(path)) TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(pose.T_w_c));
+      break;
+    case 2: TEXTPLANE_FUZZ_REQUIRE(read_camera(path).pinhole.valid()); break;
+    case 3: read_text_map(path); break;
+    case 4: read_json(path); break;
+    case 5: {
+      const Image<std::uint8_t> image = load_grey(path);
+      TEXTPLANE_FUZZ_REQUIRE(image.width() > 0 && image.height() > 0);
+      break;
+    }
+    default: read_lines(path);
+  }
+}
+
+}  // namespace
+}  // namespace textplane_fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace textplane_fuzz;
+  Input in(data, size);
+  const int what = in.byte() % 7;
+  const MemoryFile file(in.rest());
+  try {
+    read_as(what, file.path());
+  } catch (const textslam::InputError& error) {
+    const std::string message = error.what();
+    TEXTPLANE_FUZZ_REQUIRE(message.compare(0, file.path().size(), file.path()) == 0);
+    TEXTPLANE_FUZZ_REQUIRE(message.find('\n') == std::string::npos);
+  }
+  return 0;
+}
