@@ -3,7 +3,8 @@
 // TEXTPLANE_SIMD_KERNEL at its end. No include guard: each family of kernels includes it once.
 //
 // What is inside is built for the target whatever the command line says, and without contraction of a * b + c: where a
-// fused multiply-add is meant, it is written. (Clang's -ffp-contract=fast, which -ffast-math implies, overrides that.)
+// fused multiply-add is meant, it is written. -ffast-math is off inside, so that a NaN does not get past a clamp. (Clang's
+// own headers of intrinsics keep it, and its -ffp-contract=fast overrides the rest: bits may differ then.)
 //
 // The file must hold non-template functions, constants and plain structs alone: no #include, no function of std, Eigen or
 // the C library, no template, no class with members, no lambda. Inline functions of those are shared by the whole program;
@@ -15,12 +16,12 @@
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 
 #define TEXTPLANE_SIMD_REGION 0

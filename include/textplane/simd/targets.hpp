@@ -64,6 +64,14 @@
 #include TEXTPLANE_EMULATED_AVX512
 #endif
 
+// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise, and may then exchange the operands of a
+// minimum; a NaN would get past a clamp. The minima and maxima of the vectors are out of its sight there.
+#if defined(__clang__) && defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#define TEXTPLANE_SIMD_HIDE_MINIMA 1
+#else
+#define TEXTPLANE_SIMD_HIDE_MINIMA 0
+#endif
+
 // Building blocks of a region and its entry points.
 #if defined(__GNUC__) || defined(__clang__)
 #define TEXTPLANE_SIMD_INLINE inline __attribute__((always_inline))

@@ -63,8 +63,19 @@ TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm256_mul_ps(a, b); 
 TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm256_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm256_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm256_fnmadd_ps(a, b, c); }
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  __asm__("vminps %2, %1, %0" : "=x"(a) : "x"(a), "x"(b));
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  __asm__("vmaxps %2, %1, %0" : "=x"(a) : "x"(a), "x"(b));
+  return a;
+}
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm256_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm256_max_ps(a, b); }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm256_sqrt_ps(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm256_xor_ps(_mm256_set1_ps(-0.0f), a); }

@@ -48,8 +48,19 @@ TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm512_mul_ps(a, b); 
 TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm512_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  __asm__("vminps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  __asm__("vmaxps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
+  return a;
+}
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kAllLanes, a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAllLanes, a, b); }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAllLanes, a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm512_maskz_xor_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }

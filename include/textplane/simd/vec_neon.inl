@@ -67,8 +67,21 @@ TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return vdivq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return vfmaq_f32(c, a, b); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return vfmsq_f32(c, a, b); }
 // NEON's own minimum gives NaN for either operand and orders the zeros.
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  vm less;
+  __asm__("fcmgt %0.4s, %2.4s, %1.4s" : "=w"(less) : "w"(a), "w"(b));
+  return vbslq_f32(less, a, b);
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  vm greater;
+  __asm__("fcmgt %0.4s, %1.4s, %2.4s" : "=w"(greater) : "w"(a), "w"(b));
+  return vbslq_f32(greater, a, b);
+}
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return vbslq_f32(vcltq_f32(a, b), a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return vbslq_f32(vcgtq_f32(a, b), a, b); }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return vsqrtq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return vabsq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return vnegq_f32(a); }

@@ -41,8 +41,18 @@ TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return a / b; }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
 // The second operand where either is NaN, and where both are zeros of whatever sign.
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE bool is_nan_(vf a) noexcept {
+  unsigned word = 0;
+  __builtin_memcpy(&word, &a, sizeof word);
+  return (word & 0x7fffffffu) > 0x7f800000u;
+}
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return is_nan_(a) || is_nan_(b) || !(a < b) ? b : a; }
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return is_nan_(a) || is_nan_(b) || !(a > b) ? b : a; }
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return a < b ? a : b; }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return a > b ? a : b; }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return TEXTPLANE_SIMD_SQRT(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return TEXTPLANE_SIMD_ABS(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }

@@ -61,8 +61,19 @@ TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm_mul_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm_add_ps(_mm_mul_ps(a, b), c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm_sub_ps(c, _mm_mul_ps(a, b)); }
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  __asm__("minps %1, %0" : "+x"(a) : "x"(b));
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  __asm__("maxps %1, %0" : "+x"(a) : "x"(b));
+  return a;
+}
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm_max_ps(a, b); }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm_sqrt_ps(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm_xor_ps(_mm_set1_ps(-0.0f), a); }
