@@ -56,8 +56,9 @@ inline Alignment search(const PatchTemplate& t, const ImageView8& image, const V
 
 // One direction: the patch round `source` (level 0 of `from`) is looked for in `to`, starting at `guess`. A coarse
 // level that does not work out is skipped, the finest must succeed.
-inline Alignment track_one(const PyramidView& from, const PyramidView& to, const Vector2<float>& source,
-                           const Vector2<float>& guess, int levels, const KltOptions& options) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+Alignment track_one(const PyramidView& from, const PyramidView& to, const Vector2<float>& source,
+                    const Vector2<float>& guess, int levels, const KltOptions& options) noexcept {
   constexpr int kMinSide = 7;             // of a cut patch, px
   constexpr float kMinCoarseZncc = 0.3F;  // below it a coarse estimate is no better than none
   constexpr float kCoarseEpsilon = 0.1F;  // px of its level: the next one finds what is left
@@ -116,8 +117,9 @@ inline bool valid_levels(const PyramidView& pyramid, int levels) noexcept {
 /// min_zncc or the point tracked back is more than max_forward_backward px off (px, zncc and fb_error tell); non_finite
 /// (px = 0); invalid_argument for broken pyramids or options. On failures but `diverged`, px is the guess or the
 /// estimate of the coarser levels.
-inline void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<float>* from_px,
-                      const Vector2<float>* guess, int n, const KltOptions& options, KltResult* out) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<float>* from_px,
+               const Vector2<float>* guess, int n, const KltOptions& options, KltResult* out) noexcept {
   int levels = options.levels < from.levels ? options.levels : from.levels;
   if (to.levels < levels) levels = to.levels;
   const bool valid = levels >= 1 && levels <= kMaxPyramidLevels && options.half_window >= 1 &&

@@ -131,8 +131,9 @@ inline Status extract_upright_template(const ImageView8& image, float x, float y
 
 // Samples at centre + A (i, j), |i|, |j| <= reach, all of which lie inside the image or a hair outside. `out` begins
 // with that of (-reach, -reach), its rows are simd::kKltStride floats apart.
-inline void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int reach,
-                          float* out) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int reach,
+                   float* out) noexcept {
   const int side = 2 * reach + 1;
   const Vector2<double> first = centre.cast<double>() - A.cast<double>() * Vector2<double>::Constant(reach);
   Matrix3<double> H = Matrix3<double>::Identity();
@@ -158,8 +159,9 @@ inline void sample_affine(const ImageView8& image, const Vector2<float>& centre,
 /// in [1, kMaxPatchHalf]. One more ring of samples is read for the gradients (central differences). Returns, and stores
 /// in `t->status`: ok; out_of_view where a sample leaves the image; no_contrast; degenerate for a singular A;
 /// non_finite; invalid_argument. No allocation; any number of threads.
-inline Status extract_template(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A,
-                               int half, PatchTemplate* t) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+Status extract_template(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int half,
+                        PatchTemplate* t) noexcept {
   t->left = t->top = t->columns = t->rows = 0;
   t->dx = t->dy = 0;
   if (!image.valid() || half < 1 || half > kMaxPatchHalf) return t->status = Status::invalid_argument;

@@ -50,7 +50,8 @@ struct CellGrid {
 };
 
 // Strongest first; equal scores in raster order, so that the outcome does not depend on the sort.
-inline void sort_by_score(std::vector<Corner>* corners) {
+template <class = void>  // instantiated where it is called: including the header costs little
+void sort_by_score(std::vector<Corner>* corners) {
   std::sort(corners->begin(), corners->end(), [](const Corner& a, const Corner& b) {
     if (a.score != b.score) return a.score > b.score;
     return a.y != b.y ? a.y < b.y : a.x < b.x;
@@ -63,7 +64,8 @@ struct PixelBox {
   bool empty() const noexcept { return x0 >= x1 || y0 >= y1; }
 };
 
-inline PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
   if (polygon.empty()) return {};
   Bounds<double> b{polygon[0], polygon[0]};
   for (int i = 1; i < polygon.size(); ++i) {
@@ -75,8 +77,9 @@ inline PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
 }
 
 // Corners inside the region at the highest threshold that gives `enough` of them, or at the lowest.
-inline std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region,
-                                             const PixelBox& box, const SelectOptions& options, int enough) {
+template <class = void>  // instantiated where it is called: including the header costs little
+std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
+                                      const SelectOptions& options, int enough) {
   // The detector leaves out 3 px at each border of what it is given.
   const int x0 = std::max(box.x0 - 3, 0), y0 = std::max(box.y0 - 3, 0);
   const int x1 = std::min(box.x1 + 3, image.width()), y1 = std::min(box.y1 + 3, image.height());
@@ -93,8 +96,8 @@ inline std::vector<Corner> corners_in_region(const ImageView8& image, const Conv
 }
 
 // Takes corners in rounds, at most one more from each cell a round, strongest first.
-inline void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, int max_pixels,
-                           std::vector<Corner>* out) {
+template <class = void>  // instantiated where it is called: including the header costs little
+void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, int max_pixels, std::vector<Corner>* out) {
   sort_by_score(&corners);
   std::vector<int> taken(grid.size(), 0);
   for (int round = 0; !corners.empty(); ++round) {
@@ -114,8 +117,9 @@ inline void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, i
 }
 
 // The pixel of largest gradient of every cell without a pixel in `out`, strongest cells first.
-inline void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
-                               const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
+template <class = void>  // instantiated where it is called: including the header costs little
+void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
+                        const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
   std::vector<Corner> best(grid.size());
   for (const Corner& p : *out) best[grid.index(p.x, p.y)].score = -1.0F;
   const int x0 = std::max(box.x0, 1), y0 = std::max(box.y0, 1);
@@ -149,8 +153,9 @@ inline void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<doub
 /// px of `image`; its convex hull is meant, and what of it lies outside the image is left out. `out`: integer
 /// positions, replaced, each pixel once. Deterministic. Status::too_few where fewer than min_pixels qualify (out then
 /// holds those), degenerate for a quad without area, non_finite, invalid_argument. Allocates.
-inline Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
-                            std::vector<Vector2<float>>& out) {
+template <class = void>  // instantiated where it is called: including the header costs little
+Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
+                     std::vector<Vector2<float>>& out) {
   out.clear();
   if (!image.valid() || options.max_pixels < 1 || options.min_pixels < 0) return Status::invalid_argument;
   if (!all_finite(quad)) return Status::non_finite;
@@ -179,8 +184,9 @@ inline Status select_pixels(const ImageView8& image, const Quad<double>& quad, c
 /// Of the corners of a width x height image the strongest of every square cell of `cell` px in which no point of
 /// `occupied` lies, strongest first (equal scores in raster order), at most `max_corners`. Corners and occupied points
 /// outside the image are ignored. `out` is replaced and left empty for non-positive sizes. Allocates.
-inline void select_spread(const std::vector<Corner>& corners, int width, int height, int cell, int max_corners,
-                          const std::vector<Vector2<float>>& occupied, std::vector<Corner>& out) {
+template <class = void>  // instantiated where it is called: including the header costs little
+void select_spread(const std::vector<Corner>& corners, int width, int height, int cell, int max_corners,
+                   const std::vector<Vector2<float>>& occupied, std::vector<Corner>& out) {
   std::vector<Corner> best;  // `out` may be `corners`
   if (width > 0 && height > 0 && cell > 0 && max_corners > 0) {
     const detail::CellGrid grid(0, 0, width, height, cell);
@@ -205,8 +211,9 @@ inline void select_spread(const std::vector<Corner>& corners, int width, int hei
 /// pyramid has fewer), with their intensities. `quad`: px of level 0, `camera`: the host's. Status as
 /// patch_from_pixels(), and that of select_pixels() where the finest level fails: a patch without level 0 is not used.
 /// Allocates.
-inline TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
-                            const SelectOptions& options = {}) {
+template <class = void>  // instantiated where it is called: including the header costs little
+TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
+                     const SelectOptions& options = {}) {
   const int levels = std::min({options.levels, host.levels, kMaxPyramidLevels});
   std::vector<std::vector<Vector2<float>>> pixels(static_cast<std::size_t>(std::max(levels, 0)));
   Status finest = Status::invalid_argument;
@@ -221,8 +228,9 @@ inline TextPatch make_patch(const PyramidView& host, const Pinhole<double>& came
 }
 
 /// The same from an image, of which a pyramid is built.
-inline TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, const Quad<double>& quad,
-                            const SelectOptions& options = {}) {
+template <class = void>  // instantiated where it is called: including the header costs little
+TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, const Quad<double>& quad,
+                     const SelectOptions& options = {}) {
   const Pyramid pyramid(host, std::min(std::max(options.levels, 1), kMaxPyramidLevels));
   return make_patch(pyramid.view(), camera, quad, options);
 }

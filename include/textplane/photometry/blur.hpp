@@ -37,8 +37,9 @@ struct BlurMatch {
 ///
 /// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1; *out is then
 /// untouched.
-inline Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
-                         BlurMatch* out) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
+                  BlurMatch* out) noexcept {
   if (!all_finite(A) || !is_finite(host_variance) || !is_finite(target_variance) || !is_finite(spread))
     return Status::non_finite;
   if (!(host_variance >= 0) || !(target_variance >= 0) || !(spread >= 1)) return Status::invalid_argument;

@@ -13,9 +13,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 ///
 /// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1 then. A
 /// candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.
-inline Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
-                              const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
-                              const TemplatePatch* prepared = nullptr) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
+                       const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
+                       const TemplatePatch* prepared = nullptr) noexcept {
   if (count < 0 || (count > 0 && (!T_t_h || !zncc))) return Status::invalid_argument;
   for (int i = 0; i < count; ++i) zncc[i] = -1.0F;
   const Status status = detail::check_input(in, theta, SE3d(), options, workspace);
@@ -23,7 +24,8 @@ inline Status zncc_candidates(const PhotometricInput& in, const Vector3<double>&
   PhotometricOptions plain = options;
   plain.robust = Robust{RobustKind::l2, 1.0};
 
-  const bool fast = prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(in, plain, workspace);
+  const bool fast =
+      prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(in, plain, workspace);
   if (fast) {
     simd::ZnccArgs args;
     args.base = detail::kernel_args(in, theta, SE3d(), plain, workspace, nullptr, nullptr);

@@ -39,8 +39,14 @@ struct PatchLevel {
   /// Valid until the vectors change.
   PatchView view() const noexcept {
     const bool gradients = gx.size() == x.size() && gy.size() == x.size();
-    return {x.data(), y.data(), intensity.data(), nullptr, static_cast<int>(x.size()), gradients ? gx.data() : nullptr,
-            gradients ? gy.data() : nullptr, bounds};
+    return {x.data(),
+            y.data(),
+            intensity.data(),
+            nullptr,
+            static_cast<int>(x.size()),
+            gradients ? gx.data() : nullptr,
+            gradients ? gy.data() : nullptr,
+            bounds};
   }
 };
 
@@ -80,8 +86,9 @@ struct TextPatch {
 ///
 /// Status::too_few where no level has `min_pixels` (the paper's 15) left, non_finite for a NaN quad, invalid_argument for an
 /// empty pyramid, no pixel lists or a camera that is not valid(). Allocates.
-inline TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
-                                   const std::vector<std::vector<Vector2<float>>>& pixels, int min_pixels = 15) {
+template <class = void>  // instantiated where it is called: including the header costs little
+TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
+                            const std::vector<std::vector<Vector2<float>>>& pixels, int min_pixels = 15) {
   TextPatch patch;
   patch.quad = quad;
   patch.camera = camera;

@@ -60,7 +60,7 @@
 
 // A test may define this as a header that emulates the AVX-512 intrinsics: the avx512 regions are then built for AVX2, and
 // the target counts as supported wherever AVX2 is.
-#if defined(TEXTPLANE_EMULATED_AVX512)
+#if defined(TEXTPLANE_EMULATED_AVX512) && TEXTPLANE_HAS_KERNELS
 #include TEXTPLANE_EMULATED_AVX512
 #endif
 

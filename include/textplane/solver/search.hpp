@@ -25,6 +25,7 @@ struct SearchOptions {
 namespace detail {
 
 // Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was there.
+template <class = void>  // as search_pose() below
 class PoseSearch {
  public:
   static constexpr int kMost = 8;
@@ -108,9 +109,9 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
   }
   if (!(q[2] > 0)) return T_t_h;
 
-  detail::PoseSearch search(in, theta, T_t_h, {q[0] / q[2], q[1] / q[2]}, options, workspace,
-                            prepared ? prepared + level : nullptr);
-  search.shifts(T_t_h, std::min(std::max(options.radius, 0), detail::PoseSearch::kMost), options.step, 0);
+  detail::PoseSearch<> search(in, theta, T_t_h, {q[0] / q[2], q[1] / q[2]}, options, workspace,
+                              prepared ? prepared + level : nullptr);
+  search.shifts(T_t_h, std::min(std::max(options.radius, 0), detail::PoseSearch<>::kMost), options.step, 0);
   if (options.roll != 0) {
     const SE3d shifted = search.best();
     for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0})
