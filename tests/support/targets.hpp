@@ -13,6 +13,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -28,12 +30,16 @@ inline std::array<bool, simd::kTargetCount>& targets_run() {
   return run;
 }
 
-/// The targets that this build holds and this machine runs, scalar first.
+/// The targets that this build holds and this machine runs, scalar first; or the one of them that TEXTPLANE_TEST_TARGET names,
+/// for an emulator that is there for its sake.
 inline std::vector<simd::Target> testable_targets() {
+  const char* const only = std::getenv("TEXTPLANE_TEST_TARGET");
   std::vector<simd::Target> targets;
   for (int i = 0; i < simd::kTargetCount; ++i) {
-    if (simd::supported(static_cast<simd::Target>(i))) targets.push_back(static_cast<simd::Target>(i));
+    const auto target = static_cast<simd::Target>(i);
+    if (simd::supported(target) && (only == nullptr || std::strcmp(only, simd::to_string(target)) == 0)) targets.push_back(target);
   }
+  if (targets.empty()) ADD_FAILURE() << "no target " << only;
   return targets;
 }
 

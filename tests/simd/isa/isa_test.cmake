@@ -1,5 +1,6 @@
 # Compiles and checks (isa_check.cpp): cmake -DCOMPILER=... -DFLAGS=... -DOBJECTS=<prefix> -DCHECK=<isa_check> [...] -P isa_test.cmake
 #   MODE=regions  SOURCE, HEADERS, EXPECT   compiles SOURCE for the baseline and checks where its instructions are
+#   MODE=object   OBJECT, HEADERS, EXPECT   checks an object that the build has made
 #   MODE=shared   SOURCE, WIDE, EXPECT      compiles SOURCE for the baseline and with the flags WIDE, and checks what they share
 #   MODE=mixed    SOURCE, MAIN, EMULATOR    links SOURCE for three CPUs with MAIN, runs it here and, if given, in the EMULATOR
 # EXPECT is the exit code of the checker that makes the test pass.
@@ -30,6 +31,8 @@ endfunction()
 if(MODE STREQUAL "regions")
   compile(${SOURCE} baseline.o)
   check(regions ${OBJECTS}baseline.o ${HEADERS})
+elseif(MODE STREQUAL "object")
+  check(regions ${OBJECT} ${HEADERS})
 elseif(MODE STREQUAL "shared")
   compile(${SOURCE} baseline.o)
   compile(${SOURCE} wide.o ${WIDE})

@@ -1,0 +1,1 @@
+// CMake keeps the precompiled headers of the test programs with this file.
