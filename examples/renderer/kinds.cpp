@@ -15,6 +15,7 @@ struct Context {
 struct Kind {
   const char* name;
   Shot (*make)(const Context&);
+  int frames = 240;  // by default
 };
 
 const Kind kKinds[] = {
@@ -50,7 +51,23 @@ const Kind kKinds[] = {
        style.signs = false;
        return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
      }},
+    {"loop",
+     [](const Context& c) {
+       RoomStyle style;
+       style.all_round = true;
+       return Shot{make_room(c.seed, style), loop_motion(c.seed), 0.008, steady_sensor()};
+     },
+     360},
 };
+
+const Kind& kind_of(const std::string& name) {
+  for (const Kind& kind : kKinds) {
+    if (name == kind.name) return kind;
+  }
+  std::string known;
+  for (const Kind& kind : kKinds) known += std::string(known.empty() ? "" : ", ") + kind.name;
+  throw InputError("--render " + name, 0, "no such kind; known are " + known);
+}
 
 }  // namespace
 
@@ -61,12 +78,9 @@ std::vector<std::string> render_kinds() {
 }
 
 Shot make_shot(const std::string& name, std::uint64_t seed, int width, int height) {
-  for (const Kind& kind : kKinds) {
-    if (name == kind.name) return kind.make({seed, width, height});
-  }
-  std::string known;
-  for (const Kind& kind : kKinds) known += std::string(known.empty() ? "" : ", ") + kind.name;
-  throw InputError("--render " + name, 0, "no such kind; known are " + known);
+  return kind_of(name).make({seed, width, height});
 }
+
+int default_frames(const std::string& name) { return kind_of(name).frames; }
 
 }  // namespace textslam

@@ -22,13 +22,17 @@ struct Shot {
   SensorProgram sensor;
 };
 
+/// How many frames, at 30 a second, show all that there is to the kind. Throws as make_shot() does.
+int default_frames(const std::string& kind);
+
 /// Throws InputError that lists the kinds when there is none of that name, std::runtime_error where no font is found.
 Shot make_shot(const std::string& kind, std::uint64_t seed, int width, int height);
 
 /// How a room is furnished.
 struct RoomStyle {
   bool signs = true;
-  bool bare = false;  ///< clean walls and no furniture: little but the signs
+  bool bare = false;       ///< clean walls and no furniture: little but the signs
+  bool all_round = false;  ///< signs on the back wall, too, and on the rear parts of the side walls
 };
 Scene make_room(std::uint64_t seed, const RoomStyle& style);
 Scene make_corridor(std::uint64_t seed);

@@ -105,6 +105,21 @@ Motion rapid_motion(std::uint64_t seed) {
   };
 }
 
+Motion loop_motion(std::uint64_t seed) {
+  const Tremor tremor(seed);
+  const double phase = 2.0 * kPi * unit(hash(seed, 1));
+  return [=](double t) {
+    const double w = 2.0 * kPi / 11.0 * t;
+    Look look;
+    look.position = {-0.95 * std::sin(w), -0.8 * std::cos(w), 1.45 + 0.1 * std::sin(1.4 * t + phase)};
+    look.yaw = w + 0.1 * std::sin(1.1 * t + phase);
+    look.pitch = -0.04 + 0.05 * std::sin(1.3 * t + phase);
+    look.roll = 0.03 * std::sin(0.7 * t + phase);
+    tremor.apply(t, look);
+    return pose_of(look);
+  };
+}
+
 Motion corridor_motion(std::uint64_t seed) {
   const Tremor tremor(seed, 1.3);
   const double phase = 0.6 * (unit(hash(seed, 1)) - 0.5);

@@ -52,7 +52,7 @@ CameraModel camera_of(const RenderOptions& options) {
 void check(const RenderOptions& options) {
   const auto refuse = [](const std::string& what) { throw InputError("render options", 0, what); };
   if (options.output.empty()) refuse("no output folder given");
-  if (options.frames < 1 || options.frames > 100000) refuse("the number of frames must be 1 to 100000");
+  if (options.frames < 0 || options.frames > 100000) refuse("the number of frames must be 1 to 100000");
   if (options.width < 64 || options.height < 48 || options.width > 4096 || options.height > 4096) {
     refuse("the image size must be 64x48 to 4096x4096");
   }
@@ -139,8 +139,10 @@ std::vector<std::string> write_frames(const FrameWriter& writer, const RenderOpt
 
 }  // namespace
 
-void render_sequence(const RenderOptions& options, const std::function<void(int done, int total)>& progress) {
-  check(options);
+void render_sequence(const RenderOptions& asked, const std::function<void(int done, int total)>& progress) {
+  check(asked);
+  RenderOptions options = asked;
+  if (options.frames == 0) options.frames = default_frames(options.kind);
   Shot shot = make_shot(options.kind, options.seed, options.width, options.height);
   apply(options.conditions, &shot);
   const CameraModel camera = camera_of(options);

@@ -24,7 +24,7 @@ struct RenderOptions {
   std::string kind = "room";  ///< one of render_kinds()
   std::string output;         ///< the folder; made where it does not exist, files in it are replaced
   std::uint64_t seed = 1;
-  int frames = 240;               ///< at 30 a second
+  int frames = 0;                 ///< at 30 a second; 0: as many as the kind goes for, default_frames() of kinds.hpp
   int width = 640, height = 480;  ///< px; the field of view stays that of 525 px focal length at a width of 640
   RadialTangential<double> lens;  ///< none by default
   Conditions conditions;

@@ -7,7 +7,7 @@ namespace textslam {
 namespace {
 
 constexpr double kPictureLift = 0.015;  // m
-constexpr int kSigns = 12;
+constexpr int kSigns = 12, kSignsBehind = 6;
 
 void add_shell(Scene& scene, const Walls& walls, bool bare, std::uint64_t seed) {
   const auto wall = [&](const Rectangle& r, const Canvas& paint) { scene.add(r, paint, true); };
@@ -68,8 +68,8 @@ Furnishing add_furniture(Scene& scene, std::uint64_t seed) {
   return f;
 }
 
-void add_signs(Scene& scene, const Walls& walls, const Furnishing* furniture, std::uint64_t seed) {
-  SignPainter signs(kSigns, hash(seed, 400));
+void add_signs(Scene& scene, const Walls& walls, const Furnishing* furniture, bool all_round, std::uint64_t seed) {
+  SignPainter signs(kSigns + (all_round ? kSignsBehind : 0), hash(seed, 400));
   signs.on_wall(scene, walls.front, 2.3, 0.75, 0.7);
   signs.on_wall(scene, walls.front, 3.2, 1.05, 0.56);
   signs.on_wall(scene, walls.front, 4.25, 0.9, 0.5);
@@ -87,6 +87,13 @@ void add_signs(Scene& scene, const Walls& walls, const Furnishing* furniture, st
   } else {
     signs.on_wall(scene, walls.front, 2.75, 1.75, 0.6);
   }
+  if (!all_round) return;
+  signs.on_wall(scene, walls.right, 2.3, 1.3, 0.5);
+  signs.on_wall(scene, walls.right, 3.75, 0.75, 0.54);
+  signs.on_wall(scene, walls.back, 2.35, 0.9, 0.66);
+  signs.on_wall(scene, walls.back, 4.25, 1.2, 0.56);
+  signs.on_wall(scene, walls.back, 0.45, 1.25, 0.56);
+  signs.on_wall(scene, walls.left, 0.6, 0.95, 0.58);
 }
 
 }  // namespace
@@ -101,7 +108,7 @@ Scene make_room(std::uint64_t seed, const RoomStyle& style) {
     add_pictures(scene, walls, seed);
     furniture = add_furniture(scene, seed);
   }
-  if (style.signs) add_signs(scene, walls, style.bare ? nullptr : &furniture, seed);
+  if (style.signs) add_signs(scene, walls, style.bare ? nullptr : &furniture, style.all_round, seed);
   return scene;
 }
 

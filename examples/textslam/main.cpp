@@ -59,9 +59,8 @@ int execute(int argc, char** argv) {
   app.add_option("--last", options.last, "Index of the last frame")->check(CLI::NonNegativeNumber);
   app.add_option("--seed", render.seed, "Of the rendered sequence; the system itself draws nothing at random")
       ->capture_default_str();
-  app.add_option("--frames", render.frames, "Number of rendered frames")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app.add_option("--frames", render.frames, "Number of rendered frames; by default as many as the kind goes for")
+      ->check(CLI::PositiveNumber);
   add_conditions(app, render);
   app.add_flag("--render-only", only_render, "Render without running on it");
   try {

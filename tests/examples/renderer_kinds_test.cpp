@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "renderer/exposure.hpp"
 #include "renderer/kinds.hpp"
@@ -76,6 +77,37 @@ TEST(RendererKinds, TheCorridorIsAWalkOfTenMetres) {
   EXPECT_LT(pace.path, 11.0);
   EXPECT_LT(pace.fastest, 1.6);
   EXPECT_LT(pace.turn, 40.0 / 57.3);
+}
+
+TEST(RendererKinds, TheLoopGoesOnceRoundAndOnToSeeTheFirstSignsAgain) {
+  EXPECT_EQ(default_frames("room"), 240);
+  const int frames = default_frames("loop");
+  const CameraModel camera = test_camera();
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Shot shot = make_shot("loop", seed, camera.width, camera.height);
+    const Pace pace = pace_of(shot.motion, 5.0);
+    EXPECT_LT(pace.fastest, 1.1);
+    EXPECT_LT(pace.turn, 50.0 / 57.3);
+    const auto signs_in_view = [&](int frame) {
+      std::set<int> ids;
+      for (const SignView& view : views_of_signs(shot.scene, camera, shot.motion(frame * kInterval)))
+        if (view.visible > 0.9) ids.insert(view.sign);
+      return ids;
+    };
+    const std::set<int> first = signs_in_view(0);
+    ASSERT_GE(first.size(), 3U);
+    int longest_gap = 0, gap = 0;
+    for (int i = 0; i < frames; ++i) {
+      const std::set<int> seen = signs_in_view(i);
+      EXPECT_FALSE(seen.empty()) << "frame " << i << " shows no sign";
+      const bool any = std::any_of(first.begin(), first.end(), [&](int id) { return seen.count(id) > 0; });
+      gap = any ? 0 : gap + 1;
+      longest_gap = std::max(longest_gap, gap);
+    }
+    EXPECT_GT(longest_gap, 100) << "out of sight";
+    const std::set<int> last = signs_in_view(frames - 1);
+    EXPECT_GE(std::count_if(first.begin(), first.end(), [&](int id) { return last.count(id) > 0; }), 3);
+  }
 }
 
 TEST(RendererKinds, RapidBlursByEightToTwentyPixelsWhereItIsFast) {
