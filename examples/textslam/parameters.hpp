@@ -55,6 +55,9 @@ struct Parameters {
   double max_reprojection = 2.0;  ///< px, of a new point in each of its key frames.
   double min_found_share = 0.25;  ///< A point found in fewer of the frames that should see it is dropped.
 
+  // Local map
+  int local_min_shared = 15;  ///< Points that make two key frames neighbours; one mapped text in both does as well.
+
   // Text
   int text_min_observations = 5;   ///< The paper's n_min.
   int text_min_detections = 3;     ///< Frames in which the detector saw it.

@@ -13,7 +13,10 @@
 namespace textslam {
 
 System::System(const Pinhole<double>& camera, int width, int height, const Parameters& parameters)
-    : parameters_(parameters), initialiser_(parameters_), text_mapper_(map_, parameters_), adjuster_(parameters_) {
+    : parameters_(parameters),
+      initialiser_(parameters_),
+      text_mapper_(map_, local_, parameters_),
+      adjuster_(parameters_) {
   map_.camera = camera;
   map_.width = width;
   map_.height = height;
@@ -74,9 +77,15 @@ void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecor
   }
   last_keyframe_points_ = static_cast<int>(tracks.size());
   add_corners(frame, 1, quads, parameters_, tracks);
-  tracker_ = std::make_unique<Tracker>(map_, parameters_);
-  tracker_->start(frame, T_c_w, std::move(tracks));
+  local_ = local_map(map_, parameters_, last_keyframe_);
+  begin_tracking(frame, T_c_w, std::move(tracks));
   record.map_ms = now_ms() - start;
+}
+
+void System::begin_tracking(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tracks) {
+  tracker_ = std::make_unique<Tracker>(map_, parameters_);
+  tracker_->look_for(&local_);
+  tracker_->start(frame, T_c_w, std::move(tracks));
 }
 
 bool System::track(const Frame& frame, FrameRecord& record) {
@@ -138,6 +147,7 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   record.adjust_ms = now_ms() - start;
   cull_points(map_, parameters_, tracks);
   const SE3d T_c_w = map_.keyframe(last_keyframe_).T_w_c.inverse();
+  local_ = local_map(map_, parameters_, last_keyframe_);
 
   std::vector<Quad<double>> quads;
   if (parameters_.mode != Mode::points) {

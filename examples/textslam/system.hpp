@@ -15,6 +15,7 @@
 
 #include "textslam/adjuster.hpp"
 #include "textslam/initialiser.hpp"
+#include "textslam/local_map.hpp"
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
 #include "textslam/pose_refit.hpp"
@@ -69,6 +70,7 @@ class System {
   SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
 
  private:
+  void begin_tracking(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tracks);
   void begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecord& record);
   void follow(const Frame& frame, FrameRecord& record);
   void lose(FrameRecord& record);
@@ -90,6 +92,7 @@ class System {
 
   Parameters parameters_;
   Map map_;
+  LocalMap local_;           // around the newest key frame
   std::vector<Map> stored_;  // in the order in which they were left
   int maps_ = 0;             // begun so far
   Initialiser initialiser_;

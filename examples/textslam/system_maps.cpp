@@ -13,6 +13,7 @@ void System::clear_map() {
   map_.keyframes.clear();
   map_.points.clear();
   map_.texts.clear();
+  local_ = {};
   tracker_.reset();
   initialiser_.forget();
   lost_frames_ = 0;
@@ -46,8 +47,8 @@ bool System::recover(const Frame& frame, FrameRecord& record) {
   record.texts = found.report.texts;
   last_keyframe_points_ = found.report.inliers;
   // How the frame lies to the one before it is not known: the tracker starts without a velocity.
-  tracker_ = std::make_unique<Tracker>(map_, parameters_);
-  tracker_->start(frame, found.T_c_w, std::move(found.tracks));
+  local_ = local_map(map_, parameters_, found.report.found);
+  begin_tracking(frame, found.T_c_w, std::move(found.tracks));
   return true;
 }
 
@@ -61,9 +62,9 @@ void System::join_stored(const Frame& frame, FrameRecord& record) {
     if (!link.ok) continue;
     join(i - 1, link);
     const SE3d T_c_w = map_.keyframe(last_keyframe_).T_w_c.inverse();
+    local_ = local_map(map_, parameters_, last_keyframe_);
     std::vector<Track> tracks = std::move(tracker_->tracks());
-    tracker_ = std::make_unique<Tracker>(map_, parameters_);
-    tracker_->start(frame, T_c_w, std::move(tracks));
+    begin_tracking(frame, T_c_w, std::move(tracks));
     set_pose(record, T_c_w);
     return;
   }

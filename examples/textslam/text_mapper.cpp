@@ -65,7 +65,7 @@ void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vec
   if (frame.detections.empty()) return;
   for (TextObject& text : map_.texts) {
     Quad<double> quad;
-    if (text.state == TextState::dropped || !locate(text, T_c_w, tracks, &quad)) continue;
+    if (text.state == TextState::dropped || !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad)) continue;
     for (const Detection& detection : frame.detections) {
       if (textplane::iou(quad, detection.quad) < 0.4) continue;
       ++text.detections;
@@ -80,7 +80,8 @@ std::vector<Detection> TextMapper::new_detections(const Frame& frame, const SE3d
   std::vector<Quad<double>> known;
   for (const TextObject& text : map_.texts) {
     Quad<double> quad;
-    if (text.state != TextState::dropped && locate(text, T_c_w, tracks, &quad)) known.push_back(quad);
+    if (text.state != TextState::dropped && local_.has_text(text.id) && locate(text, T_c_w, tracks, &quad))
+      known.push_back(quad);
   }
   std::vector<Detection> accepted;
   for (const Detection& detection : frame.detections) {
@@ -226,9 +227,10 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
   if (parameters_.mode == Mode::loose) return update_loose_planes(map_, parameters_, id);
   for (TextObject& text : map_.texts) {
     if (text.host == id || text.state == TextState::dropped) continue;
+    const bool near = local_.has_text(text.id);
     if (text.state == TextState::candidate) {
       Vec3 theta;
-      if (initial_plane(text, id, tracks, &theta) && refine(text, {id}, theta, parameters_.text_min_zncc)) {
+      if (near && initial_plane(text, id, tracks, &theta) && refine(text, {id}, theta, parameters_.text_min_zncc)) {
         text.state = TextState::tentative;
         for (int other = text.host + 1; other < id; ++other) observe(text, other, 1);
       } else if (id - text.host > parameters_.text_patience) {
@@ -238,7 +240,7 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     }
     if (!text.has_plane()) continue;
     const std::size_t before = text.targets.size();
-    observe(text, id, 1);
+    if (near) observe(text, id, 1);
     if (text.targets.size() > before && text.state == TextState::tentative) {
       refine(text, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)), text.theta,
              parameters_.text_cull_zncc);

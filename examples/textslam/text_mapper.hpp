@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "textslam/local_map.hpp"
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
 
@@ -16,7 +17,9 @@ namespace textslam {
 
 class TextMapper {
  public:
-  TextMapper(Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
+  /// Texts outside `local` are left alone until they come into it, all but observe_again(): where they seem to be says little.
+  TextMapper(Map& map, const LocalMap& local, const Parameters& parameters)
+      : map_(map), local_(local), parameters_(parameters) {}
 
   /// Counts the detections of a tracked frame for the objects they fall on, and votes for their words.
   void associate(const Frame& frame, const SE3d& T_c_w, const std::vector<Track>& tracks);
@@ -37,6 +40,7 @@ class TextMapper {
   void observe(TextObject& text, int keyframe, double min_share);
 
   Map& map_;
+  const LocalMap& local_;
   const Parameters& parameters_;
 };
 

@@ -107,7 +107,10 @@ void Tracker::start(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tr
   tracks_ = std::move(tracks);
 }
 
-void Tracker::correct(const SE3d& T_c_w) { T_c_w_ = T_c_w; }
+void Tracker::correct(const SE3d& T_c_w, double scale) {
+  T_c_w_ = T_c_w;
+  velocity_.t *= scale;
+}
 
 TrackReport Tracker::track(const Frame& frame) {
   TrackReport report;
@@ -179,7 +182,7 @@ void Tracker::reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* repo
   const double border = kTemplateHalf + 3;
   for (std::size_t id = 0; id < map_.points.size(); ++id) {
     const MapPoint& point = map_.points[id];
-    if (point.bad) continue;
+    if (!looks_for_point(static_cast<int>(id))) continue;
     const Vec3 p = T_c_w * point.p_w;
     if (!(p.z() > 0)) continue;
     Candidate candidate;
@@ -255,7 +258,7 @@ Tracker::Fit Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w) 
   std::vector<textplane::PosePointTerm> points;
   std::vector<std::size_t> track_of;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (tracks_[i].point < 0 || map_.point(tracks_[i].point).bad) continue;
+    if (tracks_[i].point < 0 || !looks_for_point(tracks_[i].point)) continue;
     points.push_back({map_.point(tracks_[i].point).p_w, tracks_[i].px.cast<double>(), parameters_.point_sigma});
     track_of.push_back(i);
   }
@@ -263,7 +266,8 @@ Tracker::Fit Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w) 
   if (with_text)
     for (const TextObject& text : map_.texts) {
       Quad<double> quad;
-      if (text.state != TextState::mapped || !project_text(map_, text, *T_c_w, &quad)) continue;
+      if (text.state != TextState::mapped || (local_ && !local_->has_text(text.id))) continue;
+      if (!project_text(map_, text, *T_c_w, &quad)) continue;
       if (facing(map_, text, *T_c_w) < std::cos(parameters_.text_max_slant * M_PI / 180)) continue;
       const double whole = std::abs(textplane::area(quad));
       const double seen = textplane::area(textplane::clip_to_image(quad, map_.width, map_.height));

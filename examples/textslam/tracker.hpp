@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "textslam/local_map.hpp"
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
 
@@ -29,12 +30,14 @@ class Tracker {
  public:
   Tracker(const Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
 
+  /// The part of the map that points and texts are taken from; null, as at first: all of it. It must outlive the tracker.
+  void look_for(const LocalMap* local) { local_ = local; }
   /// Begins at a frame of known pose with tracks whose positions are in that frame.
   void start(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tracks);
   /// The next frame. On failure the tracks are those that survived and the pose is the prediction.
   TrackReport track(const Frame& frame);
-  /// After the map was adjusted: the pose of the last frame in it.
-  void correct(const SE3d& T_c_w);
+  /// After the map was adjusted: the pose of the last frame in it, and what lengths around the frame were multiplied by.
+  void correct(const SE3d& T_c_w, double scale = 1);
 
   std::vector<Track>& tracks() { return tracks_; }
   const SE3d& pose() const { return T_c_w_; }
@@ -49,9 +52,11 @@ class Tracker {
   SE3d predict(const Frame& frame) const;
   void reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report);
   Fit fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w);
+  bool looks_for_point(int id) const { return !map_.point(id).bad && (!local_ || local_->has_point(id)); }
 
   const Map& map_;
   const Parameters& parameters_;
+  const LocalMap* local_ = nullptr;
   Frame frame_;
   SE3d T_c_w_;
   SE3d velocity_;  // T_now_before of the last two frames
