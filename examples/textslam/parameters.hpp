@@ -116,6 +116,11 @@ struct Parameters {
   int young_map_patience = 15;          ///< after this many lost frames a new one is begun,
   int lost_patience = 30;               ///< after this many where the map is older.
 
+  // Merging of texts that are one
+  double merge_angle = 8;      ///< Degrees between their normals,
+  double merge_depth = 0.05;   ///< share of the inverse depth between their planes; both beside three sigma.
+  double merge_overlap = 0.3;  ///< IoU of their quads.
+
   // Joining of maps
   int join_keyframes = 6;        ///< Newest key frames of a map that are looked for in an older one.
   int join_min_keyframes = 2;    ///< That must agree.
