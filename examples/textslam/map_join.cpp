@@ -32,10 +32,11 @@ class Linker {
   // Key frame `id` of b was recognised in a.
   void add(int id, const Recovery& seen) {
     const KeyFrame& keyframe = b_.keyframe(id);
-    sightings_.push_back({id, seen.T_c_w.inverse()});
+    sightings_.push_back({id, seen.T_c_w.inverse(), {}});
     const std::vector<Track> in_b = tracks_of_keyframe(b_, id);
     for (const Track& track : seen.tracks) {
       if (track.point < 0 || !track.inlier) continue;
+      sightings_.back().tracks.push_back(track);
       const auto nearest = std::min_element(in_b.begin(), in_b.end(), [&](const Track& p, const Track& q) {
         return (p.px - track.px).squaredNorm() < (q.px - track.px).squaredNorm();
       });
@@ -88,7 +89,9 @@ class Linker {
       const double depth = link->S_a_b.scale * median_depth(b_, sighting.keyframe);
       const double turn = textplane::so3_log<double>(expected.R.transpose() * sighting.T_a_c.R).norm() * 180 / M_PI;
       const double shift = (expected.t - sighting.T_a_c.t).norm();
-      link->keyframes += turn <= kMaxTurn && shift <= parameters_.join_tolerance * depth ? 1 : 0;
+      if (turn > kMaxTurn || shift > parameters_.join_tolerance * depth) continue;
+      ++link->keyframes;
+      link->sightings.push_back({sighting.keyframe, sighting.tracks});
     }
     link->ok = static_cast<int>(count) >= parameters_.join_min_pairs &&
                static_cast<double>(count) >= kMinAgreement * static_cast<double>(pairs_.size()) &&
@@ -102,6 +105,7 @@ class Linker {
   struct Sighting {
     int keyframe;
     SE3d T_a_c;
+    std::vector<Track> tracks;
   };
 
   void add_pair(const Pair& pair) {

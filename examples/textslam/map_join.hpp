@@ -16,12 +16,19 @@
 
 namespace textslam {
 
+/// A key frame of b, and the points of a that it shows.
+struct LinkSighting {
+  int keyframe;
+  std::vector<Track> tracks;
+};
+
 struct MapLink {
   bool ok = false;
   Similarity S_a_b;                         ///< World of b to world of a.
   std::vector<std::pair<int, int>> points;  ///< Ids in a and in b of what is one point; each id once.
   std::vector<std::pair<int, int>> texts;   ///< Of what is one text.
   int keyframes = 0;                        ///< Of b, that agree with the similarity.
+  std::vector<LinkSighting> sightings;      ///< These.
 };
 
 /// Where map b lies in map a. `seen` is b's newest key frame as recognised in a; the others are looked for from there.

@@ -116,6 +116,12 @@ struct Parameters {
   int young_map_patience = 15;          ///< after this many lost frames a new one is begun,
   int lost_patience = 30;               ///< after this many where the map is older.
 
+  // Loop closure
+  bool loop_closure = true;
+  double loop_drift =
+      0.005;  ///< Sigma of what is lost on a way of one depth or radian: depths, radians, log of the scale.
+  double loop_max_shift = 2;  ///< px, median, by which old points are off: more is spread over the way since then.
+
   // Merging of texts that are one
   double merge_angle = 8;      ///< Degrees between their normals,
   double merge_depth = 0.05;   ///< share of the inverse depth between their planes; both beside three sigma.

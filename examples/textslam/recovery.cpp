@@ -4,7 +4,6 @@
 
 #include "textplane/geometry/quad.hpp"
 #include "textslam/rotation_prior.hpp"
-#include "textslam/text_recovery.hpp"
 
 namespace textslam {
 namespace {
@@ -43,16 +42,6 @@ bool holds(const Map& map, const Parameters& parameters, const Recovery& recover
   if (!recovery.ok || recovery.report.inliers < parameters.relocalise_min_share * expected) return false;
   return recovery.report.texts >= 2 || (recovery.report.inliers >= 2 * parameters.min_inliers &&
                                         points_off_texts(map, recovery) >= parameters.min_inliers);
-}
-
-Recovery relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame) {
-  for (const WordMatch words : {WordMatch::same, WordMatch::other}) {
-    for (const TextHypothesis& hypothesis : text_hypotheses(map, parameters, frame, words)) {
-      Recovery found = observe_from(map, parameters, frame, hypothesis.T_c_w);
-      if (holds(map, parameters, found)) return found;
-    }
-  }
-  return {};
 }
 
 Recovery relocalise_by_keyframes(const Map& map, const Parameters& parameters, const Frame& frame) {
@@ -101,9 +90,26 @@ Recovery observe_from(const Map& map, const Parameters& parameters, const Frame&
   return best;
 }
 
+Recovery recognise_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w) {
+  Recovery found = observe_from(map, parameters, frame, T_c_w);
+  if (!holds(map, parameters, found)) return {};
+  return found;
+}
+
+Recovery relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
+                             const std::vector<WordMatch>& ways) {
+  for (const WordMatch words : ways) {
+    for (const TextHypothesis& hypothesis : text_hypotheses(map, parameters, frame, words)) {
+      Recovery found = recognise_from(map, parameters, frame, hypothesis.T_c_w);
+      if (found.ok) return found;
+    }
+  }
+  return {};
+}
+
 Recovery relocalise(const Map& map, const Parameters& parameters, const Frame& frame) {
   if (parameters.mode == Mode::text) {
-    Recovery found = relocalise_by_texts(map, parameters, frame);
+    Recovery found = relocalise_by_texts(map, parameters, frame, {WordMatch::same, WordMatch::other});
     if (found.ok) return found;
   }
   return relocalise_by_keyframes(map, parameters, frame);

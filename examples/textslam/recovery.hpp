@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "textslam/text_recovery.hpp"
 #include "textslam/tracker.hpp"
 
 namespace textslam {
@@ -20,9 +21,16 @@ struct Recovery {
 /// fitted to them.
 Recovery observe_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
 
+/// The same, and whether the pose holds: the image shows enough of the points that it should see, and two texts agree with it
+/// or there are points off the signs: signs are printed more than once.
+Recovery recognise_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
+
+/// The first pose that holds of those that the frame's detections suggest, compared with the texts in one way after another.
+Recovery relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
+                             const std::vector<WordMatch>& ways);
+
 /// Tries the poses that the frame's detections suggest (mode text), and where none holds the key frames whose coarsest images
-/// correlate best with the frame's. A pose holds when the image shows enough of the points that it should see, and two texts
-/// agree with it or there are points off the signs: signs are printed more than once.
+/// correlate best with the frame's.
 Recovery relocalise(const Map& map, const Parameters& parameters, const Frame& frame);
 
 }  // namespace textslam

@@ -110,6 +110,7 @@ void System::follow(const Frame& frame, FrameRecord& record) {
   record.seen = seen_points(tracker_->tracks(), static_cast<std::size_t>(parameters_.refit_max_points));
   if (keyframe_needed(frame)) {
     add_keyframe(frame, record);
+    if (parameters_.loop_closure) close_loops(record);
     join_stored(frame, record);
   }
   record.map_ms = now_ms() - start;

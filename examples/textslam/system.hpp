@@ -16,6 +16,7 @@
 #include "textslam/adjuster.hpp"
 #include "textslam/initialiser.hpp"
 #include "textslam/local_map.hpp"
+#include "textslam/loop_closure.hpp"
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
 #include "textslam/pose_refit.hpp"
@@ -24,7 +25,14 @@
 
 namespace textslam {
 
-struct MapLink;
+/// A loop that was closed.
+struct LoopRecord {
+  int frame = -1;       ///< Index of the frame at which it was closed,
+  int met_frame = -1;   ///< and of the key frame that it met.
+  std::string word;     ///< Of a text that is in both parts; empty where points alone closed it.
+  bool spread = false;  ///< Over the map; else there was too little drift.
+  Drift found, left;
+};
 
 enum class FrameState {
   waiting,  ///< No map yet.
@@ -66,6 +74,7 @@ class System {
   /// Frames tracked in each map, those of map() first, then by size.
   std::vector<std::size_t> map_frames() const;
   const std::vector<FrameRecord>& records() const { return records_; }
+  const std::vector<LoopRecord>& loops() const { return loops_; }
   /// Final pose of a tracked frame.
   SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
 
@@ -85,6 +94,10 @@ class System {
   void join(std::size_t stored, const MapLink& link);
   void keep_largest();
 
+  // system_loops.cpp
+  void close_loops(FrameRecord& record);
+  void apply(const LoopCorrection& correction);
+
   void set_pose(FrameRecord& record, const SE3d& T_c_w);
   bool keyframe_needed(const Frame& frame) const;
   void add_keyframe(const Frame& frame, FrameRecord& record);
@@ -100,6 +113,7 @@ class System {
   Adjuster adjuster_;
   std::unique_ptr<Tracker> tracker_;  // null until the map begins
   std::vector<FrameRecord> records_;
+  std::vector<LoopRecord> loops_;
   int last_keyframe_ = -1;        // id of the newest
   int last_keyframe_points_ = 0;  // tracked in it
   int lost_frames_ = 0;           // in a row

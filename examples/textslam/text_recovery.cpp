@@ -16,6 +16,11 @@ constexpr double kConfirming = 0.3;  // overlap, IoU, of a detection with the te
 
 bool is_read(const std::string& word) { return !word.empty() && word != "###"; }
 
+bool is_match(const std::string& a, const std::string& b, WordMatch match) {
+  const bool read = is_read(a) && is_read(b), same = read && a == b;
+  return match == WordMatch::same ? same : match == WordMatch::unread ? !read : !same;
+}
+
 class TextSearch {
  public:
   TextSearch(const Map& map, const Parameters& parameters, const Frame& frame)
@@ -115,8 +120,7 @@ std::vector<TextHypothesis> text_hypotheses(const Map& map, const Parameters& pa
     if (!textplane::is_convex(detection.quad) || textplane::area(detection.quad) < parameters.text_min_area) continue;
     for (const TextObject& text : map.texts) {
       if (text.state != TextState::mapped) continue;
-      const bool same = is_read(detection.text) && detection.text == text.word();
-      if (same == (words == WordMatch::same)) search.compare(detection, text);
+      if (is_match(detection.text, text.word(), words)) search.compare(detection, text);
     }
   }
   return search.best();

@@ -15,8 +15,9 @@ namespace textslam {
 
 /// Which detections are compared with which texts.
 enum class WordMatch {
-  same,   ///< Both are read, and read the same.
-  other,  ///< All the rest: words are misread, or not read.
+  same,    ///< Both are read, and read the same.
+  unread,  ///< One is not read.
+  other,   ///< All but the same: words are misread, or not read.
 };
 
 struct TextHypothesis {

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "textslam/local_map.hpp"
+#include "textslam/loop_closure.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/tracker.hpp"
 
@@ -105,6 +105,33 @@ TEST_F(LocalMapTest, TheTrackerSeesNothingElse) {
   EXPECT_EQ(all.size(), map.points.size());
   EXPECT_EQ(near.size(), static_cast<std::size_t>(3 * parameters.local_min_shared));
   for (const int id : near) EXPECT_TRUE(local.has_point(id)) << id;
+}
+
+TEST_F(LocalMapTest, TheMapInTwoIsTheWholeMap) {
+  add_text(TextState::mapped, 1, {2, 3});
+  add_text(TextState::mapped, 8, {9});
+  add_text(TextState::dropped, 0, {});
+  map.points[0].bad = true;
+  const LocalMap local = local_map(map, parameters, 9);
+  const MapSplit split = split_map(map, local);
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const MapPoint &whole = map.points[i], &was = split.old_part.points[i], &is = split.recent.points[i];
+    EXPECT_EQ(is.bad, whole.bad || !local.has_point(static_cast<int>(i)));
+    EXPECT_EQ(was.bad, whole.bad || local.has_point(static_cast<int>(i)));
+    if (whole.bad) continue;
+    EXPECT_EQ((was.bad ? is : was).observations.size(), whole.observations.size());
+    EXPECT_TRUE((was.bad ? was : is).observations.empty());
+  }
+  for (const Map* part : {&split.old_part, &split.recent}) {
+    ASSERT_EQ(part->keyframes.size(), map.keyframes.size());
+    for (const KeyFrame& keyframe : part->keyframes)
+      for (const int id : keyframe.points) EXPECT_FALSE(part->point(id).bad);
+  }
+  EXPECT_EQ(split.old_part.texts[0].state, TextState::mapped);
+  EXPECT_EQ(split.recent.texts[0].state, TextState::dropped);
+  EXPECT_EQ(split.old_part.texts[1].state, TextState::dropped);
+  EXPECT_EQ(split.recent.texts[1].state, TextState::mapped);
+  EXPECT_EQ(split.recent.texts[2].state, TextState::dropped);
 }
 
 }  // namespace
