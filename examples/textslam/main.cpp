@@ -53,6 +53,8 @@ int execute(int argc, char** argv) {
       "--real-time", options.parameters.real_time,
       "Frames come at the times of their stamps, and local adjustment has a thread of its own; without it, all is "
       "done in step and the same input gives the same bytes");
+  app.add_flag("!--no-loop-closure", options.parameters.loop_closure,
+               "Leave drift as it is where the camera comes back to a place");
   app.add_option("--first", options.first, "Index of the first frame")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -109,6 +109,22 @@ Json errors_json(const TrajectoryEvaluation& e) {
           {"rpe_distance_rotation_rmse_deg", e.rpe_distance.rotation.rmse}};
 }
 
+Json to_json(const Drift& drift) {
+  return {{"translation_share", drift.translation}, {"rotation_deg", drift.rotation}, {"scale", drift.scale}};
+}
+
+Json loops_json(const std::vector<LoopRecord>& loops) {
+  Json out = Json::array();
+  for (const LoopRecord& loop : loops)
+    out.push_back({{"frame", loop.frame},
+                   {"met_keyframe", loop.met_frame},
+                   {"text", loop.word},
+                   {"spread", loop.spread},
+                   {"drift", to_json(loop.found)},
+                   {"left", to_json(loop.left)}});
+  return out;
+}
+
 std::string metrics_json(const RunSummary& s) {
   Json out{{"frames", s.frames},
            {"tracked", s.tracked},
@@ -119,7 +135,8 @@ std::string metrics_json(const RunSummary& s) {
            {"points", s.points},
            {"texts", s.texts},
            {"maps", s.map_frames.size()},
-           {"map_frames", s.map_frames}};
+           {"map_frames", s.map_frames},
+           {"loops", loops_json(s.loops)}};
   if (s.has_truth) {
     out["trajectory"] = errors_json(s.trajectory);
     out["trajectory_live"] = errors_json(s.live);
@@ -176,6 +193,7 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
     ms.push_back(record.track_ms + record.map_ms);
   }
   s.median_ms = median(ms);
+  s.loops = system.loops();
   s.map_frames = system.map_frames();
   const Map& map = system.map();
   s.keyframes = map.keyframes.size();
@@ -224,6 +242,13 @@ std::string format_summary(const RunSummary& s) {
   if (s.first_tracked_live >= 0) row("map began at frame", "%d", s.first_tracked_live);
   row("key frames, points", "%zu, %zu", s.keyframes, s.points);
   row("text objects", "%zu", s.texts);
+  if (!s.loops.empty()) {
+    const auto largest = std::max_element(s.loops.begin(), s.loops.end(), [](const LoopRecord& a, const LoopRecord& b) {
+      return a.found.translation < b.found.translation;
+    });
+    row("loops closed", "%zu, largest drift %.3f %% of the way, %.2f deg, scale %.4f", s.loops.size(),
+        100 * largest->found.translation, largest->found.rotation, largest->found.scale);
+  }
   if (s.has_truth && textplane::is_ok(s.trajectory.status)) {
     const double path = s.trajectory.path_length;
     row("path", "%.2f m", path);

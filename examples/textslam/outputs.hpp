@@ -28,6 +28,7 @@ struct RunSummary {
   std::size_t frames = 0, tracked = 0, tracked_live = 0;
   int first_tracked_live = -1;  ///< Index of the frame at which the map began.
   std::size_t keyframes = 0, points = 0, texts = 0;
+  std::vector<LoopRecord> loops;
   std::vector<std::size_t>
       map_frames;  ///< Of each map, that of the outputs first; more than one: they were never joined.
   bool has_truth = false;
