@@ -215,7 +215,7 @@ void System::finish() {
   take_over(adjuster_.settle(map_));
   keep_largest();
   if (map_.keyframes.size() < 2) return;
-  if (parameters_.mode == Mode::text) merge_duplicate_texts(map_, parameters_);
+  if (parameters_.mode == Mode::text && parameters_.loop_closure) merge_duplicate_texts(map_, parameters_);
   adjust_all(map_, parameters_, parameters_.final_iterations);
   if (parameters_.mode == Mode::loose) refresh_loose_planes(map_, parameters_);
   if (parameters_.mode == Mode::text) {

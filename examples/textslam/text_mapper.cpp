@@ -215,10 +215,12 @@ void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
 void TextMapper::observe_again() {
   for (TextObject& text : map_.texts) {
     if (text.state != TextState::mapped) continue;
+    // Where loops are to stay open, a text met again far away must not close them.
+    const LocalMap near = parameters_.loop_closure ? LocalMap() : local_map(map_, parameters_, text.host);
     std::vector<int> before = std::move(text.targets);
     text.targets.clear();
     for (int id = 0; id < static_cast<int>(map_.keyframes.size()); ++id)
-      if (id != text.host) observe(text, id, parameters_.text_min_share);
+      if (id != text.host && near.has_keyframe(id)) observe(text, id, parameters_.text_min_share);
     if (static_cast<int>(text.targets.size()) + 1 < parameters_.text_min_observations) text.targets = std::move(before);
   }
 }
