@@ -58,6 +58,9 @@ TEST_F(TextslamLoop, StaysOpenWhenTold) {
   const Json m = metrics("open");
   EXPECT_TRUE(m.at("loops").empty());
   EXPECT_EQ(m.at("tracked"), kFrames) << "what was not recognised is mapped anew";
+  expect_success(run("closed too"));
+  const auto ate = [](const Json& of) { return of.at("trajectory").at("ate_rmse").get<double>(); };
+  EXPECT_LT(ate(metrics("closed too")), 0.8 * ate(m)) << "closing it is worth its while";
 }
 
 TEST_F(TextslamLoop, TheSameBytesTwice) {
