@@ -25,7 +25,12 @@ void System::apply(const LoopCorrection& correction) {
 
 // The key frame just added may show a part of the map that has drifted away.
 void System::close_loops(FrameRecord& record) {
-  const Loop loop = find_loop(map_, local_, parameters_);
+  Loop loop = find_loop(map_, local_, parameters_);
+  if (!loop.ok) return;
+  // In real time an adjustment may be under way: it is waited for, and where it moved the map the loop is found again.
+  const Adjuster::Collected adjusted = adjuster_.settle(map_);
+  take_over(adjusted);
+  if (adjusted.changed) loop = find_loop(map_, local_, parameters_);
   if (!loop.ok) return;
   LoopRecord closed;
   closed.frame = map_.keyframe(loop.keyframe).frame.index;
