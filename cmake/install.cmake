@@ -13,3 +13,4 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/textplane-config-ve
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/textplane-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/textplane-config-version.cmake
   DESTINATION ${package_dir})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+include(cmake/package.cmake)

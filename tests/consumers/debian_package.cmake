@@ -1,0 +1,12 @@
+# Makes the Debian package of the build tree BUILD with CPack and unpacks it into TO: cmake -DCPACK= -DBUILD= -DTO= -P this
+file(REMOVE_RECURSE ${TO})
+execute_process(COMMAND ${CPACK} -G DEB --config ${BUILD}/CPackConfig.cmake -B ${TO}/package RESULT_VARIABLE failed)
+file(GLOB package ${TO}/package/*_all.deb)
+if(failed OR NOT package)
+  message(FATAL_ERROR "no package was made")
+endif()
+execute_process(COMMAND dpkg-deb --field ${package} Depends OUTPUT_VARIABLE depends COMMAND_ERROR_IS_FATAL ANY)
+if(NOT depends MATCHES "libeigen3-dev")
+  message(FATAL_ERROR "the package does not depend on Eigen: ${depends}")
+endif()
+execute_process(COMMAND dpkg-deb --extract ${package} ${TO} COMMAND_ERROR_IS_FATAL ANY)
