@@ -1,10 +1,8 @@
-// The window of solve_window() given to Ceres: the same terms, robust costs, gauge and start, with analytic derivatives, so
-// that solvers are compared and not ways of differentiating.
+// The window of solve_window() given to Ceres by adapters/ceres_window.hpp: the same terms, robust costs, gauge and start, with
+// analytic derivatives, so that solvers are compared and not ways of differentiating.
 //
-// A point observation is two residuals under ceres::HuberLoss. A text observation is robust pixel by pixel, which no
-// loss on a block expresses; it is handed over as ten residuals that have the kernel's own sums: with H = L L^T,
-// J = L^T and r = L^-1 b give J^T J = H and J^T r = b, and a tenth residual without derivatives makes r^T r the cost.
-// That costs Ceres a tenth of what a row for each of a hundred pixels would.
+// A point observation is two residuals under ceres::HuberLoss, a text observation ten that have the kernel's own sums
+// (TextRows::sums). That costs Ceres a tenth of what a row for each of a hundred pixels would.
 #ifndef TEXTPLANE_BENCH_SCALING_CERES_HPP
 #define TEXTPLANE_BENCH_SCALING_CERES_HPP
 

@@ -1,0 +1,323 @@
+// Ceres: the photometric residual of a text object and the reprojection error of a point as cost functions with analytic
+// derivatives. adapters/ceres_pose.hpp has the pose blocks and their manifold, adapters/ceres_window.hpp makes a whole ceres::Problem
+// of a Window.
+//
+// Blocks. A pose is seven numbers, camera to world; a plane is theta in its host frame, a point is in the world. Derivatives are by these
+// numbers themselves, so that any manifold of unit quaternions goes with them: PoseManifold, or that of Sophus, or
+// ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>. (Not parameterisations that take the
+// first six of the seven columns for those of the tangent space, as VINS-Mono's does.)
+//
+// Residuals of a text observation, TextRows (docs/equations.md; c is the robust cost, H and b its normal equations):
+//   sums    P + 1 numbers, P = 3, 6 or 9 parameters: with H = L L^T the rows are J = L^T and r = L^-1 b, so that J^T J = H and J^T r = b,
+//           and a last residual without derivatives makes r^T r the cost. Ceres gets the sums of the SIMD kernel as they are,
+//           a hundred times less than a row a pixel. J is no derivative of r, only of the cost: give
+//           ceres::GradientChecker r^T r / 2, not r.
+//   pixels  one number a pixel of the patch, +-sqrt(rho(e^2) / N), e = r sqrt(N), 0 where a pixel is not visible; by the double
+//           reference, slow.
+// Both have the same cost and gradient.
+//
+// Robust costs: PhotometricOptions::robust acts on every pixel, inside of these rows, which no loss on a residual block can do. So
+// pass nullptr as the loss of a text; one that you pass acts on the cost of the object as a whole, and may give up on a sign
+// that has changed. Points take an ordinary loss (ceres::HuberLoss).
+//
+// Evaluate() answers false where the kernels have no result (Status unless is_ok: the object left the image, lies behind a camera): Ceres
+// rejects that step, or refuses to start. It may be called on many threads at a time. Tested with Ceres 2.1.
+#ifndef TEXTPLANE_ADAPTERS_CERES_HPP
+#define TEXTPLANE_ADAPTERS_CERES_HPP
+
+#include <ceres/cost_function.h>
+#include <ceres/sized_cost_function.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "ceres_pose.hpp"
+
+#ifndef TEXTPLANE_SINGLE_HEADER
+#include "textplane/core/camera.hpp"
+#include "textplane/core/se3.hpp"
+#include "textplane/photometry/residual.hpp"
+#include "textplane/solver/weighting.hpp"
+#endif
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace adapters {
+
+/// How a text observation becomes residuals: see the head of this file.
+enum class TextRows { sums, pixels };
+
+/// Settings of a text observation: its term of the cost is weight lambda_w c, lambda_w = text_weight() of the visible pixels.
+struct TextCostOptions {
+  PhotometricOptions photometric;
+  Weighting weighting = Weighting::variance;
+  double sigma_rep = 1;      ///< px.
+  double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
+  double weight = 1;
+  TextRows rows = TextRows::sums;
+};
+
+/// Scratch memory for cost functions that are evaluated on several threads: as many workspaces as were in use at one time. The
+/// costs of a problem should share one; they keep it alive.
+class WorkspacePool {
+ public:
+  struct Workspace {
+    PhotometricWorkspace photometric;
+    std::vector<double> rows;  ///< Of TextRows::pixels.
+  };
+
+  std::unique_ptr<Workspace> take() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Workspace>();
+    std::unique_ptr<Workspace> out = std::move(idle_.back());
+    idle_.pop_back();
+    return out;
+  }
+  void give_back(std::unique_ptr<Workspace> workspace) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    idle_.push_back(std::move(workspace));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> idle_;
+};
+
+namespace detail {
+
+// J = L^T and r = L^-1 b of the semi-definite H = L L^T. A pivot that is rounding alone gives a row of zeros: pose and plane
+// share a scale, so that one of nine always is.
+template <int P>
+void square_root(const NormalEquations<P>& sums, Eigen::Matrix<double, P, P>* J,
+                 Eigen::Matrix<double, P, 1>* r) noexcept {
+  constexpr double kRounding = 1e-6;
+  J->setZero();
+  r->setZero();
+  for (int k = 0; k < P; ++k) {
+    double pivot = sums.H(k, k), rest = sums.b[k];
+    for (int m = 0; m < k; ++m) {
+      pivot -= (*J)(m, k) * (*J)(m, k);
+      rest -= (*J)(m, k) * (*r)[m];
+    }
+    if (!(pivot > kRounding * sums.H(k, k))) continue;
+    (*J)(k, k) = std::sqrt(pivot);
+    (*r)[k] = rest / (*J)(k, k);
+    for (int c = k + 1; c < P; ++c) {
+      double s = sums.H(k, c);
+      for (int m = 0; m < k; ++m) s -= (*J)(m, k) * (*J)(m, c);
+      (*J)(k, c) = s / (*J)(k, k);
+    }
+  }
+}
+
+// What the cost functions of a text share: residuals and rows for P = 6 (v, omega), 3 theta or 9 (v, omega, theta) of T_t_h.
+template <int P>
+class TextRowsCost : public ceres::CostFunction {
+ protected:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, P, Eigen::RowMajor>;
+
+  TextRowsCost(const PhotometricInput& input, const TextCostOptions& options, std::shared_ptr<WorkspacePool> pool)
+      : input_(input), options_(options), pool_(pool ? std::move(pool) : std::make_shared<WorkspacePool>()) {
+    set_num_residuals(options.rows == TextRows::sums ? P + 1 : std::max(input.patch.n, 1));
+  }
+
+  // Calls write(rows), rows being num_residuals() x P, after a success where `rows` is true.
+  template <class Write>
+  bool evaluate(const Vector3<double>& theta, const SE3d& T_t_h, double* residuals, bool rows,
+                const Write& write) const {
+    std::unique_ptr<WorkspacePool::Workspace> workspace = pool_->take();
+    workspace->photometric.reserve(input_.patch.n);
+    workspace->rows.resize(static_cast<std::size_t>(num_residuals()) * P);
+    const bool ok = options_.rows == TextRows::sums ? sums(theta, T_t_h, residuals, rows, *workspace)
+                                                    : pixels(theta, T_t_h, residuals, rows, *workspace);
+    if (ok && rows) write(Eigen::Map<const Rows>(workspace->rows.data(), num_residuals(), P));
+    pool_->give_back(std::move(workspace));
+    return ok;
+  }
+
+ private:
+  double factor(int visible) const noexcept {
+    return std::sqrt(options_.weight *
+                     text_weight(options_.weighting, options_.sigma_rep, options_.sigma_photo, visible));
+  }
+
+  bool sums(const Vector3<double>& theta, const SE3d& T_t_h, double* residuals, bool rows,
+            WorkspacePool::Workspace& workspace) const {
+    Eigen::Map<Eigen::Matrix<double, P + 1, 1>> out(residuals);
+    out.setZero();
+    if (!rows) {
+      const PhotometricCost cost =
+          textplane::evaluate(input_, theta, T_t_h, options_.photometric, workspace.photometric);
+      out[P] = factor(cost.visible) * std::sqrt(cost.cost);
+      return is_ok(cost.status);
+    }
+    const NormalEquations<P> sums =
+        textplane::detail::fast_linearise<P>(input_, theta, T_t_h, options_.photometric, workspace.photometric);
+    if (!is_ok(sums.status)) return false;
+    Eigen::Matrix<double, P, P> J;
+    Eigen::Matrix<double, P, 1> r;
+    square_root<P>(sums, &J, &r);
+    const double scale = factor(sums.visible);
+    out.template head<P>() = scale * r;
+    out[P] = scale * std::sqrt(std::max(sums.cost - r.squaredNorm(), 0.0));
+    Eigen::Map<Eigen::Matrix<double, P + 1, P, Eigen::RowMajor>> to(workspace.rows.data());
+    to.template topRows<P>() = scale * J;
+    to.template bottomRows<1>().setZero();
+    return true;
+  }
+
+  bool pixels(const Vector3<double>& theta, const SE3d& T_t_h, double* residuals, bool rows,
+              WorkspacePool::Workspace& workspace) const {
+    const ResidualSummary sum =
+        reference::residuals<P>(input_, theta, T_t_h, options_.photometric, workspace.photometric, residuals,
+                                rows ? workspace.rows.data() : nullptr);
+    if (!is_ok(sum.status)) return false;
+    const double root = std::sqrt(static_cast<double>(sum.visible)), scale = factor(sum.visible) / root;
+    for (int i = 0; i < input_.patch.n; ++i) {
+      const double e = root * residuals[i], rho = options_.photometric.robust.rho(e * e);
+      const bool zero = !(rho > 0);
+      residuals[i] = zero ? 0.0 : std::copysign(scale * std::sqrt(rho), e);
+      // d sqrt(rho(e^2)) / de = w e / sqrt(rho), 1 at e = 0.
+      const double slope = zero ? 1.0 : options_.photometric.robust.weight(e * e) * std::abs(e) / std::sqrt(rho);
+      if (rows)
+        for (int p = 0; p < P; ++p) workspace.rows[static_cast<std::size_t>(i * P + p)] *= scale * slope * root;
+    }
+    return true;
+  }
+
+  const PhotometricInput input_;
+  const TextCostOptions options_;
+  const std::shared_ptr<WorkspacePool> pool_;
+};
+
+// d xi(T_t_h) / d block of the two camera-to-world poses.
+template <PoseOrder Order>
+Eigen::Matrix<double, 6, 7> host_by_block(const SE3d& T_t_h, const double* block) {
+  return adjoint(T_t_h).lazyProduct(perturbation_by_block<Order>(block));
+}
+template <PoseOrder Order>
+Eigen::Matrix<double, 6, 7> target_by_block(const double* block) {
+  return -perturbation_by_block<Order>(block);
+}
+
+// rows times factor into a block of Ceres's.
+template <class Rows, int Inner, int Columns>
+void write_block(const Rows& rows, const Eigen::Matrix<double, Inner, Columns>& factor, double* out) {
+  if (!out) return;
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>>(out, rows.rows(), Columns) =
+      rows.lazyProduct(factor);
+}
+template <class Rows>
+void write_plane(const Rows& rows, double* out) {
+  if (out) Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(out, rows.rows(), 3) = rows;
+}
+
+}  // namespace detail
+
+/// A text object seen by a camera whose pose is unknown: block T_w_t. `input` is referred to, not copied: patch and image must outlive the
+/// problem; see photometric_input().
+template <PoseOrder Order = PoseOrder::quaternion_translation>
+class TextPoseCost : public detail::TextRowsCost<6> {
+ public:
+  TextPoseCost(const PhotometricInput& input, const SE3d& T_w_h, const Vector3<double>& theta,
+               const TextCostOptions& options = {}, std::shared_ptr<WorkspacePool> pool = nullptr)
+      : TextRowsCost(input, options, std::move(pool)), T_w_h_(T_w_h), theta_(theta) {
+    mutable_parameter_block_sizes()->push_back(kPoseSize);
+  }
+
+  bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
+    const SE3d T_t_h = pose_from_block<Order>(blocks[0]).inverse() * T_w_h_;
+    const bool wanted = jacobians && jacobians[0];
+    return evaluate(theta_, T_t_h, residuals, wanted, [&](const auto& rows) {
+      detail::write_block(rows, detail::target_by_block<Order>(blocks[0]), jacobians[0]);
+    });
+  }
+
+ private:
+  const SE3d T_w_h_;
+  const Vector3<double> theta_;
+};
+
+/// A text object whose plane is unknown, seen from a known pose: block theta. `input` as in TextPoseCost.
+class TextPlaneCost : public detail::TextRowsCost<3> {
+ public:
+  TextPlaneCost(const PhotometricInput& input, const SE3d& T_t_h, const TextCostOptions& options = {},
+                std::shared_ptr<WorkspacePool> pool = nullptr)
+      : TextRowsCost(input, options, std::move(pool)), T_t_h_(T_t_h) {
+    mutable_parameter_block_sizes()->push_back(3);
+  }
+
+  bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
+    const bool wanted = jacobians && jacobians[0];
+    return evaluate(Eigen::Map<const Vector3<double>>(blocks[0]), T_t_h_, residuals, wanted,
+                    [&](const auto& rows) { detail::write_plane(rows, jacobians[0]); });
+  }
+
+ private:
+  const SE3d T_t_h_;
+};
+
+/// A text object in bundle adjustment: blocks T_w_h, T_w_t, theta. `input` as in TextPoseCost.
+template <PoseOrder Order = PoseOrder::quaternion_translation>
+class TextCost : public detail::TextRowsCost<9> {
+ public:
+  explicit TextCost(const PhotometricInput& input, const TextCostOptions& options = {},
+                    std::shared_ptr<WorkspacePool> pool = nullptr)
+      : detail::TextRowsCost<9>(input, options, std::move(pool)) {
+    *mutable_parameter_block_sizes() = {kPoseSize, kPoseSize, 3};
+  }
+
+  bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
+    const SE3d T_t_h = pose_from_block<Order>(blocks[1]).inverse() * pose_from_block<Order>(blocks[0]);
+    const bool wanted = jacobians && (jacobians[0] || jacobians[1] || jacobians[2]);
+    return evaluate(Eigen::Map<const Vector3<double>>(blocks[2]), T_t_h, residuals, wanted, [&](const auto& rows) {
+      const auto by_pose = rows.template leftCols<6>();
+      detail::write_block(by_pose, detail::host_by_block<Order>(T_t_h, blocks[0]), jacobians[0]);
+      detail::write_block(by_pose, detail::target_by_block<Order>(blocks[1]), jacobians[1]);
+      detail::write_plane(rows.template rightCols<3>(), jacobians[2]);
+    });
+  }
+};
+
+/// The reprojection error of a point, (pi(T_w_c^-1 p_w) - px) / sigma: blocks T_w_c and p_w. False where the point has less z
+/// than `min_depth`.
+template <PoseOrder Order = PoseOrder::quaternion_translation>
+class PointCost : public ceres::SizedCostFunction<2, kPoseSize, 3> {
+ public:
+  PointCost(const Pinhole<double>& camera, const Vector2<double>& px, double sigma = 1, double min_depth = 1e-6)
+      : camera_(camera), px_(px), scale_(1 / sigma), min_depth_(min_depth) {}
+
+  bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
+    const SE3d T = pose_from_block<Order>(blocks[0]);
+    const Vector3<double> p = T.R.transpose() * (Eigen::Map<const Vector3<double>>(blocks[1]) - T.t);
+    if (!(p[2] > min_depth_)) return false;
+    Eigen::Matrix<double, 2, 3> J;
+    Eigen::Map<Vector2<double>>{residuals} = scale_ * (camera_.project(p, &J) - px_);
+    if (!jacobians) return true;
+    J *= scale_;
+    if (jacobians[0]) {
+      Eigen::Matrix<double, 2, 6> by_pose;
+      by_pose << -J, J * hat(p);
+      detail::write_block(by_pose, perturbation_by_block<Order>(blocks[0]), jacobians[0]);
+    }
+    if (jacobians[1]) Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>>{jacobians[1]} = J * T.R.transpose();
+    return true;
+  }
+
+ private:
+  const Pinhole<double> camera_;
+  const Vector2<double> px_;
+  const double scale_, min_depth_;
+};
+
+}  // namespace adapters
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_ADAPTERS_CERES_HPP
