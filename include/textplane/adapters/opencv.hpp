@@ -1,0 +1,158 @@
+// OpenCV: images without copies, points, cameras and poses, and the boxes of text detectors as quads.
+//
+// Both libraries put the centre of the top-left pixel at (0, 0) and order distortion as k1 k2 p1 p2 k3, so nothing is converted
+// but types. Needs OpenCV's core module alone. No function throws; all may be called on any thread.
+#ifndef TEXTPLANE_ADAPTERS_OPENCV_HPP
+#define TEXTPLANE_ADAPTERS_OPENCV_HPP
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <type_traits>
+#include <vector>
+
+#ifndef TEXTPLANE_SINGLE_HEADER
+#include "textplane/core/camera.hpp"
+#include "textplane/core/image_view.hpp"
+#include "textplane/core/se3.hpp"
+#include "textplane/core/status.hpp"
+#include "textplane/geometry/quad.hpp"
+#endif
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace adapters {
+
+/// A view of the pixels of `image`, T being const std::uint8_t (CV_8UC1) or const float (CV_32FC1), or the same without const. Regions of
+/// interest and padded rows are fine. Nothing is copied or held: the pixels must stay alive, and where they are, while the view is in use.
+/// invalid_argument, and *view empty, for any other type or number of channels, an empty image, or more than two dimensions;
+/// convert colour with cv::cvtColor before.
+template <class T>
+Status view(const cv::Mat& image, ImageView<T>* view) noexcept {
+  using Pixel = std::remove_const_t<T>;
+  static_assert(std::is_same<Pixel, std::uint8_t>::value || std::is_same<Pixel, float>::value,
+                "textplane: images are 8-bit or float");
+  constexpr int type = std::is_same<Pixel, float>::value ? CV_32FC1 : CV_8UC1;
+  *view = {};
+  if (image.empty() || image.dims != 2 || image.type() != type) return Status::invalid_argument;
+  *view = ImageView<T>(reinterpret_cast<T*>(image.data), image.cols, image.rows,
+                       static_cast<std::ptrdiff_t>(image.step[0]));
+  return Status::ok;
+}
+
+/// A cv::Mat header over the pixels of a view, which stay where they are: for cv::imwrite and the like. Empty for a view that
+/// is not valid(). (cv::Mat knows no constant pixels: do not write to those of a constant view.)
+template <class T>
+cv::Mat to_mat(const ImageView<T>& view) {
+  using Pixel = std::remove_const_t<T>;
+  static_assert(std::is_same<Pixel, std::uint8_t>::value || std::is_same<Pixel, float>::value,
+                "textplane: images are 8-bit or float");
+  if (!view.valid()) return {};
+  return {view.height(), view.width(), std::is_same<Pixel, float>::value ? CV_32FC1 : CV_8UC1,
+          const_cast<Pixel*>(view.data()), static_cast<std::size_t>(view.stride())};
+}
+
+/// Points.
+template <class S>
+Vector2<S> from_cv(const cv::Point_<S>& p) noexcept {
+  return {p.x, p.y};
+}
+template <class S>
+Vector3<S> from_cv(const cv::Point3_<S>& p) noexcept {
+  return {p.x, p.y, p.z};
+}
+template <class S>
+cv::Point_<S> to_cv(const Vector2<S>& p) noexcept {
+  return {p[0], p[1]};
+}
+template <class S>
+cv::Point3_<S> to_cv(const Vector3<S>& p) noexcept {
+  return {p[0], p[1], p[2]};
+}
+/// The position of a key point, px of level 0 as OpenCV's and ORB-SLAM's detectors give it.
+inline Vector2<double> from_cv(const cv::KeyPoint& k) noexcept {
+  return {static_cast<double>(k.pt.x), static_cast<double>(k.pt.y)};
+}
+
+/// The camera of a 3 x 3 matrix of intrinsics, CV_64F or CV_32F. invalid_argument, and *camera untouched, for another shape or
+/// type, skew, or a camera that is not valid().
+inline Status camera_from_cv(const cv::Mat& K, Pinhole<double>* camera) noexcept {
+  if (K.dims != 2 || K.rows != 3 || K.cols != 3 || (K.type() != CV_64FC1 && K.type() != CV_32FC1))
+    return Status::invalid_argument;
+  const auto at = [&K](int r, int c) {
+    return K.type() == CV_64FC1 ? K.at<double>(r, c) : static_cast<double>(K.at<float>(r, c));
+  };
+  const Pinhole<double> out(at(0, 0), at(1, 1), at(0, 2), at(1, 2));
+  const bool plain = at(0, 1) == 0 && at(1, 0) == 0 && at(2, 0) == 0 && at(2, 1) == 0 && at(2, 2) == 1;
+  if (!plain || !out.valid()) return Status::invalid_argument;
+  *camera = out;
+  return Status::ok;
+}
+
+/// The pose of a rotation vector and a translation as cv::solvePnP gives them: T_c_w, world to camera.
+inline SE3d pose_from_cv(const cv::Vec3d& rotation, const cv::Vec3d& translation) noexcept {
+  return {so3_exp(Vector3<double>(rotation[0], rotation[1], rotation[2])),
+          Vector3<double>(translation[0], translation[1], translation[2])};
+}
+/// Its inverse.
+inline void pose_to_cv(const SE3d& T, cv::Vec3d* rotation, cv::Vec3d* translation) noexcept {
+  const Vector3<double> w = so3_log(T.R);
+  *rotation = {w[0], w[1], w[2]};
+  *translation = {T.t[0], T.t[1], T.t[2]};
+}
+
+/// Corners clockwise from the text's top left, from four corners in either turn that begin anywhere.
+///
+/// Detectors that fit rectangles to blobs (cv::minAreaRect, and so cv::dnn's DB) do not know where a word begins. Taken is the one of the two
+/// longer sides as its top that makes it read to the right; straight up or down, downwards. A sign that hangs on its head is
+/// taken as upright.
+/// degenerate, and *out untouched, for corners that are not convex; non_finite for NaN.
+inline Status reading_order(const Quad<double>& corners, Quad<double>* out) noexcept {
+  if (!all_finite(corners)) return Status::non_finite;
+  if (!is_convex(corners)) return Status::degenerate;
+  Quad<double> q = corners;
+  if (area(q) < 0) q.corner = {corners.corner[0], corners.corner[3], corners.corner[2], corners.corner[1]};
+  const auto side = [&q](std::size_t i) { return Vector2<double>(q.corner[(i + 1) % 4] - q.corner[i % 4]); };
+  const std::size_t pair = side(0).norm() + side(2).norm() >= side(1).norm() + side(3).norm() ? 0 : 1;
+  // The mean direction of the top, from where it would begin.
+  const Vector2<double> along = side(pair) - side(pair + 2);
+  const bool steep = std::abs(along[0]) <= 1e-6 * std::abs(along[1]);
+  const std::size_t first = (steep ? along[1] > 0 : along[0] > 0) ? pair : pair + 2;
+  for (std::size_t i = 0; i < 4; ++i) out->corner[i] = q.corner[(first + i) % 4];
+  return Status::ok;
+}
+
+/// The quad of a rotated rectangle, in reading_order(): cv::dnn::TextDetectionModel::detectTextRectangles, cv::minAreaRect.
+inline Status quad_from_cv(const cv::RotatedRect& box, Quad<double>* out) noexcept {
+  std::array<cv::Point2f, 4> p;
+  box.points(p.data());
+  Quad<double> corners;
+  for (std::size_t i = 0; i < 4; ++i) corners.corner[i] = {static_cast<double>(p[i].x), static_cast<double>(p[i].y)};
+  return reading_order(corners, out);
+}
+
+/// The quad of four points, in reading_order(): cv::dnn::TextDetectionModel::detect, cv::boxPoints. invalid_argument for any
+/// other number of points.
+template <class S>
+Status quad_from_cv(const std::vector<cv::Point_<S>>& points, Quad<double>* out) noexcept {
+  if (points.size() != 4) return Status::invalid_argument;
+  Quad<double> corners;
+  for (std::size_t i = 0; i < 4; ++i)
+    corners.corner[i] = {static_cast<double>(points[i].x), static_cast<double>(points[i].y)};
+  return reading_order(corners, out);
+}
+
+/// The corners for cv::polylines and the like.
+inline std::vector<cv::Point2f> to_cv(const Quad<double>& quad) {
+  std::vector<cv::Point2f> out;
+  for (const Vector2<double>& c : quad.corner) out.emplace_back(static_cast<float>(c[0]), static_cast<float>(c[1]));
+  return out;
+}
+
+}  // namespace adapters
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_ADAPTERS_OPENCV_HPP
