@@ -1,7 +1,8 @@
-# Makes the Debian package of the build tree BUILD with CPack and unpacks it into TO: cmake -DCPACK= -DBUILD= -DTO= -P this
+# Makes the Debian package of the build tree BUILD with CPack, unpacks it into TO, and compares with the installation in PREFIX.
+# cmake -DCPACK= -DBUILD= -DTO= -DPREFIX= -P debian_package.cmake
 file(REMOVE_RECURSE ${TO})
 execute_process(COMMAND ${CPACK} -G DEB --config ${BUILD}/CPackConfig.cmake -B ${TO}/package RESULT_VARIABLE failed)
-file(GLOB package ${TO}/package/*_all.deb)
+file(GLOB package ${TO}/package/libtextplane-dev_*_all.deb)
 if(failed OR NOT package)
   message(FATAL_ERROR "no package was made")
 endif()
@@ -10,3 +11,16 @@ if(NOT depends MATCHES "libeigen3-dev")
   message(FATAL_ERROR "the package does not depend on Eigen: ${depends}")
 endif()
 execute_process(COMMAND dpkg-deb --extract ${package} ${TO} COMMAND_ERROR_IS_FATAL ANY)
+
+file(GLOB_RECURSE installed RELATIVE ${PREFIX} ${PREFIX}/*)
+file(GLOB_RECURSE packed RELATIVE ${TO}/usr ${TO}/usr/*)
+if(NOT installed STREQUAL packed OR NOT "share/pkgconfig/textplane.pc" IN_LIST packed)
+  message(FATAL_ERROR "installed: ${installed}\npacked: ${packed}")
+endif()
+foreach(file IN LISTS installed)
+  file(SHA256 ${PREFIX}/${file} one)
+  file(SHA256 ${TO}/usr/${file} other)
+  if(NOT one STREQUAL other)
+    message(FATAL_ERROR "${file} differs from what is installed")
+  endif()
+endforeach()

@@ -11,7 +11,8 @@ constexpr int kWidth = 320, kHeight = 240;
 
 // The sign's pixels, as a function of the host's.
 double sign(double x, double y) {
-  return 125 + 45 * std::sin(0.21 * x + 0.2) * std::cos(0.17 * y) + 40 * std::sin(0.06 * x + 0.1 * y) * std::cos(0.04 * x - 0.11 * y);
+  return 125 + 45 * std::sin(0.21 * x + 0.2) * std::cos(0.17 * y) +
+         40 * std::sin(0.06 * x + 0.1 * y) * std::cos(0.04 * x - 0.11 * y);
 }
 
 int main() {
@@ -39,7 +40,7 @@ int main() {
   const auto patch = tp::make_patch(host.view(), camera, quad);
   const auto fit = tp::align_pose(patch, theta, tp::SE3d(), tp::Pyramid(target.view()), camera);
   const double error = tp::se3_log(fit.T_t_h * truth.inverse()).norm();
-  std::printf("%s, ZNCC %.4f, t = %.4f %.4f %.4f, error %.1e\n", tp::to_string(fit.status), fit.zncc, fit.T_t_h.t[0], fit.T_t_h.t[1],
-              fit.T_t_h.t[2], error);
+  std::printf("%s, ZNCC %.4f, t = %.4f %.4f %.4f, error %.1e\n", tp::to_string(fit.status), fit.zncc, fit.T_t_h.t[0],
+              fit.T_t_h.t[1], fit.T_t_h.t[2], error);
   return fit.status == tp::Status::converged && error < 5e-3 ? 0 : 1;
 }

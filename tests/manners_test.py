@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""What the headers may not do to those who include them. Run as manners_test.py ROOT.
+
+No macro without the prefix, no using-directive, no dependency but Eigen and the standard library outside of adapters/, nothing that
+includes an adapter but adapters, no object but the one atomic of run-time dispatch.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(sys.argv[1])
+INCLUDE = ROOT / "include/textplane"
+ADAPTER_NEEDS = {"ceres": "ceres/", "ceres_pose": "ceres/", "ceres_window": "ceres/", "opencv": "opencv2/"}
+
+SYSTEM = re.compile(r"(Eigen/(Core|Geometry)|c?[a-z_]+|(immintrin|arm_neon|cpuid)\.h)$")
+OBJECT = re.compile(r"^(inline |static |thread_local |extern )+(?!constexpr)[\w:<>,\s*&]+?\b(\w+)\s*(\{[^}]*\}|=[^=].*)?;", re.M)
+OBJECTS_ALLOWED = {"simd_target"}
+
+
+def without_comments(text):
+    return re.sub(r"//[^\n]*", "", text)
+
+
+def check(path):
+    name = path.relative_to(INCLUDE).as_posix()
+    text = without_comments(path.read_text(encoding="utf-8"))
+    adapter = name.startswith("adapters/")
+    needs = ADAPTER_NEEDS.get(path.stem) if adapter else None
+    for number, line in enumerate(text.splitlines(), 1):
+        macro = re.match(r"\s*#\s*define\s+(\w+)", line)
+        if macro and not macro[1].startswith("TEXTPLANE_"):
+            yield number, f"the macro {macro[1]} has no prefix"
+        if re.search(r"\busing\s+namespace\b", line):
+            yield number, "a using-directive"
+        system = re.match(r"\s*#\s*include\s+<([^>]+)>", line)
+        if system and not SYSTEM.match(system[1]) and not (needs and system[1].startswith(needs)):
+            yield number, f"includes <{system[1]}>"
+        own = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
+        if own and not own[1].startswith("textplane/") and not (adapter and (INCLUDE / "adapters" / own[1]).is_file()):
+            yield number, f'includes "{own[1]}", which is not relative to include/'
+        if own and not adapter and "adapters/" in own[1]:
+            yield number, "includes an adapter"
+    for found in OBJECT.finditer(text):
+        if "(" not in found[0] and found[2] not in OBJECTS_ALLOWED:
+            yield text[: found.start()].count("\n") + 1, f"the object {found[2]}"
+
+
+def self_test():
+    """The patterns find what they should."""
+    objects = [m[2] for m in OBJECT.finditer("inline int a = 1;\nstatic std::vector<int> b;\ninline constexpr int c = 1;\ninline int d() {\n")]
+    assert objects == ["a", "b"], objects
+    assert SYSTEM.match("vector") and SYSTEM.match("Eigen/Core") and not SYSTEM.match("Eigen/Dense") and not SYSTEM.match("opencv2/core.hpp")
+
+
+def main():
+    self_test()
+    paths = sorted([*INCLUDE.rglob("*.hpp"), *INCLUDE.rglob("*.inl")])
+    if len(paths) < 50:
+        sys.exit(f"only {len(paths)} files below {INCLUDE}")
+    faults = [f"{path}:{number}: {fault}" for path in paths for number, fault in check(path)]
+    print("\n".join(faults) if faults else f"{len(paths)} files checked")
+    sys.exit(1 if faults else 0)
+
+
+main()
