@@ -2,7 +2,7 @@
 """What the headers may not do to those who include them. Run as manners_test.py ROOT.
 
 No macro without the prefix, no using-directive, no dependency but Eigen and the standard library outside of adapters/, nothing that
-includes an adapter but adapters, no object but the one atomic of run-time dispatch.
+includes an adapter but adapters, no object but the one atomic of run-time dispatch. And one version, wherever it is written.
 """
 import pathlib
 import re
@@ -45,6 +45,18 @@ def check(path):
             yield text[: found.start()].count("\n") + 1, f"the object {found[2]}"
 
 
+def versions():
+    """The version wherever it is written."""
+    config = (INCLUDE / "config.hpp").read_text(encoding="utf-8")
+    expected = ".".join(re.search(rf"define TEXTPLANE_VERSION_{part} (\d+)", config)[1] for part in ("MAJOR", "MINOR", "PATCH"))
+    for name, pattern in (("include/textplane/config.hpp", r'VERSION_STRING "([\d.]+)"'), ("CMakeLists.txt", r"project\(textplane VERSION ([\d.]+)"),
+                          ("package.xml", r"<version>([\d.]+)<"), ("conanfile.py", r'version = "([\d.]+)"'),
+                          ("packaging/vcpkg/textplane/vcpkg.json", r'"version": "([\d.]+)"'), ("CITATION.cff", r"^version: ([\d.]+)$")):
+        found = re.search(pattern, (ROOT / name).read_text(encoding="utf-8"), re.M)
+        if not found or found[1] != expected:
+            yield f"{ROOT / name}: says version {found and found[1]}, config.hpp {expected}"
+
+
 def self_test():
     """The patterns find what they should."""
     objects = [m[2] for m in OBJECT.finditer("inline int a = 1;\nstatic std::vector<int> b;\ninline constexpr int c = 1;\ninline int d() {\n")]
@@ -58,6 +70,7 @@ def main():
     if len(paths) < 50:
         sys.exit(f"only {len(paths)} files below {INCLUDE}")
     faults = [f"{path}:{number}: {fault}" for path in paths for number, fault in check(path)]
+    faults += versions()
     print("\n".join(faults) if faults else f"{len(paths)} files checked")
     sys.exit(1 if faults else 0)
 
