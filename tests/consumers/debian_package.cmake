@@ -1,5 +1,6 @@
 # Makes the Debian package of the build tree BUILD with CPack, unpacks it into TO, and compares with the installation in PREFIX.
 # cmake -DCPACK= -DBUILD= -DTO= -DPREFIX= -P debian_package.cmake
+cmake_minimum_required(VERSION 3.21)
 file(REMOVE_RECURSE ${TO})
 execute_process(COMMAND ${CPACK} -G DEB --config ${BUILD}/CPackConfig.cmake -B ${TO}/package RESULT_VARIABLE failed)
 file(GLOB package ${TO}/package/libtextplane-dev_*_all.deb)
