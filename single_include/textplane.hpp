@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: e7c23ee58bf110ab
+// Hash of these files: 3f7000fe4551f9d2
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 e7c23ee58bf110ab"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 3f7000fe4551f9d2"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -129,6 +129,7 @@
 #define TEXTPLANE_CORE_CAMERA_HPP
 
 #include <cmath>
+#include <type_traits>
 
 // Small numeric tools that every room stands on: finite checks that survive -ffast-math, and the fixed-size symmetric
 // solvers. They are written out here, not taken from Eigen's out-of-line algorithms, because Eigen's weak symbols would be
@@ -389,6 +390,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Pinhole intrinsics in px.
 template <class S>
 struct Pinhole {
+  static_assert(!std::is_integral<S>::value, "textplane: a camera of integers; write Pinhole<double>(500, ...)");
+
   S fx = S(1), fy = S(1), cx = S(0), cy = S(0);
 
   Pinhole() = default;
@@ -606,6 +609,8 @@ Matrix3<S> hat(const Vector3<S>& w) noexcept {
 /// A rigid motion p -> R p + t. A plain aggregate without alignment demands: store it, copy it, put it in any container.
 template <class S>
 struct SE3 {
+  static_assert(!std::is_integral<S>::value, "textplane: a pose of integers; its scalar is float, double or a dual number");
+
   Matrix3<S> R = Matrix3<S>::Identity();
   Vector3<S> t = Vector3<S>::Zero();
 
@@ -13758,6 +13763,9 @@ struct PhotometricOptions {
 /// cameras are Pinhole::at_level() of it.
 template <class T>
 struct BasicPhotometricInput {
+  static_assert(std::is_same<T, std::uint8_t>::value || std::is_same<T, float>::value,
+                "textplane: target images are 8-bit or float; T is the pixel's type without const");
+
   PatchView patch;
   Pinhole<double> host_camera, target_camera;
   ImageView<const T> target;
@@ -14702,7 +14710,7 @@ template <int P, class T>
 ResidualSummary residuals(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
                           const PhotometricOptions& options, PhotometricWorkspace& workspace, double* r,
                           double* J) noexcept {
-  static_assert(P == 3 || P == 6 || P == 9, "theta, pose, or pose and theta");
+  static_assert(P == 3 || P == 6 || P == 9, "textplane: P is 3 (theta), 6 (pose) or 9 (pose and theta)");
   ResidualSummary out;
   if (!r || input.patch.n < 0) return out;
   for (int i = 0; i < input.patch.n; ++i) r[i] = 0.0;

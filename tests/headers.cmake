@@ -1,7 +1,13 @@
-# What including a header must not do (manners_test.py), and that every adapter compiles alone and twice where its library is.
+# What including a header must not do (manners_test.py), what must not compile and why, and that every adapter compiles alone and twice where its library is.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
   add_test(NAME headers.manners COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/manners_test.py ${PROJECT_SOURCE_DIR})
+endif()
+if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  add_test(NAME headers.compile_failures COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_CXX_COMPILER}
+    "-DFLAGS=-DTEXTPLANE_EXTERN_KERNELS -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cpp
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cmake)
 endif()
 if(NOT TEXTPLANE_TEST_INCLUDE_ALONE)
   return()

@@ -6,6 +6,7 @@
 #define TEXTPLANE_CORE_CAMERA_HPP
 
 #include <cmath>
+#include <type_traits>
 
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/status.hpp"
@@ -15,6 +16,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Pinhole intrinsics in px.
 template <class S>
 struct Pinhole {
+  static_assert(!std::is_integral<S>::value, "textplane: a camera of integers; write Pinhole<double>(500, ...)");
+
   S fx = S(1), fy = S(1), cx = S(0), cy = S(0);
 
   Pinhole() = default;

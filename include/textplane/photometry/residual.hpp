@@ -200,7 +200,7 @@ template <int P, class T>
 ResidualSummary residuals(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
                           const PhotometricOptions& options, PhotometricWorkspace& workspace, double* r,
                           double* J) noexcept {
-  static_assert(P == 3 || P == 6 || P == 9, "theta, pose, or pose and theta");
+  static_assert(P == 3 || P == 6 || P == 9, "textplane: P is 3 (theta), 6 (pose) or 9 (pose and theta)");
   ResidualSummary out;
   if (!r || input.patch.n < 0) return out;
   for (int i = 0; i < input.patch.n; ++i) r[i] = 0.0;

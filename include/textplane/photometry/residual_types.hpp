@@ -44,6 +44,9 @@ struct PhotometricOptions {
 /// cameras are Pinhole::at_level() of it.
 template <class T>
 struct BasicPhotometricInput {
+  static_assert(std::is_same<T, std::uint8_t>::value || std::is_same<T, float>::value,
+                "textplane: target images are 8-bit or float; T is the pixel's type without const");
+
   PatchView patch;
   Pinhole<double> host_camera, target_camera;
   ImageView<const T> target;
