@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 3f7000fe4551f9d2
+// Hash of these files: 777a4fd5c9167fc3
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 3f7000fe4551f9d2"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 777a4fd5c9167fc3"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -16377,21 +16377,21 @@ TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::u
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
   const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
   __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o1)), 1);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o2)), 2);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o3)), 3);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o4)), 4);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o5)), 5);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o6)), 6);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o7)), 7);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
   __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o1)), 1);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o2)), 2);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o3)), 3);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o4)), 4);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o5)), 5);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o6)), 6);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o7)), 7);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
   *first = u;
   *second = l;
 }
@@ -16479,21 +16479,21 @@ TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::u
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
   const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
   __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o1)), 1);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o2)), 2);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o3)), 3);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o4)), 4);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o5)), 5);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o6)), 6);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o7)), 7);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
   __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o1)), 1);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o2)), 2);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o3)), 3);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o4)), 4);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o5)), 5);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o6)), 6);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o7)), 7);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
   *first = u;
   *second = l;
 }
@@ -16600,21 +16600,21 @@ TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::u
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
   const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
   __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o1)), 1);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o2)), 2);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o3)), 3);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o4)), 4);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o5)), 5);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o6)), 6);
-  u = _mm_insert_epi16(u, static_cast<int>(load_half(upper + o7)), 7);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
   __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o1)), 1);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o2)), 2);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o3)), 3);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o4)), 4);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o5)), 5);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o6)), 6);
-  l = _mm_insert_epi16(l, static_cast<int>(load_half(lower + o7)), 7);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
   *first = u;
   *second = l;
 }
