@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 777a4fd5c9167fc3
+// Hash of these files: b5568a394887f054
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 777a4fd5c9167fc3"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 b5568a394887f054"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -1945,8 +1945,16 @@ TEXTPLANE_END_NAMESPACE
 
 // A test may define this as a header that emulates the AVX-512 intrinsics: the avx512 regions are then built for AVX2, and
 // the target counts as supported wherever AVX2 is.
-#if defined(TEXTPLANE_EMULATED_AVX512)
+#if defined(TEXTPLANE_EMULATED_AVX512) && TEXTPLANE_HAS_KERNELS
 #include TEXTPLANE_EMULATED_AVX512
+#endif
+
+// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise, and may then exchange the operands of a
+// minimum; a NaN would get past a clamp. The minima and maxima of the vectors are out of its sight there.
+#if defined(__clang__) && defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#define TEXTPLANE_SIMD_HIDE_MINIMA 1
+#else
+#define TEXTPLANE_SIMD_HIDE_MINIMA 0
 #endif
 
 // Building blocks of a region and its entry points.
@@ -2249,7 +2257,8 @@ TEXTPLANE_END_NAMESPACE
 // TEXTPLANE_SIMD_KERNEL at its end. No include guard: each family of kernels includes it once.
 //
 // What is inside is built for the target whatever the command line says, and without contraction of a * b + c: where a
-// fused multiply-add is meant, it is written. (Clang's -ffp-contract=fast, which -ffast-math implies, overrides that.)
+// fused multiply-add is meant, it is written. -ffast-math is off inside, so that a NaN does not get past a clamp. (Clang's
+// own headers of intrinsics keep it, and its -ffp-contract=fast overrides the rest: bits may differ then.)
 //
 // The file must hold non-template functions, constants and plain structs alone: no #include, no function of std, Eigen or
 // the C library, no template, no class with members, no lambda. Inline functions of those are shared by the whole program;
@@ -2261,12 +2270,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 
 #define TEXTPLANE_SIMD_REGION 0
@@ -2824,12 +2833,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -3270,12 +3279,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -3350,8 +3359,18 @@ TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return a / b; }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
 // The second operand where either is NaN, and where both are zeros of whatever sign.
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE bool is_nan_(vf a) noexcept {
+  unsigned word = 0;
+  __builtin_memcpy(&word, &a, sizeof word);
+  return (word & 0x7fffffffu) > 0x7f800000u;
+}
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return is_nan_(a) || is_nan_(b) || !(a < b) ? b : a; }
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return is_nan_(a) || is_nan_(b) || !(a > b) ? b : a; }
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return a < b ? a : b; }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return a > b ? a : b; }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return TEXTPLANE_SIMD_SQRT(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return TEXTPLANE_SIMD_ABS(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
@@ -3561,8 +3580,19 @@ TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm_mul_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm_add_ps(_mm_mul_ps(a, b), c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm_sub_ps(c, _mm_mul_ps(a, b)); }
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  __asm__("minps %1, %0" : "+x"(a) : "x"(b));
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  __asm__("maxps %1, %0" : "+x"(a) : "x"(b));
+  return a;
+}
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm_max_ps(a, b); }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm_sqrt_ps(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm_xor_ps(_mm_set1_ps(-0.0f), a); }
@@ -3785,8 +3815,19 @@ TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm256_mul_ps(a, b); 
 TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm256_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm256_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm256_fnmadd_ps(a, b, c); }
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  __asm__("vminps %2, %1, %0" : "=x"(a) : "x"(a), "x"(b));
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  __asm__("vmaxps %2, %1, %0" : "=x"(a) : "x"(a), "x"(b));
+  return a;
+}
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm256_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm256_max_ps(a, b); }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm256_sqrt_ps(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm256_xor_ps(_mm256_set1_ps(-0.0f), a); }
@@ -4000,8 +4041,19 @@ TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm512_mul_ps(a, b); 
 TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm512_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  __asm__("vminps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  __asm__("vmaxps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
+  return a;
+}
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kAllLanes, a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAllLanes, a, b); }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAllLanes, a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm512_maskz_xor_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
@@ -4217,8 +4269,21 @@ TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return vdivq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return vfmaq_f32(c, a, b); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return vfmsq_f32(c, a, b); }
 // NEON's own minimum gives NaN for either operand and orders the zeros.
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  vm less;
+  __asm__("fcmgt %0.4s, %2.4s, %1.4s" : "=w"(less) : "w"(a), "w"(b));
+  return vbslq_f32(less, a, b);
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  vm greater;
+  __asm__("fcmgt %0.4s, %1.4s, %2.4s" : "=w"(greater) : "w"(a), "w"(b));
+  return vbslq_f32(greater, a, b);
+}
+#else
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return vbslq_f32(vcltq_f32(a, b), a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return vbslq_f32(vcgtq_f32(a, b), a, b); }
+#endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return vsqrtq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return vabsq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return vnegq_f32(a); }
@@ -4441,12 +4506,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -5478,12 +5543,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -6136,8 +6201,14 @@ struct PatchLevel {
   /// Valid until the vectors change.
   PatchView view() const noexcept {
     const bool gradients = gx.size() == x.size() && gy.size() == x.size();
-    return {x.data(), y.data(), intensity.data(), nullptr, static_cast<int>(x.size()), gradients ? gx.data() : nullptr,
-            gradients ? gy.data() : nullptr, bounds};
+    return {x.data(),
+            y.data(),
+            intensity.data(),
+            nullptr,
+            static_cast<int>(x.size()),
+            gradients ? gx.data() : nullptr,
+            gradients ? gy.data() : nullptr,
+            bounds};
   }
 };
 
@@ -6177,8 +6248,9 @@ struct TextPatch {
 ///
 /// Status::too_few where no level has `min_pixels` (the paper's 15) left, non_finite for a NaN quad, invalid_argument for an
 /// empty pyramid, no pixel lists or a camera that is not valid(). Allocates.
-inline TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
-                                   const std::vector<std::vector<Vector2<float>>>& pixels, int min_pixels = 15) {
+template <class = void>  // instantiated where it is called: including the header costs little
+TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
+                            const std::vector<std::vector<Vector2<float>>>& pixels, int min_pixels = 15) {
   TextPatch patch;
   patch.quad = quad;
   patch.camera = camera;
@@ -6240,8 +6312,9 @@ struct BlurMatch {
 ///
 /// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1; *out is then
 /// untouched.
-inline Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
-                         BlurMatch* out) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
+                  BlurMatch* out) noexcept {
   if (!all_finite(A) || !is_finite(host_variance) || !is_finite(target_variance) || !is_finite(spread))
     return Status::non_finite;
   if (!(host_variance >= 0) || !(target_variance >= 0) || !(spread >= 1)) return Status::invalid_argument;
@@ -6706,12 +6779,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -7174,12 +7247,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -7891,12 +7964,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -8870,12 +8943,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -9334,12 +9407,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -10203,12 +10276,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -12134,12 +12207,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -13383,12 +13456,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -14866,12 +14939,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -15236,12 +15309,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -16267,12 +16340,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -16833,12 +16906,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -17706,12 +17779,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -18965,12 +19038,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -19182,9 +19255,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 ///
 /// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1 then. A
 /// candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.
-inline Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
-                              const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
-                              const TemplatePatch* prepared = nullptr) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
+                       const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
+                       const TemplatePatch* prepared = nullptr) noexcept {
   if (count < 0 || (count > 0 && (!T_t_h || !zncc))) return Status::invalid_argument;
   for (int i = 0; i < count; ++i) zncc[i] = -1.0F;
   const Status status = detail::check_input(in, theta, SE3d(), options, workspace);
@@ -19192,7 +19266,8 @@ inline Status zncc_candidates(const PhotometricInput& in, const Vector3<double>&
   PhotometricOptions plain = options;
   plain.robust = Robust{RobustKind::l2, 1.0};
 
-  const bool fast = prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(in, plain, workspace);
+  const bool fast =
+      prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(in, plain, workspace);
   if (fast) {
     simd::ZnccArgs args;
     args.base = detail::kernel_args(in, theta, SE3d(), plain, workspace, nullptr, nullptr);
@@ -19255,12 +19330,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -19558,12 +19633,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -20814,12 +20889,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -22494,12 +22569,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -24122,12 +24197,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -24881,8 +24956,9 @@ inline Status extract_upright_template(const ImageView8& image, float x, float y
 
 // Samples at centre + A (i, j), |i|, |j| <= reach, all of which lie inside the image or a hair outside. `out` begins
 // with that of (-reach, -reach), its rows are simd::kKltStride floats apart.
-inline void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int reach,
-                          float* out) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int reach,
+                   float* out) noexcept {
   const int side = 2 * reach + 1;
   const Vector2<double> first = centre.cast<double>() - A.cast<double>() * Vector2<double>::Constant(reach);
   Matrix3<double> H = Matrix3<double>::Identity();
@@ -24908,8 +24984,9 @@ inline void sample_affine(const ImageView8& image, const Vector2<float>& centre,
 /// in [1, kMaxPatchHalf]. One more ring of samples is read for the gradients (central differences). Returns, and stores
 /// in `t->status`: ok; out_of_view where a sample leaves the image; no_contrast; degenerate for a singular A;
 /// non_finite; invalid_argument. No allocation; any number of threads.
-inline Status extract_template(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A,
-                               int half, PatchTemplate* t) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+Status extract_template(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int half,
+                        PatchTemplate* t) noexcept {
   t->left = t->top = t->columns = t->rows = 0;
   t->dx = t->dy = 0;
   if (!image.valid() || half < 1 || half > kMaxPatchHalf) return t->status = Status::invalid_argument;
@@ -25142,12 +25219,12 @@ TEXTPLANE_END_NAMESPACE
 #if TEXTPLANE_HAS_KERNELS
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(push)
+#pragma float_control(precise, on, push)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off")
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
@@ -25964,8 +26041,9 @@ inline Alignment search(const PatchTemplate& t, const ImageView8& image, const V
 
 // One direction: the patch round `source` (level 0 of `from`) is looked for in `to`, starting at `guess`. A coarse
 // level that does not work out is skipped, the finest must succeed.
-inline Alignment track_one(const PyramidView& from, const PyramidView& to, const Vector2<float>& source,
-                           const Vector2<float>& guess, int levels, const KltOptions& options) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+Alignment track_one(const PyramidView& from, const PyramidView& to, const Vector2<float>& source,
+                    const Vector2<float>& guess, int levels, const KltOptions& options) noexcept {
   constexpr int kMinSide = 7;             // of a cut patch, px
   constexpr float kMinCoarseZncc = 0.3F;  // below it a coarse estimate is no better than none
   constexpr float kCoarseEpsilon = 0.1F;  // px of its level: the next one finds what is left
@@ -26024,8 +26102,9 @@ inline bool valid_levels(const PyramidView& pyramid, int levels) noexcept {
 /// min_zncc or the point tracked back is more than max_forward_backward px off (px, zncc and fb_error tell); non_finite
 /// (px = 0); invalid_argument for broken pyramids or options. On failures but `diverged`, px is the guess or the
 /// estimate of the coarser levels.
-inline void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<float>* from_px,
-                      const Vector2<float>* guess, int n, const KltOptions& options, KltResult* out) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<float>* from_px,
+               const Vector2<float>* guess, int n, const KltOptions& options, KltResult* out) noexcept {
   int levels = options.levels < from.levels ? options.levels : from.levels;
   if (to.levels < levels) levels = to.levels;
   const bool valid = levels >= 1 && levels <= kMaxPyramidLevels && options.half_window >= 1 &&
@@ -26110,7 +26189,8 @@ struct CellGrid {
 };
 
 // Strongest first; equal scores in raster order, so that the outcome does not depend on the sort.
-inline void sort_by_score(std::vector<Corner>* corners) {
+template <class = void>  // instantiated where it is called: including the header costs little
+void sort_by_score(std::vector<Corner>* corners) {
   std::sort(corners->begin(), corners->end(), [](const Corner& a, const Corner& b) {
     if (a.score != b.score) return a.score > b.score;
     return a.y != b.y ? a.y < b.y : a.x < b.x;
@@ -26123,7 +26203,8 @@ struct PixelBox {
   bool empty() const noexcept { return x0 >= x1 || y0 >= y1; }
 };
 
-inline PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
+template <class = void>  // instantiated where it is called: including the header costs little
+PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
   if (polygon.empty()) return {};
   Bounds<double> b{polygon[0], polygon[0]};
   for (int i = 1; i < polygon.size(); ++i) {
@@ -26135,8 +26216,9 @@ inline PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
 }
 
 // Corners inside the region at the highest threshold that gives `enough` of them, or at the lowest.
-inline std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region,
-                                             const PixelBox& box, const SelectOptions& options, int enough) {
+template <class = void>  // instantiated where it is called: including the header costs little
+std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
+                                      const SelectOptions& options, int enough) {
   // The detector leaves out 3 px at each border of what it is given.
   const int x0 = std::max(box.x0 - 3, 0), y0 = std::max(box.y0 - 3, 0);
   const int x1 = std::min(box.x1 + 3, image.width()), y1 = std::min(box.y1 + 3, image.height());
@@ -26153,8 +26235,8 @@ inline std::vector<Corner> corners_in_region(const ImageView8& image, const Conv
 }
 
 // Takes corners in rounds, at most one more from each cell a round, strongest first.
-inline void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, int max_pixels,
-                           std::vector<Corner>* out) {
+template <class = void>  // instantiated where it is called: including the header costs little
+void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, int max_pixels, std::vector<Corner>* out) {
   sort_by_score(&corners);
   std::vector<int> taken(grid.size(), 0);
   for (int round = 0; !corners.empty(); ++round) {
@@ -26174,8 +26256,9 @@ inline void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, i
 }
 
 // The pixel of largest gradient of every cell without a pixel in `out`, strongest cells first.
-inline void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
-                               const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
+template <class = void>  // instantiated where it is called: including the header costs little
+void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
+                        const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
   std::vector<Corner> best(grid.size());
   for (const Corner& p : *out) best[grid.index(p.x, p.y)].score = -1.0F;
   const int x0 = std::max(box.x0, 1), y0 = std::max(box.y0, 1);
@@ -26209,8 +26292,9 @@ inline void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<doub
 /// px of `image`; its convex hull is meant, and what of it lies outside the image is left out. `out`: integer
 /// positions, replaced, each pixel once. Deterministic. Status::too_few where fewer than min_pixels qualify (out then
 /// holds those), degenerate for a quad without area, non_finite, invalid_argument. Allocates.
-inline Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
-                            std::vector<Vector2<float>>& out) {
+template <class = void>  // instantiated where it is called: including the header costs little
+Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
+                     std::vector<Vector2<float>>& out) {
   out.clear();
   if (!image.valid() || options.max_pixels < 1 || options.min_pixels < 0) return Status::invalid_argument;
   if (!all_finite(quad)) return Status::non_finite;
@@ -26239,8 +26323,9 @@ inline Status select_pixels(const ImageView8& image, const Quad<double>& quad, c
 /// Of the corners of a width x height image the strongest of every square cell of `cell` px in which no point of
 /// `occupied` lies, strongest first (equal scores in raster order), at most `max_corners`. Corners and occupied points
 /// outside the image are ignored. `out` is replaced and left empty for non-positive sizes. Allocates.
-inline void select_spread(const std::vector<Corner>& corners, int width, int height, int cell, int max_corners,
-                          const std::vector<Vector2<float>>& occupied, std::vector<Corner>& out) {
+template <class = void>  // instantiated where it is called: including the header costs little
+void select_spread(const std::vector<Corner>& corners, int width, int height, int cell, int max_corners,
+                   const std::vector<Vector2<float>>& occupied, std::vector<Corner>& out) {
   std::vector<Corner> best;  // `out` may be `corners`
   if (width > 0 && height > 0 && cell > 0 && max_corners > 0) {
     const detail::CellGrid grid(0, 0, width, height, cell);
@@ -26265,8 +26350,9 @@ inline void select_spread(const std::vector<Corner>& corners, int width, int hei
 /// pyramid has fewer), with their intensities. `quad`: px of level 0, `camera`: the host's. Status as
 /// patch_from_pixels(), and that of select_pixels() where the finest level fails: a patch without level 0 is not used.
 /// Allocates.
-inline TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
-                            const SelectOptions& options = {}) {
+template <class = void>  // instantiated where it is called: including the header costs little
+TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
+                     const SelectOptions& options = {}) {
   const int levels = std::min({options.levels, host.levels, kMaxPyramidLevels});
   std::vector<std::vector<Vector2<float>>> pixels(static_cast<std::size_t>(std::max(levels, 0)));
   Status finest = Status::invalid_argument;
@@ -26281,8 +26367,9 @@ inline TextPatch make_patch(const PyramidView& host, const Pinhole<double>& came
 }
 
 /// The same from an image, of which a pyramid is built.
-inline TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, const Quad<double>& quad,
-                            const SelectOptions& options = {}) {
+template <class = void>  // instantiated where it is called: including the header costs little
+TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, const Quad<double>& quad,
+                     const SelectOptions& options = {}) {
   const Pyramid pyramid(host, std::min(std::max(options.levels, 1), kMaxPyramidLevels));
   return make_patch(pyramid.view(), camera, quad, options);
 }
@@ -27496,6 +27583,7 @@ struct SearchOptions {
 namespace detail {
 
 // Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was there.
+template <class = void>  // as search_pose() below
 class PoseSearch {
  public:
   static constexpr int kMost = 8;
@@ -27579,9 +27667,9 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
   }
   if (!(q[2] > 0)) return T_t_h;
 
-  detail::PoseSearch search(in, theta, T_t_h, {q[0] / q[2], q[1] / q[2]}, options, workspace,
-                            prepared ? prepared + level : nullptr);
-  search.shifts(T_t_h, std::min(std::max(options.radius, 0), detail::PoseSearch::kMost), options.step, 0);
+  detail::PoseSearch<> search(in, theta, T_t_h, {q[0] / q[2], q[1] / q[2]}, options, workspace,
+                              prepared ? prepared + level : nullptr);
+  search.shifts(T_t_h, std::min(std::max(options.radius, 0), detail::PoseSearch<>::kMost), options.step, 0);
   if (options.roll != 0) {
     const SE3d shifted = search.best();
     for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0})
