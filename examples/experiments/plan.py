@@ -3,7 +3,7 @@
 A case is rendered once and run in every mode, so that the modes meet the same images and detections.
 """
 MODES = ("text", "points", "loose")
-KINDS = ("room", "corridor", "rapid", "lights", "sparse", "notext")
+KINDS = ("room", "corridor", "rapid", "lights", "sparse", "loop", "notext")
 SEEDS = (1, 2, 3)
 
 # Sweeps vary one condition of the room; each: the option of textslam, its unit, and the values.
@@ -28,17 +28,18 @@ class Case:
 
 
 def cases(kinds, seeds, sweeps, frames, sequence):
-    """The cases asked for, in the order of the report. `sequence`: the path of a folder, or None."""
+    """The cases asked for, in the order of the report. `frames`: None for each kind's own. `sequence`: the path of a folder, or None."""
+    length = ["--frames", str(frames)] if frames else []
     out = []
     for kind in kinds:
         for seed in seeds:
-            arguments = ["--render", kind, "--seed", str(seed), "--frames", str(frames)]
+            arguments = ["--render", kind, "--seed", str(seed), *length]
             out.append(Case(f"{kind}-{seed}", "kinds", kind, arguments, seed=seed))
     if sequence:
         out.append(Case("sequence", "sequence", sequence.resolve().name, sequence=sequence))
     for sweep in sweeps:
         option, _, values = SWEEPS[sweep]
         for value in values:
-            arguments = ["--render", SWEEP_KIND, "--seed", str(SWEEP_SEED), "--frames", str(frames), option, str(value)]
+            arguments = ["--render", SWEEP_KIND, "--seed", str(SWEEP_SEED), *length, option, str(value)]
             out.append(Case(f"{sweep}-{value}", sweep, SWEEP_KIND, arguments, seed=SWEEP_SEED, value=value))
     return out

@@ -68,9 +68,10 @@ class Report:
 
     def head(self):
         setting = self.setting
+        length = f"{setting['frames']} frames" if setting["frames"] else "each kind's own length"
         return f"""# Experiments
 
-Written by `examples/experiments/run`; do not edit. The modes of `textslam` on rendered sequences of {setting["frames"]} frames
+Written by `examples/experiments/run`; do not edit. The modes of `textslam` on rendered sequences of {length}
 (640x480, exact truth), seeds {", ".join(map(str, setting["seeds"]))}, and on a real one where its folder was given:
 
 - `text`: points and text planes in one cost, the paper's method;
