@@ -14,7 +14,8 @@ packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev fonts-dejavu-core"
 packages_test="$packages_demo libgtest-dev libopencv-dev libceres-dev"
-packages_ci="$packages_test clang libclang-rt-dev binutils qemu-user libsimde-dev g++-aarch64-linux-gnu googletest"
+packages_ci="$packages_test clang libclang-rt-dev binutils qemu-user libsimde-dev g++-aarch64-linux-gnu googletest
+  chromium"
 
 say() { printf '\n== %s\n' "$*"; }
 warn() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }

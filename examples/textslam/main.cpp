@@ -64,6 +64,10 @@ int execute(int argc, char** argv) {
   app.add_option("--frames", render.frames, "Number of rendered frames; by default as many as the kind goes for")
       ->check(CLI::PositiveNumber);
   add_conditions(app, render);
+  bool no_report = false;
+  app.add_flag("--no-report", no_report, "Leave out report.html");
+  app.add_flag("--json-lines", options.json_lines,
+               "A JSON object a frame on standard output, as it is processed, then one with the metrics; no table");
   app.add_flag("--render-only", only_render, "Render without running on it");
   try {
     app.parse(argc, argv);
@@ -87,8 +91,12 @@ int execute(int argc, char** argv) {
     });
     if (only_render) return 0;
   }
+  options.report = !no_report;
+  options.command.assign(argv, argv + argc);
   const textslam::RunResult result = textslam::run(options);
-  std::printf("%s  %-22s %s\n", textslam::format_summary(result.summary).c_str(), "output", options.output.c_str());
+  if (!options.json_lines)
+    std::printf("%s  %-22s %s\n", textslam::format_summary(result.summary).c_str(), "output",
+                (result.report.empty() ? options.output : result.report).c_str());
   const std::string warning = textslam::warning(result.summary);
   if (!warning.empty()) std::fprintf(stderr, "textslam: %s\n", warning.c_str());
   if (result.error.empty()) return 0;

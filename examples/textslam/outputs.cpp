@@ -125,6 +125,17 @@ Json loops_json(const std::vector<LoopRecord>& loops) {
   return out;
 }
 
+// In order of time, which that of the ids is not where maps were joined.
+std::vector<StampedPose> keyframe_trajectory(const Map& map) {
+  std::vector<StampedPose> poses;
+  for (const KeyFrame& keyframe : map.keyframes) poses.push_back({keyframe.frame.timestamp, keyframe.T_w_c});
+  std::sort(poses.begin(), poses.end(),
+            [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
+  return poses;
+}
+
+}  // namespace
+
 std::string metrics_json(const RunSummary& s) {
   Json out{{"frames", s.frames},
            {"tracked", s.tracked},
@@ -154,17 +165,6 @@ std::string metrics_json(const RunSummary& s) {
   }
   return out.dump(1) + "\n";
 }
-
-// In order of time, which that of the ids is not where maps were joined.
-std::vector<StampedPose> keyframe_trajectory(const Map& map) {
-  std::vector<StampedPose> poses;
-  for (const KeyFrame& keyframe : map.keyframes) poses.push_back({keyframe.frame.timestamp, keyframe.T_w_c});
-  std::sort(poses.begin(), poses.end(),
-            [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
-  return poses;
-}
-
-}  // namespace
 
 std::vector<StampedPose> final_trajectory(const System& system) {
   std::vector<StampedPose> poses;

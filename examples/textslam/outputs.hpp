@@ -5,8 +5,9 @@
 //   keyframes.txt        TUM, final poses of the key frames
 //   text_map.json        {"texts":[{"id","text","corners","normal","theta","host","observations","zncc"}]}, world frame
 //   text_map.ply         text quads as faces, points, colours
-//   timing.json          milliseconds by stage; the only file that differs between two runs
+//   timing.json          milliseconds by stage; differs between two equal runs
 //   metrics.json         counts; errors where ground truth exists
+//   report.html          all of it to look at, see report.hpp; its block `run` differs between two equal runs
 //
 // Where parts of a sequence were mapped apart and never joined, the outputs are those of the map with most frames, and the
 // frames of the others count as lost; metrics.json says so.
@@ -46,7 +47,10 @@ std::vector<StampedPose> live_trajectory(const System& system);
 /// the run was to process.
 RunSummary summarise(const System& system, const Sequence& sequence, std::size_t frames);
 
-/// Writes every file into `folder`, which exists. Where one cannot be written, the others are, and then the first error is
+/// The text of metrics.json.
+std::string metrics_json(const RunSummary& summary);
+
+/// Writes every file but the report into `folder`, which exists. Where one cannot be written, the others are, and then the first error is
 /// thrown: std::runtime_error.
 void write_outputs(const std::string& folder, const System& system, const RunSummary& summary);
 

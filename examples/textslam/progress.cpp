@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "textslam/tracker.hpp"
@@ -19,8 +21,18 @@ void Progress::show(std::size_t done, std::size_t total, const std::string& deta
   const double now = now_ms();
   if (!terminal_ || (done < total && now - last_ms_ < 100)) return;
   last_ms_ = now;
-  const double rate = 1000 * static_cast<double>(done) / (now - start_ms_ + 1e-3);
-  std::fprintf(stderr, "\r%s %zu/%zu, %.0f frames/s  %s\033[K", what_.c_str(), done, total, rate, detail.c_str());
+  std::fprintf(stderr, "\r%s\033[K", progress_line(what_, done, total, now - start_ms_, detail).c_str());
+}
+
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_ms,
+                          const std::string& detail) {
+  const double seconds = std::max(elapsed_ms, 1e-3) / 1000, count = static_cast<double>(done);
+  const double rate = count / seconds;
+  const auto left = done > 0 ? std::lround(static_cast<double>(total - done) * seconds / count) : 0;
+  char numbers[96];
+  std::snprintf(numbers, sizeof numbers, " %zu/%zu, %.*f frames/s, %ld:%02ld left  ", done, total, rate < 10 ? 1 : 0,
+                rate, left / 60, left % 60);
+  return what + numbers + detail;
 }
 
 }  // namespace textslam

@@ -10,6 +10,7 @@ class Progress {
  public:
   explicit Progress(std::string what);
   ~Progress();
+  /// Rewrites the line, at most ten times a second.
   void show(std::size_t done, std::size_t total, const std::string& detail);
 
  private:
@@ -17,6 +18,10 @@ class Progress {
   bool terminal_;
   double start_ms_, last_ms_ = 0;
 };
+
+/// `what 120/240, 45 frames/s, 0:03 left  detail`.
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_ms,
+                          const std::string& detail);
 
 }  // namespace textslam
 

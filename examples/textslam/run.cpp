@@ -1,6 +1,7 @@
 #include "textslam/run.hpp"
 
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <thread>
 
@@ -8,7 +9,9 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "io/output_file.hpp"
+#include "textslam/frame_line.hpp"
 #include "textslam/progress.hpp"
+#include "textslam/report.hpp"
 #include "textslam/text_detector.hpp"
 #include "textslam/undistorter.hpp"
 
@@ -35,12 +38,20 @@ class FrameSource {
     if (parameters_.mode != Mode::points)
       frame.detections = undistort_(detector_->detect(sequence_.frames[at], raw.view()));
     if (detect_ms) *detect_ms = now_ms() - start;
-    const Image<std::uint8_t> image = undistort_(raw);
-    frame.image = std::make_shared<const Pyramid>(image.view(), parameters_.pyramid_levels);
+    frame.image = pyramid(raw);
     return frame;
   }
 
+  std::shared_ptr<const Pyramid> image(int index) {
+    return pyramid(load_frame(sequence_, first_ + static_cast<std::size_t>(index)));
+  }
+
  private:
+  std::shared_ptr<const Pyramid> pyramid(const Image<std::uint8_t>& raw) {
+    const Image<std::uint8_t> image = undistort_(raw);
+    return std::make_shared<const Pyramid>(image.view(), parameters_.pyramid_levels);
+  }
+
   const Sequence& sequence_;
   const Parameters& parameters_;
   std::size_t first_;
@@ -103,6 +114,7 @@ RunResult run(const RunOptions& options) {
   FrameSource source(sequence, options);
   System system(sequence.camera.pinhole, sequence.camera.width, sequence.camera.height, options.parameters);
   Clock clock(options.parameters.real_time);
+  std::vector<std::vector<Detection>> detections;
   keep_going(result, [&] {
     Progress progress("tracking");
     for (int index = 0; index < total && !result.interrupted; ++index) {
@@ -111,12 +123,11 @@ RunResult run(const RunOptions& options) {
       const Frame frame = source.load(index, &detect_ms);
       const FrameRecord& record = system.process(frame, detect_ms);
       clock.done();
-      const char* state = record.state == FrameState::tracked ? "tracked"
-                          : record.state == FrameState::lost  ? "lost"
-                                                              : "waiting";
+      detections.push_back(frame.detections);
       progress.show(static_cast<std::size_t>(index + 1), static_cast<std::size_t>(total),
-                    std::string(state) + ", " + std::to_string(record.points) + " points, " +
+                    std::string(to_string(record.state)) + ", " + std::to_string(record.points) + " points, " +
                         std::to_string(record.texts) + " texts");
+      if (options.json_lines) print_line(frame_line(index, record, system.map()));
       if (interrupted() == 0 || index + 1 == total) continue;
       result.interrupted = true;
       result.error = "interrupted after frame " + std::to_string(index) + "; what was computed is in " + options.output;
@@ -127,11 +138,35 @@ RunResult run(const RunOptions& options) {
   RunSummary& summary = result.summary;
   summary = summarise(system, sequence, static_cast<std::size_t>(total));
   summary.latency_ms = clock.latency_ms();
+  std::vector<TrueSign> signs;
   if (summary.has_truth && textplane::is_ok(summary.trajectory.status))
     keep_going(result, [&] {
-      summary.text = evaluate_text(system.map(), read_true_signs(sequence), summary.trajectory.alignment);
+      signs = read_true_signs(sequence);
+      summary.text = evaluate_text(system.map(), signs, summary.trajectory.alignment);
     });
-  write_outputs(options.output, system, summary);
+  std::exception_ptr failure;
+  try {
+    write_outputs(options.output, system, summary);
+  } catch (const std::exception&) {
+    failure = std::current_exception();
+  }
+  if (options.report)
+    keep_going(result, [&] {
+      const ReportInput input{system,
+                              options.parameters,
+                              sequence,
+                              summary,
+                              signs,
+                              detections,
+                              [&](int index) { return source.image(index); },
+                              options.command,
+                              options.first};
+      const std::string path = options.output + "/report.html";
+      write_file(path, report_html(input));
+      result.report = path;
+    });
+  if (options.json_lines) print_line(summary_line(summary));
+  if (failure) std::rethrow_exception(failure);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #define TEXTSLAM_RUN_HPP
 
 #include <string>
+#include <vector>
 
 #include "textslam/outputs.hpp"
 #include "textslam/parameters.hpp"
@@ -15,10 +16,14 @@ struct RunOptions {
   int first = 0;  ///< Index of the first frame.
   int last = -1;  ///< Index of the last frame; -1: the sequence's last.
   Parameters parameters;
+  bool report = true;       ///< Write report.html.
+  bool json_lines = false;  ///< An object a frame on standard output (frame_line()), then one with the metrics.
+  std::vector<std::string> command;  ///< The command line, for the report.
 };
 
 struct RunResult {
   RunSummary summary;
+  std::string report;        ///< Path of the report; empty where there is none.
   std::string error;         ///< Empty, or one line about what ended the run early; what came before is written.
   bool interrupted = false;  ///< By a signal: see io/interrupt.hpp.
 };

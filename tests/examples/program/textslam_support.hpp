@@ -24,8 +24,9 @@
 
 namespace textslam {
 
-constexpr std::array<const char*, 7> kOutputs = {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "text_map.json",
-                                                 "text_map.ply",   "timing.json",         "metrics.json"};
+constexpr std::array<const char*, 8> kOutputs = {"trajectory.txt", "trajectory_live.txt", "keyframes.txt",
+                                                 "text_map.json",  "text_map.ply",        "timing.json",
+                                                 "metrics.json",   "report.html"};
 
 inline std::string quoted(const std::string& word) {
   std::string out = "'";
@@ -39,6 +40,27 @@ inline std::string bytes_of(const std::string& path) {
   std::ostringstream out;
   out << file.rdbuf();
   return out.str();
+}
+
+/// The inside of the script element `id` of a report.
+inline std::string report_block(const std::string& page, const std::string& id) {
+  const std::string start = "<script type=\"application/json\" id=\"" + id + "\">", end = "</script>";
+  const std::size_t from = page.find(start);
+  EXPECT_NE(from, std::string::npos) << id;
+  if (from == std::string::npos) return "";
+  const std::size_t to = page.find(end, from);
+  EXPECT_NE(to, std::string::npos) << id;
+  return page.substr(from + start.size(), to - from - start.size());
+}
+
+/// What two equal runs have in common of an output file; empty: nothing need be the same.
+inline std::string same_part(const std::string& folder, const std::string& name) {
+  if (name == "timing.json") return "";  // milliseconds
+  std::string bytes = bytes_of(folder + "/" + name);
+  if (name != "report.html") return bytes;
+  // The command line, which names the folders, and milliseconds.
+  const std::string block = report_block(bytes, "run");
+  return bytes.erase(bytes.find(block), block.size());
 }
 
 struct ProgramResult {

@@ -1,0 +1,74 @@
+// The numbers at the top, and where it all comes from: version, CPU, command, parameters.
+"use strict";
+
+function show_tiles(data) {
+  const brief = (v) => String(Number(v.toPrecision(2)));
+  const s = data.summary, tiles = [];
+  const tile = (name, value) => { if (value !== "") tiles.push([name, value]); };
+  tile("Frames tracked", `${s.tracked} of ${s.frames}`);
+  tile("Key frames", String(s.keyframes));
+  tile("Points", String(s.points));
+  tile("Texts", String(s.texts));
+  if (s.loops) tile("Loops closed", String(s.loops));
+  if (s.ate_rmse !== undefined) {
+    tile("ATE, rmse", `${brief(1000 * s.ate_rmse)} mm`);
+    if (s.path_length > 0) tile("ATE, share of path", `${brief(100 * s.ate_rmse / s.path_length)} %`);
+  }
+  if (s.signs_visible !== undefined) tile("Signs mapped", `${s.signs_mapped} of ${s.signs_visible}`);
+  if (s.signs_mapped) tile("Angle error, median", `${brief(s.angle_median_deg)}\u00b0`);
+  for (const [name, value] of tiles) {
+    const box = element("div");
+    box.append(element("dt", name), element("dd", value));
+    by_id("tiles").append(box);
+  }
+}
+
+function show_notice(data) {
+  const s = data.summary, words = [];
+  if (!data.series.time.length) words.push("No frame was processed.");
+  else if (!s.tracked) words.push("No frame could be tracked, so there is no map: the images show too little, or move too little.");
+  if (s.map_frames.length > 1)
+    words.push(`The sequence was mapped in ${s.map_frames.length} parts, of ${s.map_frames.join(", ")} frames, which were never joined. This is the first of them.`);
+  by_id("notice").textContent = words.join(" ");
+  by_id("notice").hidden = !words.length;
+}
+
+/// The word as a shell takes it.
+const quoted = (word) => (/^[\w./:=,+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
+
+function show_provenance(data, run) {
+  const facts = [["Program", `textslam ${data.version}`], ["SIMD target", run.target], ["Sequence", run.sequence]];
+  if (data.start !== null) {
+    const end = data.start + data.series.time[data.series.time.length - 1];
+    facts.push(["Frames", `${run.first} to ${run.first + data.series.time.length - 1}`]);
+    // Time stamps that count from 1970 are dates.
+    const date = data.start > 1e8 ? `, ${new Date(1000 * data.start).toISOString().replace(/\.\d+Z/, " UTC").replace("T", " ")}` : "";
+    facts.push(["Time stamps", `${data.start} to ${Number(end.toFixed(6))} s${date}`]);
+  }
+  const c = data.camera;
+  facts.push(["Camera", `${c.width} x ${c.height} px, fx ${c.fx}, fy ${c.fy}, cx ${c.cx}, cy ${c.cy}`]);
+  if (data.summary.scale !== undefined) facts.push(["Unit of the map", `${data.summary.scale} m, by the alignment with the ground truth`]);
+  for (const [name, value] of facts) by_id("provenance").append(element("dt", name), element("dd", value));
+  by_id("command").textContent = run.command.map(quoted).join(" ");
+
+  const sections = new Map();
+  for (const [section, name, value, comment] of data.parameters) {
+    if (!sections.has(section)) {
+      sections.set(section, element("section"));
+      sections.get(section).append(element("h4", section || "Run"));
+    }
+    const row = element("div", null, { title: comment });
+    row.append(element("span", name), element("span", String(value)));
+    sections.get(section).append(row);
+  }
+  by_id("parameters").append(...sections.values());
+
+  const table = by_id("stages"), head = element("tr");
+  head.append(...["Stage", "Median, ms", "95th percentile, ms"].map((name) => element("th", name)));
+  table.append(head);
+  for (const stage of run.timing) {
+    const row = element("tr");
+    row.append(element("td", stage.name), element("td", digits(stage.median, 2)), element("td", digits(stage.p95, 2)));
+    table.append(row);
+  }
+}

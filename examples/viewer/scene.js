@@ -1,0 +1,130 @@
+// Scene: the map as buffers of WebGL 2. Layers of lines and points in one colour each, and the texts as textured quads.
+"use strict";
+
+const SHADERS = {
+  plain: [`#version 300 es
+    in vec3 position; uniform mat4 clip; uniform float size;
+    void main() { gl_Position = clip * vec4(position, 1.0); gl_PointSize = size; }`,
+  `#version 300 es
+    precision mediump float; uniform vec3 colour; uniform bool round; out vec4 result;
+    void main() { if (round && length(gl_PointCoord - 0.5) > 0.5) discard; result = vec4(colour, 1.0); }`],
+  textured: [`#version 300 es
+    in vec3 position; in vec2 at; uniform mat4 clip; out vec2 uv;
+    void main() { gl_Position = clip * vec4(position, 1.0); uv = at; }`,
+  `#version 300 es
+    precision mediump float; uniform sampler2D image; in vec2 uv; out vec4 result;
+    void main() { result = vec4(texture(image, uv).rgb, 1.0); }`],
+};
+const QUAD_CELLS = 6;  // a side: the picture is bilinear in the corners, a pair of triangles is not
+
+class Scene {
+  /// Throws where there is no WebGL 2.
+  constructor(canvas) {
+    const gl = canvas.getContext("webgl2", { antialias: true });
+    if (!gl) throw new Error("no WebGL 2");
+    this.gl = gl;
+    this.programs = {};
+    for (const name of Object.keys(SHADERS)) this.programs[name] = this.program(...SHADERS[name]);
+    this.layers = [];
+    this.quads = [];
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+  }
+
+  program(vertex, fragment) {
+    const gl = this.gl, program = gl.createProgram();
+    for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    }
+    gl.bindAttribLocation(program, 0, "position");
+    gl.bindAttribLocation(program, 1, "at");
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+    const place = (name) => gl.getUniformLocation(program, name);
+    return { program, clip: place("clip"), size: place("size"), colour: place("colour"), round: place("round") };
+  }
+
+  /// A layer of lines (pairs of vertices) or points; `colour` is a CSS variable. set() gives it its vertices.
+  add_layer(name, colour, points = 0) {
+    const gl = this.gl, layer = { name, colour, points, visible: true, count: 0 };
+    layer.array = gl.createVertexArray();
+    layer.buffer = gl.createBuffer();
+    gl.bindVertexArray(layer.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, layer.buffer);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+    layer.set = (numbers) => {
+      gl.bindBuffer(gl.ARRAY_BUFFER, layer.buffer);
+      gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.DYNAMIC_DRAW);
+      layer.count = numbers.length / 3;
+    };
+    this.layers.push(layer);
+    return layer;
+  }
+
+  /// A quad with a picture; `ready` is called when that can be drawn.
+  add_quad(corners, picture, ready) {
+    const gl = this.gl, vertices = [];
+    const vertex = (i, j) => {
+      const u = i / QUAD_CELLS, v = j / QUAD_CELLS;
+      vertices.push(...mix(mix(corners[0], corners[1], u), mix(corners[3], corners[2], u), v), u, v);
+    };
+    for (let j = 0; j < QUAD_CELLS; ++j)
+      for (let i = 0; i < QUAD_CELLS; ++i)
+        for (const [a, b] of [[0, 0], [1, 0], [1, 1], [0, 0], [1, 1], [0, 1]]) vertex(i + a, j + b);
+    const quad = { array: gl.createVertexArray(), texture: gl.createTexture(), count: vertices.length / 5 };
+    gl.bindVertexArray(quad.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(vertices), gl.STATIC_DRAW);
+    for (const [at, size, offset] of [[0, 3, 0], [1, 2, 12]]) {
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, size, gl.FLOAT, false, 20, offset);
+    }
+    const put = (...source) => {
+      gl.bindTexture(gl.TEXTURE_2D, quad.texture);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, ...source);
+      gl.generateMipmap(gl.TEXTURE_2D);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+    };
+    put(1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array([128, 128, 128, 255]));
+    if (picture) {
+      const image = new Image();
+      image.onload = () => { put(gl.RGBA, gl.UNSIGNED_BYTE, image); ready(); };
+      image.src = picture;
+    }
+    this.quads.push(quad);
+  }
+
+  draw(clip, with_quads) {
+    const gl = this.gl, [r, g, b] = rgb(css("--view"));
+    gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
+    gl.clearColor(r, g, b, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    if (with_quads) {
+      gl.useProgram(this.programs.textured.program);
+      gl.uniformMatrix4fv(this.programs.textured.clip, false, clip);
+      for (const quad of this.quads) {
+        gl.bindVertexArray(quad.array);
+        gl.bindTexture(gl.TEXTURE_2D, quad.texture);
+        gl.drawArrays(gl.TRIANGLES, 0, quad.count);
+      }
+    }
+    const plain = this.programs.plain, ratio = window.devicePixelRatio || 1;
+    gl.useProgram(plain.program);
+    gl.uniformMatrix4fv(plain.clip, false, clip);
+    for (const layer of this.layers) {
+      if (!layer.visible || !layer.count) continue;
+      gl.bindVertexArray(layer.array);
+      gl.uniform3fv(plain.colour, rgb(css(layer.colour)));
+      gl.uniform1f(plain.size, layer.points * ratio);
+      gl.uniform1i(plain.round, layer.points ? 1 : 0);
+      gl.drawArrays(layer.points ? gl.POINTS : gl.LINES, 0, layer.count);
+    }
+  }
+}
