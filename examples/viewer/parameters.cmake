@@ -5,6 +5,7 @@ if(NOT text MATCHES "struct Parameters {\n(.*)\n};")
   message(FATAL_ERROR "${HEADER}: no struct Parameters")
 endif()
 set(text "${CMAKE_MATCH_1}")
+string(REGEX REPLACE "=\n +" "= " text "${text}")  # a field that went on in the next line
 # What would make a list of it in the wrong places.
 string(REPLACE "[" "(" text "${text}")
 string(REPLACE "]" ")" text "${text}")

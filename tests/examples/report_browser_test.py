@@ -39,7 +39,8 @@ def check(condition, message):
 class Browser:
     """Chromium with one page, by the DevTools protocol: JSON messages that end in a zero byte."""
 
-    def __init__(self, program, profile, flags=()):
+    def __init__(self, program, flags=()):
+        self.profile = tempfile.mkdtemp()
         to_browser, from_browser = os.pipe(), os.pipe()
 
         def connect():  # Chromium reads from 3 and writes to 4
@@ -47,7 +48,7 @@ class Browser:
             os.dup2(read, 3)
             os.dup2(write, 4)
 
-        self.process = subprocess.Popen([program, *FLAGS, *flags, f"--user-data-dir={profile}", "about:blank"], preexec_fn=connect,
+        self.process = subprocess.Popen([program, *FLAGS, *flags, f"--user-data-dir={self.profile}", "about:blank"], preexec_fn=connect,
                                         pass_fds=(3, 4), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_browser[0])
         os.close(from_browser[1])
@@ -128,9 +129,13 @@ class Browser:
                          clip={"x": 0, "y": 0, "width": size["w"], "height": size["h"], "scale": 1})
         pathlib.Path(path).write_bytes(base64.b64decode(shot["data"]))
 
-    def quit(self):
-        self.call("Browser.close")
-        self.process.wait(WAIT)
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        shutil.rmtree(self.profile, ignore_errors=True)
 
 
 def colours(browser, canvas):
@@ -281,8 +286,7 @@ def main():
     if not program:
         print("skipped: there is no chromium; Debian's package of that name has it")
         sys.exit(SKIPPED)
-    with tempfile.TemporaryDirectory() as profile:
-        browser = Browser(program, profile)
+    with Browser(program) as browser:
         page = arguments.folder / "map.html"
         browser.open(page)
         for test in (test_view, test_playback, test_table, test_page):
@@ -301,9 +305,7 @@ def main():
               "a run without a map does not say so")
         print("ok: no map")
         check(not browser.troubles, f"the browser complains: {browser.troubles}")
-        browser.quit()
-    with tempfile.TemporaryDirectory() as profile:
-        browser = Browser(program, profile, ["--disable-3d-apis"])
+    with Browser(program, ["--disable-3d-apis"]) as browser:
         browser.open(page)
         check(browser.run("!document.getElementById('no-webgl').hidden"), "without WebGL the page does not say so")
         browser.key("ArrowRight")
@@ -311,7 +313,6 @@ def main():
         check(browser.run("document.querySelectorAll('#texts tbody tr').length") > 2, "without WebGL there is no table")
         click(browser, "#texts tbody tr")
         check(not browser.troubles, f"the browser complains: {browser.troubles}")
-        browser.quit()
         print("ok: without WebGL")
 
 
