@@ -232,12 +232,12 @@ TEST(RendererSequence, RefusesWhatItCannotRender) {
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path("a"))) << "nothing is made for an unknown kind";
   EXPECT_THROW(render_sequence(small("room", "", 1)), InputError);
-  EXPECT_THROW(render_sequence(small("room", folder.path("b"), 0)), InputError);
+  EXPECT_THROW(render_sequence(small("room", folder.path("b"), -1)), InputError);
   RenderOptions tiny = small("room", folder.path("b"), 1);
   tiny.width = 10;
   EXPECT_THROW(render_sequence(tiny), InputError);
   const std::vector<std::string> kinds = render_kinds();
-  for (const char* kind : {"room", "room-still", "corridor", "rapid", "lights", "sparse", "notext"}) {
+  for (const char* kind : {"room", "room-still", "corridor", "rapid", "lights", "sparse", "notext", "loop"}) {
     EXPECT_EQ(std::count(kinds.begin(), kinds.end(), kind), 1) << kind;
   }
 }
