@@ -67,11 +67,7 @@ TEST_F(TextslamLoop, TheSameBytesTwice) {
   expect_success(run("once"));
   expect_success(run("twice"));
   for (const char* name : kOutputs)
-    if (std::string(name) != "timing.json") {
-      EXPECT_EQ(bytes_of(folder_->path(std::string("once/") + name)),
-                bytes_of(folder_->path(std::string("twice/") + name)))
-          << name;
-    }
+    EXPECT_TRUE(same_part(folder_->path("once"), name) == same_part(folder_->path("twice"), name)) << name;
 }
 
 }  // namespace
