@@ -20,6 +20,7 @@ namespace textslam {
 
 /// The text of a detection that nobody could read.
 constexpr const char* kUnreadText = "###";
+inline bool is_read(const std::string& text) { return !text.empty() && text != kUnreadText; }
 
 struct Detection {
   Quad<double> quad;               ///< raw px, clockwise from the text's top left

@@ -9,8 +9,6 @@
 namespace textslam {
 namespace {
 
-constexpr int kSharedPoints = 15;  // that make neighbours of two key frames
-
 // What of the map takes part, and as what.
 struct Selection {
   std::vector<int> free_frames, fixed_frames;
@@ -152,7 +150,7 @@ class Adjustment {
     texts_.push_back(text.id);
   }
 
-  Parameters parameters_;
+  const Parameters& parameters_;
   std::size_t text_targets_;                     // at most, of a text
   int scale_frame_a_ = -1, scale_frame_b_ = -1;  // of the window
   textplane::Window window_;
@@ -162,23 +160,15 @@ class Adjustment {
   std::vector<int> frames_, points_, texts_;            // index in the window -> id
 };
 
-// Number of points that each key frame shares with the given points.
-std::vector<int> shared_points(const Map& map, const std::vector<int>& points) {
-  std::vector<int> shared(map.keyframes.size(), 0);
-  for (const int id : points)
-    for (const PointObservation& o : map.point(id).observations) ++shared[static_cast<std::size_t>(o.keyframe)];
-  return shared;
-}
-
-// The key frame farthest from key frame `id` that shares points with it; -1 where none does.
-int farthest_seen_from(const Map& map, int id) {
+// Of these key frames, the farthest from key frame `id` that is its neighbour; -1 where none is.
+int farthest_neighbour(const Map& map, const Parameters& parameters, int id, const std::vector<int>& among) {
   const std::vector<int> shared = shared_points(map, map.keyframe(id).points);
   int farthest = -1;
   double distance = 0;
-  for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
-    const double d = (map.keyframes[i].T_w_c.t - map.keyframe(id).T_w_c.t).norm();
-    if (shared[i] < kSharedPoints || d <= distance) continue;
-    farthest = static_cast<int>(i);
+  for (const int other : among) {
+    const double d = (map.keyframe(other).T_w_c.t - map.keyframe(id).T_w_c.t).norm();
+    if (shared[static_cast<std::size_t>(other)] < parameters.local_min_shared || d <= distance) continue;
+    farthest = other;
     distance = d;
   }
   return farthest;
@@ -212,7 +202,8 @@ Selection local_selection(const Map& map, const Parameters& parameters) {
   std::vector<int> shared = shared_points(map, map.keyframe(newest).points);
   shared[static_cast<std::size_t>(newest)] = static_cast<int>(map.points.size()) + 1;
   Selection selection;
-  selection.free_frames = strongest(shared, kSharedPoints, static_cast<std::size_t>(parameters.window_frames));
+  selection.free_frames =
+      strongest(shared, parameters.local_min_shared, static_cast<std::size_t>(parameters.window_frames));
   selection.free_frames.erase(std::remove(selection.free_frames.begin(), selection.free_frames.end(), 0),
                               selection.free_frames.end());
   selection.points = points_of(map, selection.free_frames);
@@ -222,7 +213,8 @@ Selection local_selection(const Map& map, const Parameters& parameters) {
   selection.fixed_frames = strongest(shared, 1, static_cast<std::size_t>(parameters.window_fixed));
   if (selection.fixed_frames.empty()) return {};
   // Where one alone is fixed, as in a young map, its distance to another holds the scale.
-  if (selection.fixed_frames.size() == 1) selection.scale_frame = farthest_seen_from(map, selection.fixed_frames[0]);
+  if (selection.fixed_frames.size() == 1)
+    selection.scale_frame = farthest_neighbour(map, parameters, selection.fixed_frames[0], selection.free_frames);
   return selection;
 }
 
@@ -279,7 +271,7 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
   for (std::size_t i = 1; i < map.keyframes.size(); ++i) selection.free_frames.push_back(static_cast<int>(i));
   for (std::size_t i = 0; i < map.points.size(); ++i)
     if (!map.points[i].bad) selection.points.push_back(static_cast<int>(i));
-  selection.scale_frame = std::max(1, farthest_seen_from(map, 0));
+  selection.scale_frame = std::max(1, farthest_neighbour(map, parameters, 0, selection.free_frames));
   for (int round = 0; round < 2; ++round) {
     Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
     adjustment.weigh_texts(map);

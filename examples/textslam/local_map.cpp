@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "textslam/point_mapper.hpp"
+
 namespace textslam {
 namespace {
 
@@ -21,9 +23,7 @@ class Neighbourhood {
 
   // Takes in the key frames that share enough with the given points and texts; those that are new.
   std::vector<int> add_around(const std::vector<int>& points, const std::vector<int>& texts) {
-    std::vector<int> shared(map_.keyframes.size(), 0);
-    for (const int id : points)
-      for (const PointObservation& o : map_.point(id).observations) ++shared[static_cast<std::size_t>(o.keyframe)];
+    std::vector<int> shared = shared_points(map_, points);
     for (const int id : texts) {
       const TextObject& text = map_.texts[static_cast<std::size_t>(id)];
       shared[static_cast<std::size_t>(text.host)] += parameters_.local_min_shared;

@@ -67,11 +67,11 @@ std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, 
   std::vector<Detection> out;
   if (words.empty()) return out;
   for (const Detection& detection : keyframe.frame.detections) {
-    const bool read = !detection.text.empty() && detection.text != kUnreadText;
-    const bool wanted = read ? std::find(words.begin(), words.end(), detection.text) != words.end()
-                             : std::none_of(known.begin(), known.end(), [&](const Quad<double>& quad) {
-                                 return textplane::iou(quad, detection.quad) >= kConfirming;
-                               });
+    const bool wanted = is_read(detection.text)
+                            ? std::find(words.begin(), words.end(), detection.text) != words.end()
+                            : std::none_of(known.begin(), known.end(), [&](const Quad<double>& quad) {
+                                return textplane::iou(quad, detection.quad) >= kConfirming;
+                              });
     if (wanted) out.push_back(detection);
   }
   return out;
@@ -87,8 +87,6 @@ int key_frame_met(const Map& old_part, const Recovery& seen) {
   return static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 
-double degrees(const Eigen::Matrix3d& R) { return textplane::so3_log<double>(R).norm() * 180 / M_PI; }
-
 }  // namespace
 
 double way_between(const Map& map, int a, int b) {
@@ -97,9 +95,9 @@ double way_between(const Map& map, int a, int b) {
   return way;
 }
 
-MapSplit split_map(const Map& map, const LocalMap& local) {
-  return {part_of(map, local, false), part_of(map, local, true)};
-}
+Map old_part(const Map& map, const LocalMap& local) { return part_of(map, local, false); }
+
+Map recent_part(const Map& map, const LocalMap& local) { return part_of(map, local, true); }
 
 Loop find_loop(const Map& map, const LocalMap& local, const Parameters& parameters) {
   Loop loop;
@@ -111,13 +109,13 @@ Loop find_loop(const Map& map, const LocalMap& local, const Parameters& paramete
   if (parameters.mode == Mode::text) frame.detections = detections_of_old(map, local, newest);
   if (!expected && frame.detections.empty()) return loop;
 
-  const MapSplit split = split_map(map, local);
-  if (expected) loop.seen = recognise_from(split.old_part, parameters, frame, newest.T_w_c.inverse());
+  const Map old = old_part(map, local);
+  if (expected) loop.seen = recognise_from(old, parameters, frame, newest.T_w_c.inverse());
   if (!loop.seen.ok && !frame.detections.empty())
-    loop.seen = relocalise_by_texts(split.old_part, parameters, frame, {WordMatch::same, WordMatch::unread});
+    loop.seen = relocalise_by_texts(old, parameters, frame, {WordMatch::same, WordMatch::unread});
   if (!loop.seen.ok) return loop;
-  loop.link = link_maps(split.old_part, split.recent, parameters, loop.seen);
-  loop.met = key_frame_met(split.old_part, loop.seen);
+  loop.link = link_maps(old, recent_part(map, local), parameters, loop.seen);
+  loop.met = key_frame_met(old, loop.seen);
   loop.ok = loop.link.ok;
   return loop;
 }

@@ -15,11 +15,8 @@
 namespace textslam {
 
 /// The map in two, with the ids of the whole: what is not in the one part is flagged bad or dropped there.
-struct MapSplit {
-  Map old_part;  ///< Points and texts outside the local map.
-  Map recent;    ///< Those of the local map.
-};
-MapSplit split_map(const Map& map, const LocalMap& local);
+Map old_part(const Map& map, const LocalMap& local);     ///< Points and texts outside the local map.
+Map recent_part(const Map& map, const LocalMap& local);  ///< Those of the local map.
 
 /// The recent part lies `link.S_a_b` away from where the old part says it is.
 struct Loop {

@@ -15,8 +15,6 @@ namespace {
 constexpr double kSameSpot = 0.3;      // px between points whose observations are those of one
 constexpr double kLeastLength = 0.01;  // of an edge, in units of the depth of what is seen
 
-double degrees(const Eigen::Matrix3d& R) { return textplane::so3_log<double>(R).norm() * 180 / M_PI; }
-
 class Spreader {
  public:
   Spreader(Map& map, const Parameters& parameters, const Loop& loop)
@@ -90,10 +88,7 @@ class Spreader {
 
   void add_neighbours() {
     for (int b = 0; b < static_cast<int>(nodes_.size()); ++b) {
-      std::vector<int> shared(static_cast<std::size_t>(b), 0);
-      for (const int point : map_.keyframe(b).points)
-        for (const PointObservation& o : map_.point(point).observations)
-          if (o.keyframe < b) ++shared[static_cast<std::size_t>(o.keyframe)];
+      const std::vector<int> shared = shared_points(map_, map_.keyframe(b).points);
       for (int a = 0; a < b; ++a)
         if (shared[static_cast<std::size_t>(a)] >= parameters_.local_min_shared) add_edge(a, b);
     }

@@ -8,6 +8,8 @@
 
 namespace textslam {
 
+double degrees(const Eigen::Matrix3d& R) { return textplane::so3_log<double>(R).norm() * 180 / M_PI; }
+
 std::vector<int> spread(const std::vector<int>& ids, std::size_t count) {
   if (ids.size() <= count || count < 2) return ids;
   std::vector<int> picked;
@@ -23,6 +25,15 @@ bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Qua
     quad->corner[i] = map.camera.pixel(Vec2(q.x() / q.z(), q.y() / q.z()));
   }
   return true;
+}
+
+bool text_in_view(const Map& map, const Parameters& parameters, const TextObject& text, const SE3d& T_c_w,
+                  Quad<double>* quad) {
+  if (!project_text(map, text, T_c_w, quad)) return false;
+  if (facing(map, text, T_c_w) < std::cos(parameters.text_max_slant * M_PI / 180)) return false;
+  const double whole = std::abs(textplane::area(*quad));
+  const double seen = textplane::area(textplane::clip_to_image(*quad, map.width, map.height));
+  return !(whole < parameters.text_min_area || seen < parameters.text_min_share * whole);
 }
 
 int scale_shift(const TextObject& text, const Quad<double>& quad) {

@@ -13,6 +13,7 @@
 #include "io/detections.hpp"
 #include "textplane/photometry/patch.hpp"
 #include "textplane/photometry/pyramid.hpp"
+#include "textslam/parameters.hpp"
 
 namespace textslam {
 
@@ -70,9 +71,9 @@ struct TextObject {
   double zncc = 0;                   ///< Mean over its last refinement.
 
   bool has_plane() const { return state == TextState::tentative || state == TextState::mapped; }
-  /// The word read most often (the first in order among equals), "###" where none was.
+  /// The word read most often (the first in order among equals), kUnreadText where none was.
   std::string word() const {
-    std::string best = "###";
+    std::string best = kUnreadText;
     int most = 0;
     for (const auto& [text, count] : votes)
       if (count > most) {
@@ -107,11 +108,19 @@ struct Track {
   bool inlier = true;                          ///< Of the last pose.
 };
 
+/// By how much a rotation turns, degrees.
+double degrees(const Eigen::Matrix3d& R);
+
 /// At most `count` of the ids, evenly spread, the first and the last among them.
 std::vector<int> spread(const std::vector<int>& ids, std::size_t count);
 
 /// The text object's quad as seen by a camera with world-to-camera pose T_c_w; false where a corner is behind the camera.
 bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Quad<double>* quad);
+
+/// As project_text(), where the camera sees enough of the text's front to compare it with the host: neither too slanted nor too
+/// small, text_min_share of it inside the image.
+bool text_in_view(const Map& map, const Parameters& parameters, const TextObject& text, const SE3d& T_c_w,
+                  Quad<double>* quad);
 
 /// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
 int scale_shift(const TextObject& text, const Quad<double>& quad);

@@ -7,6 +7,7 @@
 #include "textplane/geometry/quad.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/statistics.hpp"
+#include "textslam/text_merge.hpp"
 
 namespace textslam {
 namespace {
@@ -87,7 +88,7 @@ class Linker {
     for (const Sighting& sighting : sightings_) {
       const SE3d expected = link->S_a_b * b_.keyframe(sighting.keyframe).T_w_c;
       const double depth = link->S_a_b.scale * median_depth(b_, sighting.keyframe);
-      const double turn = textplane::so3_log<double>(expected.R.transpose() * sighting.T_a_c.R).norm() * 180 / M_PI;
+      const double turn = degrees(expected.R.transpose() * sighting.T_a_c.R);
       const double shift = (expected.t - sighting.T_a_c.t).norm();
       if (turn > kMaxTurn || shift > parameters_.join_tolerance * depth) continue;
       ++link->keyframes;
@@ -118,8 +119,7 @@ class Linker {
   // The corners of a's quad, and where their rays meet b's plane.
   void add_text(const TextObject& of_a, const SE3d& T_c_a, const TextObject& of_b, const SE3d& T_c_b, int id) {
     if (of_a.state != TextState::mapped || of_b.state != TextState::mapped) return;
-    const std::string word_a = of_a.word(), word_b = of_b.word();
-    if (word_a != word_b && word_a != kUnreadText && word_b != kUnreadText) return;
+    if (!words_agree(of_a, of_b)) return;
     Quad<double> quad_a, quad_b;
     if (!project_text(a_, of_a, T_c_a, &quad_a) || !project_text(b_, of_b, T_c_b, &quad_b) ||
         facing(a_, of_a, T_c_a) <= 0 || facing(b_, of_b, T_c_b) <= 0 || textplane::iou(quad_a, quad_b) < kSameText)
@@ -148,13 +148,6 @@ class Linker {
   std::vector<Pair> pairs_;
   std::vector<std::pair<int, int>> texts_;
 };
-
-void join_text(TextObject& kept, const TextObject& other, int first_keyframe) {
-  kept.targets.push_back(first_keyframe + other.host);
-  for (const int id : other.targets) kept.targets.push_back(first_keyframe + id);
-  for (const auto& [word, count] : other.votes) kept.votes[word] += count;
-  kept.detections += other.detections;
-}
 
 }  // namespace
 
@@ -202,7 +195,7 @@ JoinedIds join_maps(Map& a, const Map& b, const MapLink& link) {
     const auto same = std::find_if(link.texts.begin(), link.texts.end(),
                                    [&](const std::pair<int, int>& pair) { return pair.second == text.id; });
     if (same != link.texts.end()) {
-      join_text(a.texts[static_cast<std::size_t>(same->first)], text, ids.first_keyframe);
+      add_sightings(a.texts[static_cast<std::size_t>(same->first)], text, ids.first_keyframe);
       continue;
     }
     TextObject moved = text;

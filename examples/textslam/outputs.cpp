@@ -17,12 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double percentile95(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, values.size() * 95 / 100)];
-}
-
 Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 std::string text_map_json(const Map& map) {

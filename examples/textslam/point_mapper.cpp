@@ -104,6 +104,13 @@ void cull_points(Map& map, const Parameters& parameters, std::vector<Track>& tra
                tracks.end());
 }
 
+std::vector<int> shared_points(const Map& map, const std::vector<int>& points) {
+  std::vector<int> shared(map.keyframes.size(), 0);
+  for (const int id : points)
+    for (const PointObservation& o : map.point(id).observations) ++shared[static_cast<std::size_t>(o.keyframe)];
+  return shared;
+}
+
 double median_depth(const Map& map, int id) {
   const KeyFrame& keyframe = map.keyframe(id);
   const SE3d T_c_w = keyframe.T_w_c.inverse();

@@ -25,6 +25,9 @@ void remove_observation(Map& map, int point, int keyframe);
 /// Flags points that are found too rarely, and frees the tracks of bad points.
 void cull_points(Map& map, const Parameters& parameters, std::vector<Track>& tracks);
 
+/// How many of the points each key frame observes.
+std::vector<int> shared_points(const Map& map, const std::vector<int>& points);
+
 /// Median depth of the points observed by key frame `id`, 0 where it has none.
 double median_depth(const Map& map, int id);
 

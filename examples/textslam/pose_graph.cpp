@@ -11,17 +11,11 @@ using Vec3 = Eigen::Vector3d;
 constexpr int kIterations = 20;
 constexpr double kStop = 1e-10;  // largest entry of a step
 
-Eigen::Matrix3d cross_of(const Vec3& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 // M moved(I, d) M^-1 = moved(I, adjoint(M) d) to first order.
 Matrix7 adjoint(const Similarity& M) {
   Matrix7 A = Matrix7::Zero();
   A.topLeftCorner<3, 3>() = M.scale * M.R;
-  A.block<3, 3>(0, 3) = cross_of(M.t) * M.R;
+  A.block<3, 3>(0, 3) = textplane::hat(M.t) * M.R;
   A.block<3, 1>(0, 6) = -M.t;
   A.block<3, 3>(3, 3) = M.R;
   A(6, 6) = 1;
@@ -44,7 +38,7 @@ class Relaxation {
       e << E.t, textplane::so3_log<double>(E.R), std::log(E.scale);
       Matrix7 J_b = Matrix7::Identity();
       J_b.topLeftCorner<3, 3>() = E.scale * E.R;
-      J_b.block<3, 3>(3, 3) += 0.5 * cross_of(e.segment<3>(3));
+      J_b.block<3, 3>(3, 3) += 0.5 * textplane::hat<double>(e.segment<3>(3));
       const Matrix7 J_a = -J_b * adjoint(compose(inverse(B), A));
       const Matrix7& W = edge.information;
       add(edge.a, edge.a, J_a.transpose() * W * J_a);

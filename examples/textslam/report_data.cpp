@@ -149,9 +149,10 @@ Json report_timing_json(const System& system) {
       values.push_back(short_number(std::round(100 * record.*member) / 100));
       if (record.live) live.push_back(record.*member);
     }
-    std::sort(live.begin(), live.end());
-    const double p95 = live.empty() ? 0 : live[std::min(live.size() - 1, live.size() * 95 / 100)];
-    return Json{{"name", name}, {"median", short_number(median(live))}, {"p95", short_number(p95)}, {"ms", values}};
+    return Json{{"name", name},
+                {"median", short_number(median(live))},
+                {"p95", short_number(percentile95(live))},
+                {"ms", values}};
   };
   return Json::array({stage("detection", &FrameRecord::detect_ms), stage("tracking", &FrameRecord::track_ms),
                       stage("tracking: corners", &FrameRecord::klt_ms), stage("tracking: pose", &FrameRecord::pose_ms),

@@ -29,12 +29,7 @@ int level_for(const Pyramid& image, double length, double wanted) {
 // The ZNCC of a text under a frame's pose, if it is in view there.
 bool see_text(const Map& map, const Parameters& parameters, const TextObject& text, const Pyramid& image,
               const SE3d& T_c_w, Quad<double>* quad, double* zncc) {
-  if (!project_text(map, text, T_c_w, quad) ||
-      facing(map, text, T_c_w) < std::cos(parameters.text_max_slant * M_PI / 180))
-    return false;
-  const double whole = std::abs(textplane::area(*quad));
-  const double seen = textplane::area(textplane::clip_to_image(*quad, map.width, map.height));
-  if (whole < parameters.text_min_area || seen < parameters.text_min_share * whole) return false;
+  if (!text_in_view(map, parameters, text, T_c_w, quad)) return false;
   const int level = text.patch.level_count() > 1 ? 1 : 0;
   const auto input =
       textplane::photometric_input(text.patch, level, image.view(), map.camera, scale_shift(text, *quad));
@@ -95,16 +90,9 @@ std::vector<SeenPoint> points_of(const System& system, std::size_t index) {
   const FrameRecord& record = system.records()[index];
   if (record.state != FrameState::tracked) return {};
   const Map& map = system.map();
-  const KeyFrame& keyframe = map.keyframe(record.keyframe);
-  if (keyframe.frame.index != static_cast<int>(index)) return record.seen;
-  std::vector<SeenPoint> seen;
-  for (const int id : keyframe.points) {
-    const MapPoint& point = map.point(id);
-    if (point.bad) continue;
-    for (const PointObservation& o : point.observations)
-      if (o.keyframe == record.keyframe) seen.push_back({id, o.px.cast<float>()});
-  }
-  return seen;
+  if (map.keyframe(record.keyframe).frame.index != static_cast<int>(index)) return record.seen;
+  const std::vector<Track> tracks = tracks_of_keyframe(map, record.keyframe);
+  return seen_points(tracks, tracks.size());
 }
 
 Json frames_json(const System& system, const Parameters& parameters,

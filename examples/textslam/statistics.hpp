@@ -16,6 +16,13 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
+/// The value that 95 of 100 do not exceed; 0 of nothing.
+inline double percentile95(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, values.size() * 95 / 100)];
+}
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_STATISTICS_HPP

@@ -39,22 +39,29 @@ bool overlaps_in_host(const Map& map, const Parameters& parameters, const TextOb
 
 }  // namespace
 
-bool same_text(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b) {
+bool words_agree(const TextObject& a, const TextObject& b) {
   const std::string word_a = a.word(), word_b = b.word();
-  if (word_a != word_b && word_a != kUnreadText && word_b != kUnreadText) return false;
-  return overlaps_in_host(map, parameters, a, b) && overlaps_in_host(map, parameters, b, a) &&
+  return word_a == word_b || !is_read(word_a) || !is_read(word_b);
+}
+
+void add_sightings(TextObject& kept, const TextObject& other, int first_keyframe) {
+  kept.targets.push_back(first_keyframe + other.host);
+  for (const int id : other.targets) kept.targets.push_back(first_keyframe + id);
+  for (const auto& [word, count] : other.votes) kept.votes[word] += count;
+  kept.detections += other.detections;
+}
+
+bool same_text(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b) {
+  return words_agree(a, b) && overlaps_in_host(map, parameters, a, b) && overlaps_in_host(map, parameters, b, a) &&
          planes_agree(map, parameters, a, b) && planes_agree(map, parameters, b, a);
 }
 
 void merge_texts(Map& map, int kept, int other) {
   TextObject &to = map.texts[static_cast<std::size_t>(kept)], &from = map.texts[static_cast<std::size_t>(other)];
-  to.targets.push_back(from.host);
-  to.targets.insert(to.targets.end(), from.targets.begin(), from.targets.end());
+  add_sightings(to, from, 0);
   std::sort(to.targets.begin(), to.targets.end());
   to.targets.erase(std::unique(to.targets.begin(), to.targets.end()), to.targets.end());
   to.targets.erase(std::remove(to.targets.begin(), to.targets.end(), to.host), to.targets.end());
-  for (const auto& [word, count] : from.votes) to.votes[word] += count;
-  to.detections += from.detections;
   to.failures = 0;
   from.state = TextState::dropped;
 }

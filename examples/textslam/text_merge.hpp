@@ -9,10 +9,16 @@
 
 namespace textslam {
 
+/// The words of two texts are the same, or one of them was never read.
+bool words_agree(const TextObject& a, const TextObject& b);
+
 /// Do two texts with planes stand for one sign? Their words are the same, or one is unread; their planes agree in angle and,
 /// at their centres, in inverse depth, within three standard deviations of the two and a tolerance; and in the host of either
 /// their quads overlap.
 bool same_text(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b);
+
+/// What `other` saw counts for `kept`: key frames, whose ids are `first_keyframe` higher in kept's map, words and detections.
+void add_sightings(TextObject& kept, const TextObject& other, int first_keyframe);
 
 /// Text `other` becomes part of text `kept`: its key frames observe that one now, its words and detections count for it.
 /// The plane stays that of `kept`; `other` is dropped.

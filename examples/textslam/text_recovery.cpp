@@ -14,8 +14,6 @@ namespace {
 constexpr double kSamePose = 3;      // degrees between two poses by one text that count as one
 constexpr double kConfirming = 0.3;  // overlap, IoU, of a detection with the text that it confirms
 
-bool is_read(const std::string& word) { return !word.empty() && word != "###"; }
-
 bool is_match(const std::string& a, const std::string& b, WordMatch match) {
   const bool read = is_read(a) && is_read(b), same = read && a == b;
   return match == WordMatch::same ? same : match == WordMatch::unread ? !read : !same;

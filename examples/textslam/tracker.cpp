@@ -267,11 +267,7 @@ Tracker::Fit Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w) 
     for (const TextObject& text : map_.texts) {
       Quad<double> quad;
       if (text.state != TextState::mapped || (local_ && !local_->has_text(text.id))) continue;
-      if (!project_text(map_, text, *T_c_w, &quad)) continue;
-      if (facing(map_, text, *T_c_w) < std::cos(parameters_.text_max_slant * M_PI / 180)) continue;
-      const double whole = std::abs(textplane::area(quad));
-      const double seen = textplane::area(textplane::clip_to_image(quad, map_.width, map_.height));
-      if (whole < parameters_.text_min_area || seen < parameters_.text_min_share * whole) continue;
+      if (!text_in_view(map_, parameters_, text, *T_c_w, &quad)) continue;
       texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)});
     }
 

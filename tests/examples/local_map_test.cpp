@@ -113,25 +113,25 @@ TEST_F(LocalMapTest, TheMapInTwoIsTheWholeMap) {
   add_text(TextState::dropped, 0, {});
   map.points[0].bad = true;
   const LocalMap local = local_map(map, parameters, 9);
-  const MapSplit split = split_map(map, local);
+  const Map old = old_part(map, local), recent = recent_part(map, local);
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const MapPoint &whole = map.points[i], &was = split.old_part.points[i], &is = split.recent.points[i];
+    const MapPoint &whole = map.points[i], &was = old.points[i], &is = recent.points[i];
     EXPECT_EQ(is.bad, whole.bad || !local.has_point(static_cast<int>(i)));
     EXPECT_EQ(was.bad, whole.bad || local.has_point(static_cast<int>(i)));
     if (whole.bad) continue;
     EXPECT_EQ((was.bad ? is : was).observations.size(), whole.observations.size());
     EXPECT_TRUE((was.bad ? was : is).observations.empty());
   }
-  for (const Map* part : {&split.old_part, &split.recent}) {
+  for (const Map* part : {&old, &recent}) {
     ASSERT_EQ(part->keyframes.size(), map.keyframes.size());
     for (const KeyFrame& keyframe : part->keyframes)
       for (const int id : keyframe.points) EXPECT_FALSE(part->point(id).bad);
   }
-  EXPECT_EQ(split.old_part.texts[0].state, TextState::mapped);
-  EXPECT_EQ(split.recent.texts[0].state, TextState::dropped);
-  EXPECT_EQ(split.old_part.texts[1].state, TextState::dropped);
-  EXPECT_EQ(split.recent.texts[1].state, TextState::mapped);
-  EXPECT_EQ(split.recent.texts[2].state, TextState::dropped);
+  EXPECT_EQ(old.texts[0].state, TextState::mapped);
+  EXPECT_EQ(recent.texts[0].state, TextState::dropped);
+  EXPECT_EQ(old.texts[1].state, TextState::dropped);
+  EXPECT_EQ(recent.texts[1].state, TextState::mapped);
+  EXPECT_EQ(recent.texts[2].state, TextState::dropped);
 }
 
 }  // namespace
