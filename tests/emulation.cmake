@@ -43,6 +43,7 @@ if(TEXTPLANE_SIMDE AND TEXTPLANE_RUNS_AVX2 AND CMAKE_CXX_COMPILER_ID STREQUAL "G
   add_executable(test_simd_avx512 ${sources} ${PROJECT_SOURCE_DIR}/cmake/kernels.cpp)
   target_compile_definitions(test_simd_avx512 PRIVATE TEXTPLANE_EXTERN_KERNELS)
   target_precompile_headers(test_simd_avx512 PRIVATE ${precompiled})
+  set_target_properties(test_simd_avx512 PROPERTIES UNITY_BUILD ${TEXTPLANE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
   textplane_add_vector_tests(test_vectors_avx512)
   foreach(room simd vectors)
     target_link_libraries(test_${room}_avx512 PRIVATE textplane_emulated)

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMinVisibleFrames = 10;  // that a sign must be seen whole to count
 constexpr double kWhole = 0.99;
-constexpr double kDegrees = 57.295779513082320877;
+constexpr double kToDegrees = 57.295779513082320877;
 
 using Corners = std::array<Vector3<double>, 4>;
 
@@ -83,7 +83,7 @@ TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::v
         continue;
       match.sign = sign.id;
       match.centre = distance;
-      match.angle = kDegrees * std::atan2(normal.cross(sign.normal).norm(), normal.dot(sign.normal));
+      match.angle = kToDegrees * std::atan2(normal.cross(sign.normal).norm(), normal.dot(sign.normal));
       match.word = text.word == sign.word;
     }
     if (match.sign < 0) {

@@ -7,7 +7,7 @@ namespace textslam {
 namespace {
 
 constexpr double kPictureLift = 0.015;  // m
-constexpr int kSigns = 12, kSignsBehind = 6;
+constexpr int kRoomSigns = 12, kSignsBehind = 6;
 
 void add_shell(Scene& scene, const Walls& walls, bool bare, std::uint64_t seed) {
   const auto wall = [&](const Rectangle& r, const Canvas& paint) { scene.add(r, paint, true); };
@@ -69,7 +69,7 @@ Furnishing add_furniture(Scene& scene, std::uint64_t seed) {
 }
 
 void add_signs(Scene& scene, const Walls& walls, const Furnishing* furniture, bool all_round, std::uint64_t seed) {
-  SignPainter signs(kSigns + (all_round ? kSignsBehind : 0), hash(seed, 400));
+  SignPainter signs(kRoomSigns + (all_round ? kSignsBehind : 0), hash(seed, 400));
   signs.on_wall(scene, walls.front, 2.3, 0.75, 0.7);
   signs.on_wall(scene, walls.front, 3.2, 1.05, 0.56);
   signs.on_wall(scene, walls.front, 4.25, 0.9, 0.5);

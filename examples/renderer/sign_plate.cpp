@@ -9,7 +9,7 @@ namespace textslam {
 
 namespace {
 
-constexpr double kDensity = 1000.0;  // texels per metre
+constexpr double kPlateDensity = 1000.0;  // texels per metre
 constexpr double kRim = 0.06;
 
 const char* const kWords[] = {"EXIT",   "LIBRARY", "OFFICE",   "PARKING", "COFFEE",  "MUSEUM",   "KITCHEN",  "STATION",
@@ -23,7 +23,7 @@ const char* const kWords[] = {"EXIT",   "LIBRARY", "OFFICE",   "PARKING", "COFFE
 
 SignPlate make_sign_plate(const std::string& word, double width, const std::vector<Font>& fonts, Random& random) {
   const Font& font = fonts[static_cast<std::size_t>(random.below(static_cast<int>(fonts.size())))];
-  const double ink_width = random.uniform(0.74, 0.84) * width * kDensity;
+  const double ink_width = random.uniform(0.74, 0.84) * width * kPlateDensity;
   // Ink is as wide as the height says: draw once to learn the ratio, then at the size wanted.
   const Ink trial = font.draw(word, 100.0);
   if (trial.empty()) throw std::invalid_argument("no glyph for the word " + word);
@@ -32,9 +32,9 @@ SignPlate make_sign_plate(const std::string& word, double width, const std::vect
   const bool light_on_dark = random.chance(0.45), border = random.chance(0.55);
   const double paper = light_on_dark ? random.uniform(25.0, 70.0) : random.uniform(190.0, 225.0);
   const double letters = light_on_dark ? random.uniform(195.0, 235.0) : random.uniform(15.0, 55.0);
-  const double margin = 0.5 * (width * kDensity - ink.width());
-  const double height = (ink.height() + 2.0 * std::min(margin, 0.55 * ink.height())) / kDensity;
-  Canvas paint(width, height, kDensity, paper);
+  const double margin = 0.5 * (width * kPlateDensity - ink.width());
+  const double height = (ink.height() + 2.0 * std::min(margin, 0.55 * ink.height())) / kPlateDensity;
+  Canvas paint(width, height, kPlateDensity, paper);
   if (border) {
     const double inset = random.uniform(0.008, 0.016), thick = random.uniform(0.006, 0.011);
     for (const double at : {inset, -1.0}) {

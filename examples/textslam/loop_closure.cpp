@@ -12,8 +12,6 @@
 namespace textslam {
 namespace {
 
-constexpr double kConfirming = 0.3;     // overlap, IoU, of a detection with the text that it shows
-constexpr double kMinViewCosine = 0.6;  // between the rays to a point from its host and from here
 
 Map part_of(const Map& map, const LocalMap& local, bool inside) {
   Map part = map;
@@ -70,7 +68,7 @@ std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, 
     const bool wanted = is_read(detection.text)
                             ? std::find(words.begin(), words.end(), detection.text) != words.end()
                             : std::none_of(known.begin(), known.end(), [&](const Quad<double>& quad) {
-                                return textplane::iou(quad, detection.quad) >= kConfirming;
+                                return textplane::iou(quad, detection.quad) >= kSameTextOverlap;
                               });
     if (wanted) out.push_back(detection);
   }

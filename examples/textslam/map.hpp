@@ -114,6 +114,12 @@ double degrees(const Eigen::Matrix3d& R);
 /// At most `count` of the ids, evenly spread, the first and the last among them.
 std::vector<int> spread(const std::vector<int>& ids, std::size_t count);
 
+/// Between the rays to a point from its host and from another camera: below it the point's patch is not looked for there.
+constexpr double kMinViewCosine = 0.6;
+
+/// Overlap, IoU, of a detection with the quad of a text from which on it shows that text.
+constexpr double kSameTextOverlap = 0.3;
+
 /// The text object's quad as seen by a camera with world-to-camera pose T_c_w; false where a corner is behind the camera.
 bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Quad<double>* quad);
 

@@ -8,8 +8,8 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr int kIterations = 20;
-constexpr double kStop = 1e-10;  // largest entry of a step
+constexpr int kRelaxations = 20;
+constexpr double kSettled = 1e-10;  // largest entry of a step
 
 // M moved(I, d) M^-1 = moved(I, adjoint(M) d) to first order.
 Matrix7 adjoint(const Similarity& M) {
@@ -108,13 +108,13 @@ Similarity similarity_of(const SE3d& T) {
 bool relax(std::vector<Similarity>& nodes, const std::vector<GraphEdge>& edges, int fixed) {
   Relaxation relaxation(edges, static_cast<int>(nodes.size()), fixed);
   std::vector<Similarity> S = nodes;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < kRelaxations; ++iteration) {
     Eigen::VectorXd x;
     if (!relaxation.step(S, &x)) return false;
     for (int k = 0; k < static_cast<int>(S.size()); ++k)
       if (k != fixed)
         S[static_cast<std::size_t>(k)] = moved(S[static_cast<std::size_t>(k)], x.segment<7>(relaxation.at(k)));
-    if (x.lpNorm<Eigen::Infinity>() < kStop) break;
+    if (x.lpNorm<Eigen::Infinity>() < kSettled) break;
   }
   nodes = std::move(S);
   return true;

@@ -11,8 +11,6 @@ namespace {
 
 using Point = Vector2<double>;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 int root_of(std::vector<InkRun>& runs, int i) {
   while (runs[at(i)].parent != i) {
     runs[at(i)].parent = runs[at(runs[at(i)].parent)].parent;

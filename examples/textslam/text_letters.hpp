@@ -2,6 +2,7 @@
 #ifndef TEXTSLAM_TEXT_LETTERS_HPP
 #define TEXTSLAM_TEXT_LETTERS_HPP
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "textslam/classical_parameters.hpp"
 
 namespace textslam {
+
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A stretch of equal ink in one row, x0 to x1 inclusive.
 struct InkRun {

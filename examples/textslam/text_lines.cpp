@@ -10,7 +10,6 @@ namespace {
 
 using Direction = Vector2<double>;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 double ratio(double a, double b) { return std::max(a, b) / std::min(a, b); }
 double radians(double degrees) { return degrees * 0.017453292519943295; }
 

@@ -6,19 +6,12 @@
 #include <cstddef>
 #include <limits>
 
+#include "textslam/statistics.hpp"
+
 namespace textslam {
 namespace {
 
 using Point = Vector2<double>;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Not empty. Changes the order.
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double deviation(const std::vector<double>& values) {
   double sum = 0, squares = 0;
@@ -44,8 +37,7 @@ struct Rule {
 void settle(const std::vector<Point>& points, Rule& rule) {
   std::vector<double> rest;
   for (const Point& p : points) rest.push_back(p[1] - rule.slope * p[0]);
-  std::vector<double> sorted = rest;
-  rule.offset = median(sorted);
+  rule.offset = median(rest);
   for (double& r : rest) r = std::abs(r - rule.offset);
   rule.residual = median(rest);
 }
@@ -145,7 +137,7 @@ double tone_spread(const std::vector<Letter>& letters, const std::vector<int>& l
 }
 
 /// The ink in a quad's shape, all sides in the line's frame: v from top to bottom, u - lean v from left to right.
-struct Frame {
+struct LineFrame {
   double top, bottom, left, right, lean;
 
   double height_at(double u, const Layout& layout) const {
@@ -154,8 +146,8 @@ struct Frame {
 };
 
 /// The closest frame around the letters whose sides have the directions given.
-Frame enclose(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout, double lean) {
-  Frame frame{layout.top.offset, layout.bottom.offset, 0, 0, lean};
+LineFrame enclose(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout, double lean) {
+  LineFrame frame{layout.top.offset, layout.bottom.offset, 0, 0, lean};
   frame.left = std::numeric_limits<double>::infinity();
   frame.right = -frame.left;
   const Point leaning = layout.along - lean * layout.across;
@@ -172,7 +164,7 @@ Frame enclose(const std::vector<Letter>& letters, const std::vector<int>& line, 
 
 /// Gaps, overlaps, ink and heights are those of print.
 bool is_filled_like_text(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout,
-                         const Frame& frame, const ClassicalParameters& parameters) {
+                         const LineFrame& frame, const ClassicalParameters& parameters) {
   double ink = 0, covered = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     ink += letters[at(line[i])].area;
@@ -224,7 +216,7 @@ TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& li
   const double lean = lean_of(letters, line, layout);
   if (std::abs(lean) > parameters.max_lean) return result;
 
-  Frame frame = enclose(letters, line, layout, lean);
+  LineFrame frame = enclose(letters, line, layout, lean);
   const double first = frame.height_at(frame.left, layout), last = frame.height_at(frame.right, layout);
   if (!(std::min(first, last) > 0)) return result;
   const double taper = std::max(first, last) / std::min(first, last);

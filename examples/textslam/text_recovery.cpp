@@ -12,7 +12,6 @@ namespace textslam {
 namespace {
 
 constexpr double kSamePose = 3;      // degrees between two poses by one text that count as one
-constexpr double kConfirming = 0.3;  // overlap, IoU, of a detection with the text that it confirms
 
 bool is_match(const std::string& a, const std::string& b, WordMatch match) {
   const bool read = is_read(a) && is_read(b), same = read && a == b;
@@ -96,7 +95,7 @@ class TextSearch {
       count += std::any_of(map_.texts.begin(), map_.texts.end(), [&](const TextObject& text) {
         Quad<double> quad;
         return text.state == TextState::mapped && facing(map_, text, T_c_w) > 0 &&
-               project_text(map_, text, T_c_w, &quad) && textplane::iou(quad, detection.quad) >= kConfirming;
+               project_text(map_, text, T_c_w, &quad) && textplane::iou(quad, detection.quad) >= kSameTextOverlap;
       });
     return count;
   }

@@ -22,7 +22,7 @@ template struct textplane::RadialTangential<float>;
 template struct textplane::RadialTangential<double>;
 template struct textplane::RadialTangential<Dual<2>>;
 
-namespace {
+namespace camera_test {
 
 template <class S>
 class Camera : public testing::Test {};
@@ -169,4 +169,4 @@ TEST(RadialTangentialTest, IsZero) {
   EXPECT_FALSE((tp::RadialTangential<double>{0, 0, 0, 0, 1e-9}).is_zero());
 }
 
-}  // namespace
+}  // namespace camera_test

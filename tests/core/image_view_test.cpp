@@ -15,7 +15,7 @@ template class textplane::ImageView<const float>;
 template class textplane::Image<std::uint8_t>;
 template class textplane::Image<float>;
 
-namespace {
+namespace image_view_test {
 
 TEST(ImageViewTest, WalksRowsByStride) {
   std::vector<std::uint8_t> bytes(4 * 7);
@@ -86,4 +86,4 @@ TEST(ImageTest, OwnsItsPixels) {
   EXPECT_FALSE(image.view().valid());
 }
 
-}  // namespace
+}  // namespace image_view_test

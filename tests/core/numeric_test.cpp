@@ -25,7 +25,7 @@ template struct textplane::SymmetricEigen<float, 3>;
 template struct textplane::SymmetricEigen<double, 3>;
 template struct textplane::SymmetricEigen<Dual<3>, 3>;
 
-namespace {
+namespace numeric_test {
 
 const double kNan = std::nan(""), kInf = std::numeric_limits<double>::infinity();
 
@@ -221,4 +221,4 @@ TEST(FiniteTest, AllFiniteLooksEverywhere) {
   }
 }
 
-}  // namespace
+}  // namespace numeric_test

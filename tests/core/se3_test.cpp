@@ -21,7 +21,7 @@ template struct textplane::SE3<float>;
 template struct textplane::SE3<double>;
 template struct textplane::SE3<Dual<6>>;
 
-namespace {
+namespace se3_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -247,4 +247,4 @@ TEST(Se3Tools, AllFinite) {
   EXPECT_FALSE(tp::all_finite(T));
 }
 
-}  // namespace
+}  // namespace se3_test

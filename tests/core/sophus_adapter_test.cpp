@@ -5,7 +5,7 @@
 
 #include "textplane/geometry/homography.hpp"
 
-namespace {
+namespace sophus_adapter_test {
 
 namespace tp = textplane;
 namespace ad = textplane::adapters;
@@ -79,4 +79,4 @@ TEST_F(SophusAdapter, StepsOfEitherSide) {
   EXPECT_LT(distance(ad::from_sophus(ad::apply_left(pose, left)), ad::from_sophus(ad::apply_right(pose, step))), 1e-14);
 }
 
-}  // namespace
+}  // namespace sophus_adapter_test

@@ -7,7 +7,7 @@
 
 namespace tp = textplane;
 
-namespace {
+namespace status_test {
 
 constexpr int kCount = static_cast<int>(tp::Status::diverged) + 1;
 
@@ -24,4 +24,4 @@ TEST(StatusTest, EveryStatusHasItsOwnName) {
   static_assert(tp::is_ok(tp::Status::converged), "usable in constant expressions");
 }
 
-}  // namespace
+}  // namespace status_test

@@ -10,7 +10,7 @@
 #include "textslam/tracker.hpp"
 
 namespace textslam {
-namespace {
+namespace adjuster_test {
 
 double uniform(std::mt19937& random, double low, double high) {
   return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
@@ -143,5 +143,5 @@ TEST_F(AdjusterTest, MayBeLeftWhileItRuns) {
   adjuster.keyframe_added(map_);
 }
 
-}  // namespace
+}  // namespace adjuster_test
 }  // namespace textslam

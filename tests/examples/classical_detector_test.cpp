@@ -15,7 +15,7 @@
 #include "renderer/render_sequence.hpp"
 
 namespace textslam {
-namespace {
+namespace classical_detector_test {
 
 using Point = Vector2<double>;
 
@@ -303,5 +303,5 @@ TEST(ClassicalDetector, FindsTheSignsOfClearRooms) {
   EXPECT_LE(false_boxes, 0.5 * true_boxes) << found << " of " << signs << " signs found";
 }
 
-}  // namespace
+}  // namespace classical_detector_test
 }  // namespace textslam

@@ -4,7 +4,7 @@
 #include "io/text_file.hpp"
 
 namespace textslam {
-namespace {
+namespace io_detections_test {
 
 class DetectionsTest : public testing::Test {
  protected:
@@ -164,5 +164,5 @@ TEST(TextFile, Utf8) {
   EXPECT_EQ(well_formed_utf8("\xE2\x82"), bad + bad) << "cut off";
 }
 
-}  // namespace
+}  // namespace io_detections_test
 }  // namespace textslam

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace textslam {
-namespace {
+namespace io_evaluate_test {
 
 using Vector = Vector3<double>;
 using textplane::so3_exp;
@@ -338,5 +338,5 @@ TEST(Evaluate, NothingToCompare) {
   EXPECT_EQ(e.ate.n, 0u);
 }
 
-}  // namespace
+}  // namespace io_evaluate_test
 }  // namespace textslam

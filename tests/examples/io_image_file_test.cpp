@@ -15,7 +15,7 @@
 #include "io/image_codecs.hpp"
 
 namespace textslam {
-namespace {
+namespace io_image_file_test {
 
 Image<std::uint8_t> noise(int width, int height) {
   std::mt19937 random(7);
@@ -325,5 +325,5 @@ TEST(ImageFile, BadArguments) {
   EXPECT_THROW(save_png("/dev/null/x.png", ramp(4, 4).view()), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace io_image_file_test
 }  // namespace textslam

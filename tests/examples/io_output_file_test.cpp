@@ -9,7 +9,7 @@
 #include "io/text_file.hpp"
 
 namespace textslam {
-namespace {
+namespace io_output_file_test {
 
 template <class Action>
 void expect_failure(Action action, const std::string& path) {
@@ -97,5 +97,5 @@ TEST(OutputFile, Folders) {
   expect_failure([&] { create_output_folder(""); }, "");
 }
 
-}  // namespace
+}  // namespace io_output_file_test
 }  // namespace textslam

@@ -4,7 +4,7 @@
 #include "io/image_file.hpp"
 
 namespace textslam {
-namespace {
+namespace io_sequence_test {
 
 const char* const kCamera =
     "Camera.width: 8\n"
@@ -205,5 +205,5 @@ TEST_F(SequenceTest, BrokenFrames) {
   expect_input_error([&] { load_frame(sequence, 1); }, list, 4, "the image is 6 x 8 px, camera.yaml says 8 x 6");
 }
 
-}  // namespace
+}  // namespace io_sequence_test
 }  // namespace textslam

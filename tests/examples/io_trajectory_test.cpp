@@ -9,7 +9,7 @@
 #include "io/text_file.hpp"
 
 namespace textslam {
-namespace {
+namespace io_trajectory_test {
 
 SE3d random_pose(std::mt19937& random) {
   const auto unit = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
@@ -98,5 +98,5 @@ TEST(Trajectory, RefusesToWriteNaN) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("t.txt")));
 }
 
-}  // namespace
+}  // namespace io_trajectory_test
 }  // namespace textslam

@@ -8,7 +8,7 @@
 #include "textslam/tracker.hpp"
 
 namespace textslam {
-namespace {
+namespace local_map_test {
 
 // Key frames in a row; each shares as many points as make neighbours with the next one.
 class LocalMapTest : public testing::Test {
@@ -134,5 +134,5 @@ TEST_F(LocalMapTest, TheMapInTwoIsTheWholeMap) {
   EXPECT_EQ(recent.texts[2].state, TextState::dropped);
 }
 
-}  // namespace
+}  // namespace local_map_test
 }  // namespace textslam

@@ -12,7 +12,7 @@
 #include "textslam/pose_graph.hpp"
 
 namespace textslam {
-namespace {
+namespace loop_closure_test {
 
 Similarity similarity(double scale, const Vec3& w, const Vec3& t) {
   Similarity S;
@@ -349,5 +349,5 @@ TEST_F(LoopClosureTest, LittleDriftIsLeftToTheAdjustments) {
   EXPECT_TRUE(map.point(loop.link.points[0].second).bad) << "merged all the same";
 }
 
-}  // namespace
+}  // namespace loop_closure_test
 }  // namespace textslam

@@ -10,7 +10,7 @@
 #include "textslam/point_mapper.hpp"
 
 namespace textslam {
-namespace {
+namespace loose_planes_test {
 
 double uniform(std::mt19937& random, double low, double high) {
   return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
@@ -173,5 +173,5 @@ TEST_F(LoosePlanesTest, CandidatesWithoutAPlaneAreDroppedInTheEnd) {
   EXPECT_EQ(text().state, TextState::dropped);
 }
 
-}  // namespace
+}  // namespace loose_planes_test
 }  // namespace textslam

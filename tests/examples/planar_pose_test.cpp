@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace textslam {
-namespace {
+namespace planar_pose_test {
 
 using textplane::Status;
 
@@ -98,5 +98,5 @@ TEST_F(PlanarPoseTest, DegenerateQuadsGiveAStatus) {
   EXPECT_EQ(planar_pose(bad, image).count, 0);
 }
 
-}  // namespace
+}  // namespace planar_pose_test
 }  // namespace textslam

@@ -10,7 +10,7 @@
 #include "renderer/render_sequence.hpp"
 
 namespace textslam {
-namespace {
+namespace renderer_conditions_test {
 
 struct Moments {
   double mean = 0.0, deviation = 0.0;
@@ -165,5 +165,5 @@ TEST(RendererConditions, RefusesWhatMakesNoSense) {
   refused("false detections", [](RenderOptions& o) { o.detector.false_per_frame = -1.0; });
 }
 
-}  // namespace
+}  // namespace renderer_conditions_test
 }  // namespace textslam

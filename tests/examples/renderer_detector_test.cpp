@@ -8,7 +8,7 @@
 #include "renderer_support.hpp"
 
 namespace textslam {
-namespace {
+namespace renderer_detector_test {
 
 const char* const kWords[] = {"EXIT", "LIBRARY", "MUSEUM", "STATION"};
 
@@ -155,5 +155,5 @@ TEST(RendererDetector, IllegibleSignsStayUndetectedAndPartialOnesUnread) {
   EXPECT_EQ(found[0].quad.corner[1][0], camera.width - 1.0);
 }
 
-}  // namespace
+}  // namespace renderer_detector_test
 }  // namespace textslam

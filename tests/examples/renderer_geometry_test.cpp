@@ -11,7 +11,7 @@
 #include "textplane/core/se3.hpp"
 
 namespace textslam {
-namespace {
+namespace renderer_geometry_test {
 
 constexpr int kTexels = 64;
 
@@ -205,5 +205,5 @@ TEST(RendererGeometry, FarTexturesAreAveragedNotAliased) {
   }
 }
 
-}  // namespace
+}  // namespace renderer_geometry_test
 }  // namespace textslam

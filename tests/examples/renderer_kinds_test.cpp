@@ -14,7 +14,7 @@
 #include "textplane/features/fast.hpp"
 
 namespace textslam {
-namespace {
+namespace renderer_kinds_test {
 
 constexpr int kFrames = 240;
 constexpr double kInterval = 1.0 / 30.0;
@@ -262,5 +262,5 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind, testing::ValuesIn(render_kinds()), []
   return name;
 });
 
-}  // namespace
+}  // namespace renderer_kinds_test
 }  // namespace textslam

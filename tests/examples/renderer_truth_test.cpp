@@ -18,7 +18,7 @@
 #include "renderer_support.hpp"
 
 namespace textslam {
-namespace {
+namespace renderer_truth_test {
 
 RenderOptions small(const std::string& kind, const std::string& output, int frames) {
   RenderOptions options;
@@ -275,5 +275,5 @@ TEST(RendererFont, InkIsCroppedAndAsHighAsItsCapitals) {
   EXPECT_TRUE(font.draw("", 80.0).empty());
 }
 
-}  // namespace
+}  // namespace renderer_truth_test
 }  // namespace textslam

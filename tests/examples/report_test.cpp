@@ -13,7 +13,7 @@
 #include "textslam/report_template.hpp"
 
 namespace textslam {
-namespace {
+namespace report_test {
 
 TEST(Report, NumbersAreShortAndFinite) {
   EXPECT_EQ(short_number(1.0 / 3).dump(), "0.333333");
@@ -141,5 +141,5 @@ TEST(Progress, SaysHowLongItWillTake) {
   EXPECT_EQ(progress_line("tracking", 3, 3, 3000, ""), "tracking 3/3, 1.0 frames/s, 0:00 left  ");
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace textslam

@@ -6,7 +6,7 @@
 #include "textslam/text_merge.hpp"
 
 namespace textslam {
-namespace {
+namespace text_merge_test {
 
 constexpr double kDegree = M_PI / 180;
 
@@ -101,5 +101,5 @@ TEST_F(TextMergeTest, ThreeBecomeOneAndUnfinishedOnesStay) {
   EXPECT_EQ(text(3).state, TextState::tentative);
 }
 
-}  // namespace
+}  // namespace text_merge_test
 }  // namespace textslam

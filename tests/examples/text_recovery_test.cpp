@@ -11,7 +11,7 @@
 #include "textslam/text_recovery.hpp"
 
 namespace textslam {
-namespace {
+namespace text_recovery_test {
 
 constexpr double kDegree = M_PI / 180;
 
@@ -276,5 +276,5 @@ TEST_F(TextRecoveryTest, JoinedMapsAreOne) {
   }
 }
 
-}  // namespace
+}  // namespace text_recovery_test
 }  // namespace textslam

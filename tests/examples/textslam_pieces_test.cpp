@@ -13,7 +13,7 @@
 #include "textslam/two_view.hpp"
 
 namespace textslam {
-namespace {
+namespace textslam_pieces_test {
 
 constexpr double kFocal = 525;
 constexpr double kDegree = M_PI / 180;
@@ -104,7 +104,8 @@ TEST(TwoViewTest, PlanarSceneIsRightOrSaidToBeAmbiguous) {
     const std::vector<Vec3> points = scene(150, true, random);
     const Vec3 t(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -0.5, 0.5));
     const SE3d T_b_a = moved(0.4 * t.normalized(), {0.02, uniform(random, -0.08, 0.08), 0.03});
-    const TwoView view = estimate_two_view(views(points, SE3d{}, 0.3, random), views(points, T_b_a, 0.3, random), kFocal);
+    const TwoView view =
+        estimate_two_view(views(points, SE3d{}, 0.3, random), views(points, T_b_a, 0.3, random), kFocal);
     SCOPED_TRACE(seed);
     ASSERT_TRUE(view.ok);
     EXPECT_GE(view.inliers, 140) << "the plane is explained either way";
@@ -281,7 +282,8 @@ TEST_F(EvaluateTextTest, CornersLieOnThePlaneAndInTheQuad) {
 }
 
 TEST_F(EvaluateTextTest, MatchesPlacesNormalsAndWords) {
-  std::vector<TrueSign> signs = {add("EXIT", 100, {0.2, 0, -1}), add("OPEN", 300, {0, 0, -1}), add("TAXI", 450, {0, 0.3, -1})};
+  std::vector<TrueSign> signs = {add("EXIT", 100, {0.2, 0, -1}), add("OPEN", 300, {0, 0, -1}),
+                                 add("TAXI", 450, {0, 0.3, -1})};
   const TextEvaluation exact = evaluate_text(map, signs, to_truth);
   EXPECT_TRUE(exact.available);
   EXPECT_EQ(exact.signs, 3);
@@ -332,11 +334,13 @@ TEST_F(EvaluateTextTest, BrokenTruthNamesFileAndLine) {
   sequence.frames.push_back(frame);
   EXPECT_TRUE(read_true_signs(sequence).empty());
   const std::string signs = folder.write(
-      "truth/signs.json", R"({"signs":[{"id":3,"text":"A,B","corners":[[0,0,0],[1,0,0],[1,1,0],[0,1,0]],"normal":[0,0,-1]}]})");
+      "truth/signs.json",
+      R"({"signs":[{"id":3,"text":"A,B","corners":[[0,0,0],[1,0,0],[1,1,0],[0,1,0]],"normal":[0,0,-1]}]})");
   folder.write("truth/quads/000000.txt", "0,0,1,0,1,1,0,1,A,B,3,1\n0,0,1,0,1,1,0,1,A,B,3,0.5\n");
   ASSERT_EQ(read_true_signs(sequence).size(), 1u);
   EXPECT_EQ(read_true_signs(sequence)[0].visible_frames, 1) << "whole in one line, half hidden in the other";
-  const std::string quads = folder.write("truth/quads/000000.txt", "0,0,1,0,1,1,0,1,A,3,1\n0,0,1,0,1,1,0,1,A,three,1\n");
+  const std::string quads =
+      folder.write("truth/quads/000000.txt", "0,0,1,0,1,1,0,1,A,3,1\n0,0,1,0,1,1,0,1,A,three,1\n");
   expect_input_error([&] { read_true_signs(sequence); }, quads, 2, "a sign");
   folder.write("truth/quads/000000.txt", "no quad at all\n");
   expect_input_error([&] { read_true_signs(sequence); }, quads, 1, "eight coordinates");
@@ -346,5 +350,5 @@ TEST_F(EvaluateTextTest, BrokenTruthNamesFileAndLine) {
   expect_input_error([&] { read_true_signs(sequence); }, signs, 2, "parse error");
 }
 
-}  // namespace
+}  // namespace textslam_pieces_test
 }  // namespace textslam

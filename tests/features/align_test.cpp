@@ -11,7 +11,7 @@
 #include "textplane/features/fast.hpp"
 #include "textplane/features/select.hpp"
 
-namespace {
+namespace align_test {
 
 using namespace textplane;
 using namespace textplane_test;
@@ -183,4 +183,4 @@ TEST(AlignTemplate, FailuresAreStatusesWithoutNan) {
   EXPECT_TRUE(is_finite(wrong.zncc) && all_finite(wrong.px));
 }
 
-}  // namespace
+}  // namespace align_test

@@ -6,7 +6,7 @@
 
 #include "features/synthetic.hpp"
 
-namespace {
+namespace fast_test {
 
 using namespace textplane;
 using namespace textplane_test;
@@ -125,4 +125,4 @@ TEST(Fast, InvalidInputIsAStatus) {
   EXPECT_EQ(fast_score(image.view(), 17, 10), -1);
 }
 
-}  // namespace
+}  // namespace fast_test

@@ -9,7 +9,7 @@
 #include "features/synthetic.hpp"
 #include "textplane/features/select.hpp"
 
-namespace {
+namespace klt_test {
 
 using namespace textplane;
 using namespace textplane_test;
@@ -201,4 +201,4 @@ TEST(Klt, NeverGivesNanOnNoise) {
   }
 }
 
-}  // namespace
+}  // namespace klt_test

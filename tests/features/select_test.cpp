@@ -8,7 +8,7 @@
 
 #include "features/synthetic.hpp"
 
-namespace {
+namespace select_test {
 
 using namespace textplane;
 using namespace textplane_test;
@@ -159,4 +159,4 @@ TEST(MakePatch, FailsWithAStatus) {
   EXPECT_EQ(make_patch(image.view(), camera, quad, options).status, Status::invalid_argument);
 }
 
-}  // namespace
+}  // namespace select_test

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <vector>
 
+#include "support/random.hpp"
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/numeric.hpp"
 
@@ -17,26 +17,6 @@ using textplane::Image;
 using Matrix3d = textplane::Matrix3<double>;
 using Vector2d = textplane::Vector2<double>;
 using Vector2f = textplane::Vector2<float>;
-
-// The standard fixes the bits of mt19937 but not the mapping of the distributions.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
-  }
-  int integer(int low, int high) {
-    return low + static_cast<int>(engine_() % static_cast<std::uint32_t>(high - low + 1));
-  }
-  double normal() {
-    double sum = 0;
-    for (int i = 0; i < 12; ++i) sum += uniform(0, 1);
-    return sum - 6;
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 inline std::uint8_t to_byte(double v) { return static_cast<std::uint8_t>(std::min(std::max(v + 0.5, 0.0), 255.0)); }
 

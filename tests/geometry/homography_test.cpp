@@ -35,7 +35,7 @@ TEXTPLANE_INSTANTIATE(double)
 TEXTPLANE_INSTANTIATE(Dual<6>)
 #undef TEXTPLANE_INSTANTIATE
 
-namespace {
+namespace homography_test {
 
 const double kNan = std::nan("");
 
@@ -236,4 +236,4 @@ TEST(WarpTest, PointsThatCannotBeSeenAreRefused) {
   EXPECT_EQ(H, Eigen::Matrix3d::Constant(5));
 }
 
-}  // namespace
+}  // namespace homography_test

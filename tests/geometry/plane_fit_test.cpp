@@ -35,7 +35,7 @@ TEXTPLANE_INSTANTIATE(double)
 TEXTPLANE_INSTANTIATE(Dual<6>)
 #undef TEXTPLANE_INSTANTIATE
 
-namespace {
+namespace plane_fit_test {
 
 const double kNan = std::nan(""), kInf = std::numeric_limits<double>::infinity();
 
@@ -464,4 +464,4 @@ TEST(PlaneFitTest, DualsThroughTheFits) {
   }
 }
 
-}  // namespace
+}  // namespace plane_fit_test

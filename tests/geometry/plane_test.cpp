@@ -36,7 +36,7 @@ TEXTPLANE_INSTANTIATE(double)
 TEXTPLANE_INSTANTIATE(Dual<6>)
 #undef TEXTPLANE_INSTANTIATE
 
-namespace {
+namespace plane_test {
 
 const double kNan = std::nan("");
 
@@ -167,4 +167,4 @@ TEST(PlaneTest, ReanchoringOntoOrBeyondThePlaneIsRefused) {
   EXPECT_TRUE(J_pose.isZero());
 }
 
-}  // namespace
+}  // namespace plane_test

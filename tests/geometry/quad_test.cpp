@@ -53,7 +53,7 @@ TEXTPLANE_INSTANTIATE(double)
 TEXTPLANE_INSTANTIATE(Dual<2>)
 #undef TEXTPLANE_INSTANTIATE
 
-namespace {
+namespace quad_test {
 
 const double kNan = std::nan(""), kInf = std::numeric_limits<double>::infinity();
 
@@ -408,4 +408,4 @@ TEST(QuadTest, ProjectionBehindTheCameraLeavesTheOutput) {
   EXPECT_EQ(points[0], Vector3d(7, 8, 9));
 }
 
-}  // namespace
+}  // namespace quad_test

@@ -33,7 +33,7 @@ TEXTPLANE_INSTANTIATE(double)
 TEXTPLANE_INSTANTIATE(Dual<6>)
 #undef TEXTPLANE_INSTANTIATE
 
-namespace {
+namespace triangulate_test {
 
 const double kNan = std::nan("");
 
@@ -214,4 +214,4 @@ TEST(TriangulationTest, BrokenInputGivesAStatus) {
   EXPECT_EQ(p, untouched);
 }
 
-}  // namespace
+}  // namespace triangulate_test

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace textplane {
-namespace {
+namespace blur_test {
 
 Matrix2d covariance(double xx, double xy, double yy) {
   Matrix2d c;
@@ -145,5 +145,5 @@ TEST(Blur, APatchTakesTheFilteredIntensities) {
   }
 }
 
-}  // namespace
+}  // namespace blur_test
 }  // namespace textplane

@@ -12,7 +12,7 @@
 #include "textplane/photometry/template_patch.hpp"
 #include "textplane/photometry/text_batch.hpp"
 
-namespace {
+namespace guard_pages_test {
 namespace tp = textplane;
 using namespace textplane_test;
 
@@ -143,4 +143,4 @@ TEST(GuardPagesDeathTest, AnImageThatIsTooTallIsNoticed) {
   }
 }
 
-}  // namespace
+}  // namespace guard_pages_test

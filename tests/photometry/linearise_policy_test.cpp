@@ -8,7 +8,7 @@
 
 #include "photometry/scene.hpp"
 
-namespace {
+namespace linearise_policy_test {
 using namespace textplane_test;
 using tp::LinearisePolicy;
 using Row = Eigen::Matrix<double, 9, 1>;
@@ -140,4 +140,4 @@ TEST(LinearisePolicy, StatusOfWhatCannotBe) {
   EXPECT_EQ(run(scene.input(), LinearisePolicy::esm, scene.T_t_h), tp::Status::non_finite);
 }
 
-}  // namespace
+}  // namespace linearise_policy_test

@@ -10,7 +10,7 @@
 
 namespace tp = textplane;
 
-namespace {
+namespace patch_test {
 
 using Pixels = std::vector<std::vector<tp::Vector2<float>>>;
 
@@ -117,4 +117,4 @@ TEST(ScaleShift, IsTheDifferenceOfScalesInOctaves) {
   }
 }
 
-}  // namespace
+}  // namespace patch_test

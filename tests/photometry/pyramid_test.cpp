@@ -9,7 +9,7 @@
 
 namespace tp = textplane;
 
-namespace {
+namespace pyramid_test {
 
 tp::Image<std::uint8_t> ramp(int width, int height) {
   tp::Image<std::uint8_t> image(width, height);
@@ -131,4 +131,4 @@ TEST(PyramidView, HoldsTheLevelsAndNothingBeyond) {
   EXPECT_FALSE(view.level[3].valid());
 }
 
-}  // namespace
+}  // namespace pyramid_test

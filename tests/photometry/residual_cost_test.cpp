@@ -12,7 +12,7 @@ namespace tp = textplane;
 using textplane_test::Random;
 using textplane_test::Scene;
 
-namespace {
+namespace residual_cost_test {
 
 template <class T>
 tp::NormalEquations<9> linearise(Scene<T>& scene, const tp::BasicPhotometricInput<T>& input,
@@ -338,4 +338,4 @@ TEST(EvaluateOnSet, ReportsTheLostWhereTooFewRemain) {
             tp::Status::too_few);
 }
 
-}  // namespace
+}  // namespace residual_cost_test

@@ -13,7 +13,7 @@ using textplane_test::Scene;
 using tp::Normalisation;
 using tp::PerturbationSide;
 
-namespace {
+namespace residual_jacobian_test {
 
 template <int P>
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, P, Eigen::RowMajor>;
@@ -276,4 +276,4 @@ TYPED_TEST(ResidualJacobian, RightHandSideIsHalfTheGradientOfTheCost) {
   }
 }
 
-}  // namespace
+}  // namespace residual_jacobian_test

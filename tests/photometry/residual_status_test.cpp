@@ -14,7 +14,7 @@ using textplane_test::Random;
 using textplane_test::Scene;
 using tp::Status;
 
-namespace {
+namespace residual_status_test {
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
 const double kInf = std::numeric_limits<double>::infinity();
@@ -315,4 +315,4 @@ TEST(ResidualFuzz, OkIsFiniteAndTheRestIsZero) {
   EXPECT_GT(ok, 1000);
 }
 
-}  // namespace
+}  // namespace residual_status_test

@@ -9,7 +9,7 @@ namespace tp = textplane;
 using tp::Robust;
 using tp::RobustKind;
 
-namespace {
+namespace robust_test {
 
 constexpr RobustKind kKinds[] = {RobustKind::l2, RobustKind::huber, RobustKind::cauchy, RobustKind::tukey};
 
@@ -71,4 +71,4 @@ TEST(Robust, KnowsBadParameters) {
   EXPECT_FALSE((Robust{static_cast<RobustKind>(9), 1.0}.valid()));
 }
 
-}  // namespace
+}  // namespace robust_test

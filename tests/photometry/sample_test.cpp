@@ -13,7 +13,7 @@ namespace tp = textplane;
 using textplane_test::Dual;
 using textplane_test::Random;
 
-namespace {
+namespace sample_test {
 
 template <class T>
 class Sample : public testing::Test {};
@@ -131,4 +131,4 @@ TYPED_TEST(Sample, KeepsToTheStrideAndRefusesBadViews) {
     EXPECT_FALSE(tp::sample_bilinear(bad, 0.0, 0.0, &value));
 }
 
-}  // namespace
+}  // namespace sample_test

@@ -4,31 +4,15 @@
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <vector>
 
+#include "support/random.hpp"
 #include "textplane/core/image_view.hpp"
 #include "textplane/photometry/residual.hpp"
 
 namespace textplane_test {
 
 namespace tp = textplane;
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(engine_()) / 4294967295.0; }
-  int integer(int low, int high) { return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1)); }
-  tp::Vector6<double> twist(double translation, double rotation) {
-    tp::Vector6<double> xi;
-    for (int i = 0; i < 3; ++i) xi[i] = uniform(-translation, translation);
-    for (int i = 3; i < 6; ++i) xi[i] = uniform(-rotation, rotation);
-    return xi;
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 /// Integers in [20, 235]: waves and noise, so that neighbouring cells differ and both pixel types hold them exactly.
 template <class T>

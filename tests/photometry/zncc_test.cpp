@@ -11,7 +11,7 @@
 namespace tp = textplane;
 using textplane_test::Random;
 
-namespace {
+namespace zncc_test {
 
 TEST(IntensityStats, MeanAndNormOfTheCounted) {
   const std::vector<double> values = {1, 2, 1000, 3, 6};
@@ -106,4 +106,4 @@ TEST(Zncc, ZeroAndAStatusWhereUndefined) {
   EXPECT_EQ(status, tp::Status::too_few);
 }
 
-}  // namespace
+}  // namespace zncc_test

@@ -4,7 +4,7 @@
 #include "simd/policy_support.hpp"
 #include "textplane/photometry/text_batch.hpp"
 
-namespace {
+namespace batch_kernels_test {
 namespace tp = textplane;
 using textplane_test::PolicyScene;
 
@@ -216,4 +216,4 @@ TEST(BatchKernels, BadArguments) {
   EXPECT_EQ(empty.size(), 0);
 }
 
-}  // namespace
+}  // namespace batch_kernels_test

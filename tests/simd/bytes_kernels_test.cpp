@@ -10,7 +10,7 @@
 #include "support/guarded.hpp"
 #include "support/targets.hpp"
 
-namespace {
+namespace bytes_kernels_test {
 
 using namespace textplane_test;
 
@@ -121,4 +121,4 @@ TEST(ShortVectors, EveryOperationIsWhatItSays) {
   }
 }
 
-}  // namespace
+}  // namespace bytes_kernels_test

@@ -20,7 +20,7 @@ int fixed_dispatch();
 bool fixed_set_target(int target);
 }  // namespace textplane_test
 
-namespace {
+namespace dispatch_test {
 
 namespace simd = textplane::simd;
 using simd::Target;
@@ -78,11 +78,12 @@ TEST(Dispatch, DetectionAgreesWithTheCompilersRuntime) {
 #if TEXTPLANE_HAS_AVX512 && !defined(TEXTPLANE_EMULATED_AVX512)
   __builtin_cpu_init();
   EXPECT_EQ(simd::supported(Target::sse41), __builtin_cpu_supports("sse4.1") != 0);
-  EXPECT_EQ(simd::supported(Target::avx2), __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                                               __builtin_cpu_supports("popcnt"));
-  EXPECT_EQ(simd::supported(Target::avx512),
-            __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-                __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni") && simd::supported(Target::avx2));
+  EXPECT_EQ(simd::supported(Target::avx2),
+            __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("popcnt"));
+  EXPECT_EQ(simd::supported(Target::avx512), __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                                                 __builtin_cpu_supports("avx512dq") &&
+                                                 __builtin_cpu_supports("avx512vl") &&
+                                                 __builtin_cpu_supports("avx512vnni") && simd::supported(Target::avx2));
 #else
   EXPECT_EQ(simd::supported(Target::neon), TEXTPLANE_HAS_NEON != 0);
 #endif
@@ -170,4 +171,4 @@ TEST(Dispatch, ThreadsThatArriveTogetherAgree) {
   EXPECT_EQ(in_fresh_process("scalar", body), static_cast<int>(Target::scalar));
 }
 
-}  // namespace
+}  // namespace dispatch_test

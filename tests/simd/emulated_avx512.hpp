@@ -119,28 +119,30 @@ inline __m512 shuffle_quarters(std::uint64_t mask, const __m512& a, const __m512
 #undef _mm512_maskz_cvtpd_ps
 #define _mm512_maskz_cvtpd_ps(m, a) (emulated::convert<float, double, __m256>((m), (a)))
 #undef _mm512_maskz_cvttps_epi32
-#define _mm512_maskz_cvttps_epi32(m, a) \
-  (emulated::masked<std::int32_t, __m512i>((m), [&](std::size_t i) { return emulated::truncate(emulated::lanes<float>(a)[i]); }))
+#define _mm512_maskz_cvttps_epi32(m, a)     \
+  (emulated::masked<std::int32_t, __m512i>( \
+      (m), [&](std::size_t i) { return emulated::truncate(emulated::lanes<float>(a)[i]); }))
 #undef _mm512_maskz_extractf32x8_ps
 #define _mm512_maskz_extractf32x8_ps(m, a, half) \
   (emulated::masked<float, __m256>((m), [&](std::size_t i) { return emulated::lanes<float>(a)[8 * (half) + i]; }))
 #undef _mm512_maskz_shuffle_f32x4
 #define _mm512_maskz_shuffle_f32x4(m, a, b, order) (emulated::shuffle_quarters((m), (a), (b), (order)))
 #undef _mm512_maskz_srli_epi32
-#define _mm512_maskz_srli_epi32(m, a, bits) (emulated::masked<std::uint32_t, __m512i>( \
-    (m), [&](std::size_t i) { return emulated::lanes<std::uint32_t>(a)[i] >> (bits); }))
+#define _mm512_maskz_srli_epi32(m, a, bits)  \
+  (emulated::masked<std::uint32_t, __m512i>( \
+      (m), [&](std::size_t i) { return emulated::lanes<std::uint32_t>(a)[i] >> (bits); }))
 #undef _mm512_maskz_sqrt_ps
 #define _mm512_maskz_sqrt_ps(m, a) \
   (emulated::masked<float, __m512>((m), [&](std::size_t i) { return std::sqrt(emulated::lanes<float>(a)[i]); }))
 #undef _mm512_maskz_sra_epi32
-#define _mm512_maskz_sra_epi32(m, a, bits)           \
-  (emulated::masked<std::int32_t, __m512i>((m), [&](std::size_t i) { \
-    return emulated::lanes<std::int32_t>(a)[i] >> _mm_cvtsi128_si32(bits); \
-  }))
+#define _mm512_maskz_sra_epi32(m, a, bits)  \
+  (emulated::masked<std::int32_t, __m512i>( \
+      (m), [&](std::size_t i) { return emulated::lanes<std::int32_t>(a)[i] >> _mm_cvtsi128_si32(bits); }))
 // SIMDe's own leaves 0.5 as it is when it rounds down.
 #undef _mm512_maskz_roundscale_ps
 #define _mm512_maskz_roundscale_ps(m, a, mode) \
-  (emulated::masked<float, __m512>((m), [&](std::size_t i) { return emulated::round(emulated::lanes<float>(a)[i], (mode)); }))
+  (emulated::masked<float, __m512>(            \
+      (m), [&](std::size_t i) { return emulated::round(emulated::lanes<float>(a)[i], (mode)); }))
 // SIMDe's macro asks for the arguments of the masked form.
 #undef _mm512_madd_epi16
 #define _mm512_madd_epi16(a, b) simde_mm512_madd_epi16((a), (b))

@@ -1,7 +1,7 @@
 // ESM and host-gradient normal equations on every target against the double reference.
 #include "simd/policy_support.hpp"
 
-namespace {
+namespace esm_kernels_test {
 namespace tp = textplane;
 using textplane_test::PolicyScene;
 
@@ -9,7 +9,8 @@ using textplane_test::PolicyScene;
 constexpr double kTolerance = 3e-5;
 
 template <int P>
-void compare(PolicyScene& scene, const tp::PhotometricInput& in, tp::LinearisePolicy policy, const tp::PhotometricOptions& o) {
+void compare(PolicyScene& scene, const tp::PhotometricInput& in, tp::LinearisePolicy policy,
+             const tp::PhotometricOptions& o) {
   const auto reference = tp::reference::linearise_by<P>(policy, in, scene.theta, scene.T_t_h, o, scene.workspace);
   const auto fast = tp::linearise_by<P>(policy, in, scene.theta, scene.T_t_h, o, scene.workspace);
   tp::PhotometricOptions plain = o;
@@ -26,7 +27,8 @@ TEST(EsmKernels, EveryTargetAndCount) {
       SCOPED_TRACE(n);
       PolicyScene scene(static_cast<unsigned>(1 + n % 7), n);
       for (const auto policy : {tp::LinearisePolicy::esm, tp::LinearisePolicy::template_jacobian})
-        for (const auto& o : textplane_test::all_options(2)) compare<9>(scene, scene.policy_input(n % 2 == 0), policy, o);
+        for (const auto& o : textplane_test::all_options(2))
+          compare<9>(scene, scene.policy_input(n % 2 == 0), policy, o);
     }
   }
 }
@@ -51,7 +53,8 @@ TEST(EsmKernels, PartOfThePatchVisible) {
     SCOPED_TRACE(tp::simd::to_string(target));
     PolicyScene scene(5, 300);
     textplane_test::move_half_out(&scene);
-    for (const auto& o : textplane_test::all_options(15)) compare<6>(scene, scene.policy_input(), tp::LinearisePolicy::esm, o);
+    for (const auto& o : textplane_test::all_options(15))
+      compare<6>(scene, scene.policy_input(), tp::LinearisePolicy::esm, o);
   }
 }
 
@@ -76,4 +79,4 @@ TEST(EsmKernels, StatusOfBadInput) {
   EXPECT_EQ(run(in, scene.T_t_h, tp::LinearisePolicy::esm), tp::Status::invalid_argument);
 }
 
-}  // namespace
+}  // namespace esm_kernels_test

@@ -10,7 +10,7 @@
 #include "support/targets.hpp"
 #include "textplane/features/fast.hpp"
 
-namespace {
+namespace fast_kernels_test {
 
 using namespace textplane_test;
 using textplane::Corner;
@@ -157,4 +157,4 @@ TEST(FastKernel, TheDetectorAgreesOnAllTargets) {
   EXPECT_GT(total, 1000U);
 }
 
-}  // namespace
+}  // namespace fast_kernels_test

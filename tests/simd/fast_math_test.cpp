@@ -9,7 +9,7 @@ namespace textplane_test {
 void clamp_to_int_fast_math(const float* p, float low, float high, int* out);  // fast_math_unit.cpp
 }  // namespace textplane_test
 
-namespace {
+namespace fast_math_test {
 
 using namespace textplane_test;
 
@@ -33,4 +33,4 @@ TEST(FastMath, AClampHoldsForNotANumberToo) {
   }
 }
 
-}  // namespace
+}  // namespace fast_math_test

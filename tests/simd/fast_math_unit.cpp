@@ -5,5 +5,7 @@
 #include "textplane/simd/foreach_target.inl"
 
 namespace textplane_test {
-void clamp_to_int_fast_math(const float* p, float low, float high, int* out) { TEXTPLANE_SIMD_DISPATCH(clamp_to_int(p, low, high, out)) }
+void clamp_to_int_fast_math(const float* p, float low, float high, int* out) {
+  TEXTPLANE_SIMD_DISPATCH(clamp_to_int(p, low, high, out))
+}
 }  // namespace textplane_test

@@ -9,7 +9,7 @@
 #include "support/targets.hpp"
 #include "textplane/simd/halve.hpp"
 
-namespace {
+namespace halve_kernels_test {
 
 using namespace textplane_test;
 
@@ -79,4 +79,4 @@ TEST(HalveKernel, DoesNothingWithoutRowsOrColumns) {
   }
 }
 
-}  // namespace
+}  // namespace halve_kernels_test

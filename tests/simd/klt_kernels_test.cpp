@@ -11,7 +11,7 @@
 #include "support/targets.hpp"
 #include "textplane/simd/klt.hpp"
 
-namespace {
+namespace klt_kernels_test {
 
 using namespace textplane_test;
 using simd::kKltSide;
@@ -221,4 +221,4 @@ TEST(KltKernel, ReadsWhatMayBeRead) {
     }
 }
 
-}  // namespace
+}  // namespace klt_kernels_test

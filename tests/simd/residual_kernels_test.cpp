@@ -8,7 +8,7 @@
 #include "simd/residual_support.hpp"
 #include "textplane/photometry/prepared_target.hpp"
 
-namespace {
+namespace residual_kernels_test {
 namespace tp = textplane;
 using namespace textplane_test;
 using Scene8 = Scene<std::uint8_t>;
@@ -62,9 +62,9 @@ TEST(ResidualKernels, WorldPoses) {
       for (const simd::Target target : testable_targets()) {
         const TargetScope scope(target);
         SCOPED_TRACE(simd::to_string(target));
-        expect_close<15>(tp::linearise_host_target_plane(in, scene.theta, scene.T_w_h, scene.T_w_t, side, any_options(),
-                                                         workspace),
-                         exact, frozen);
+        expect_close<15>(
+            tp::linearise_host_target_plane(in, scene.theta, scene.T_w_h, scene.T_w_t, side, any_options(), workspace),
+            exact, frozen);
       }
     }
 }
@@ -152,4 +152,4 @@ TEST(ResidualKernels, TheReferenceTakesTheRest) {
   EXPECT_EQ(c.H, tp::reference::linearise_pose(same.input(), same.theta, same.T_t_h, any_options(), workspace).H);
 }
 
-}  // namespace
+}  // namespace residual_kernels_test

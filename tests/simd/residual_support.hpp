@@ -30,7 +30,8 @@ constexpr double kEntryBound = 3e-5, kCostBound = 1e-5, kCostFloor = 1e-6;
 
 /// Huber's weight delta / |e| of a pixel near the threshold is as uncertain as e is in units of delta.
 inline double entry_bound(const tp::PhotometricOptions& o) {
-  return o.robust.kind == tp::RobustKind::huber && o.robust.delta < 0.1 ? kEntryBound * 0.1 / o.robust.delta : kEntryBound;
+  return o.robust.kind == tp::RobustKind::huber && o.robust.delta < 0.1 ? kEntryBound * 0.1 / o.robust.delta
+                                                                        : kEntryBound;
 }
 
 template <int P>

@@ -9,7 +9,7 @@
 
 #include "simd/residual_support.hpp"
 
-namespace {
+namespace residual_visibility_test {
 namespace tp = textplane;
 using namespace textplane_test;
 using Scene8 = Scene<std::uint8_t>;
@@ -151,18 +151,30 @@ TEST(ResidualVisibility, BrokenInput) {
       tp::PhotometricInput in = scene.input();
       tp::Vector3<double> theta = scene.theta;
       tp::SE3d T = scene.T_t_h;
-      if (what < 3) theta[what] = bad;
-      else if (what < 6) T.t[what - 3] = bad;
-      else if (what < 15) T.R(what / 3 - 2, what % 3) = bad;
-      else if (what == 15) in.host_camera.fx = bad;
-      else if (what == 16) in.host_camera.cy = bad;
-      else if (what == 17) in.target_camera.fy = bad;
-      else if (what == 18) in.target_camera.cx = bad;
-      else if (what == 19) scene.intensity[7] = static_cast<float>(bad);
-      else if (what == 20) scene.x[3] = static_cast<float>(bad);
-      else if (what == 21) scene.y[0] = static_cast<float>(bad);
-      else if (what == 22) scene.intensity.assign(scene.intensity.size(), static_cast<float>(bad));
-      else scene.x.assign(scene.x.size(), static_cast<float>(bad));
+      if (what < 3)
+        theta[what] = bad;
+      else if (what < 6)
+        T.t[what - 3] = bad;
+      else if (what < 15)
+        T.R(what / 3 - 2, what % 3) = bad;
+      else if (what == 15)
+        in.host_camera.fx = bad;
+      else if (what == 16)
+        in.host_camera.cy = bad;
+      else if (what == 17)
+        in.target_camera.fy = bad;
+      else if (what == 18)
+        in.target_camera.cx = bad;
+      else if (what == 19)
+        scene.intensity[7] = static_cast<float>(bad);
+      else if (what == 20)
+        scene.x[3] = static_cast<float>(bad);
+      else if (what == 21)
+        scene.y[0] = static_cast<float>(bad);
+      else if (what == 22)
+        scene.intensity.assign(scene.intensity.size(), static_cast<float>(bad));
+      else
+        scene.x.assign(scene.x.size(), static_cast<float>(bad));
       tp::PhotometricWorkspace workspace(in.patch.n);
       const auto exact = tp::reference::linearise_pose_plane(in, theta, T, any_options(), workspace);
       const auto cost = tp::reference::evaluate(in, theta, T, any_options(), workspace);
@@ -218,4 +230,4 @@ TEST(ResidualVisibility, NothingToCompare) {
   EXPECT_EQ(refused.status, tp::Status::invalid_argument);
 }
 
-}  // namespace
+}  // namespace residual_visibility_test

@@ -14,7 +14,7 @@
 #include "textplane/photometry/prepared_target.hpp"
 #include "textplane/photometry/residual.hpp"
 
-namespace {
+namespace sample_points_test {
 namespace tp = textplane;
 using namespace textplane_test;
 
@@ -32,9 +32,9 @@ struct Points {
     const auto size = static_cast<std::size_t>(n);
     for (auto* v : {&out_x, &out_y, &value, &gx, &gy}) v->assign(size, -1);
     inside.assign(size, 7);
-    const double h[9] = {1.1 + random.uniform(-0.2, 0.2), random.uniform(-0.3, 0.3), random.uniform(-60, 20),
-                         random.uniform(-0.3, 0.3), 0.9 + random.uniform(-0.2, 0.2), random.uniform(-30, 40),
-                         random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), 1};
+    const double h[9] = {1.1 + random.uniform(-0.2, 0.2), random.uniform(-0.3, 0.3),       random.uniform(-60, 20),
+                         random.uniform(-0.3, 0.3),       0.9 + random.uniform(-0.2, 0.2), random.uniform(-30, 40),
+                         random.uniform(-1e-3, 1e-3),     random.uniform(-1e-3, 1e-3),     1};
     std::memcpy(args.h, h, sizeof h);
     args.x = x.data();
     args.y = y.data();
@@ -172,8 +172,8 @@ TEST(SamplePoints, TouchNothingElse) {
     in.target = tp::ImageView8(at(image), w, h);
     in.host_camera = in.target_camera = tp::Pinhole<double>(50, 50, w / 2.0, h / 2.0);
     tp::PhotometricWorkspace workspace(n);
-    const double extremes[6] = {0, 1, 3, 1e8, std::numeric_limits<double>::infinity(),
-                                std::numeric_limits<double>::quiet_NaN()};
+    const double extremes[6] = {
+        0, 1, 3, 1e8, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()};
     const double size_of_motion = extremes[trial % 6];
     tp::SE3d T = tp::se3_exp<double>(random.twist(0.1, 0.2));
     T.t *= size_of_motion;
@@ -211,4 +211,4 @@ TEST(SamplePoints, TouchNothingElse) {
   }
 }
 
-}  // namespace
+}  // namespace sample_points_test

@@ -4,7 +4,7 @@
 
 #include "simd/policy_support.hpp"
 
-namespace {
+namespace template_kernels_test {
 namespace tp = textplane;
 using textplane_test::PolicyScene;
 using textplane_test::Random;
@@ -66,7 +66,8 @@ TEST(TemplateKernels, ValuesAreWithinTheirBoundAndSumsExact) {
           const auto g = [&](int j) { return static_cast<double>(s.args.g[j]); };
           const double w = g(6) * p + g(7) * q + 1;
           double exact = 0;
-          ASSERT_TRUE(tp::sample_bilinear(tp::ImageView8(s.image.data(), 97, 61), (g(0) * p + g(1) * q + g(2)) / w + s.args.ox,
+          ASSERT_TRUE(tp::sample_bilinear(tp::ImageView8(s.image.data(), 97, 61),
+                                          (g(0) * p + g(1) * q + g(2)) / w + s.args.ox,
                                           (g(3) * p + g(4) * q + g(5)) / w + s.args.oy, &exact));
           // 0.025 of the fixed point; float positions within 2e-5 px at gradients below 255 a px and axis.
           ASSERT_NEAR(s.values[k] / 64.0 + 127.5, exact, 0.025 + 2 * 255 * 2e-5) << i;
@@ -156,7 +157,8 @@ TEST(TemplateKernels, RoundedColumnsDoNotMoveTheFixedPoint) {
   for (int y = 20; y < 60; ++y)
     for (int x = 30; x < 90; ++x) pixels[0].push_back({static_cast<float>(x), static_cast<float>(y)});
   tp::Quad<double> quad;
-  quad.corner = {tp::Vector2<double>(30, 20), tp::Vector2<double>(89, 20), tp::Vector2<double>(89, 59), tp::Vector2<double>(30, 59)};
+  quad.corner = {tp::Vector2<double>(30, 20), tp::Vector2<double>(89, 20), tp::Vector2<double>(89, 59),
+                 tp::Vector2<double>(30, 59)};
   const tp::TextPatch patch = tp::patch_from_pixels(pyramid.view(), camera, quad, pixels);
   tp::TemplatePatch prepared;
   ASSERT_EQ(prepared.prepare(patch.levels[0].view()), tp::Status::ok);
@@ -165,7 +167,8 @@ TEST(TemplateKernels, RoundedColumnsDoNotMoveTheFixedPoint) {
   for (const tp::simd::Target target : textplane_test::testable_targets()) {
     const textplane_test::TargetScope scope(target);
     for (const auto& o : textplane_test::all_options(15)) {
-      const auto e = tp::linearise_by<9>(tp::LinearisePolicy::template_jacobian, in, {0, 0, 1}, tp::SE3d(), o, workspace, &prepared);
+      const auto e = tp::linearise_by<9>(tp::LinearisePolicy::template_jacobian, in, {0, 0, 1}, tp::SE3d(), o,
+                                         workspace, &prepared);
       ASSERT_EQ(e.status, tp::Status::ok);
       EXPECT_EQ(e.visible, in.patch.n);
       EXPECT_NEAR(e.error, 0, 1e-12);
@@ -207,4 +210,4 @@ TEST(TemplateKernels, StatusOfPreparing) {
   EXPECT_EQ(prepared.prepare(patch), tp::Status::no_contrast);
 }
 
-}  // namespace
+}  // namespace template_kernels_test

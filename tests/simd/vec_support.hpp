@@ -31,7 +31,9 @@ inline void partial_load(const std::uint8_t* p, int n, float* floats, int* ints)
 inline void load_bytes(const std::uint8_t* p, float* floats, int* ints) {
   TEXTPLANE_SIMD_DISPATCH(load_bytes(p, floats, ints))
 }
-inline void partial_store(float* p, const float* from, int n) { TEXTPLANE_SIMD_DISPATCH(partial_store_floats(p, from, n)) }
+inline void partial_store(float* p, const float* from, int n) {
+  TEXTPLANE_SIMD_DISPATCH(partial_store_floats(p, from, n))
+}
 inline void partial_store(int* p, const int* from, int n) { TEXTPLANE_SIMD_DISPATCH(partial_store_ints(p, from, n)) }
 inline unsigned first_lanes(int n) { TEXTPLANE_SIMD_DISPATCH(first_lanes(n)) }
 inline unsigned read_half(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_half(p)) }

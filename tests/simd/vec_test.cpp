@@ -13,7 +13,7 @@
 #include "support/guarded.hpp"
 #include "support/targets.hpp"
 
-namespace {
+namespace vec_test {
 
 using namespace textplane_test;
 using simd::Target;
@@ -23,10 +23,11 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr int kMin = std::numeric_limits<int>::min(), kMax = std::numeric_limits<int>::max();
 
-const std::vector<float> kFloats = {0.0f,   -0.0f,     1.0f,        -1.0f,   0.5f,   2.5f,  -2.5f,  0.99999994f, 1.0000001f, 1e-40f,
-                                    -1e-3f, 255.0f,    16777217.0f, 1e9f,    -3e9f,  3e30f, -3e30f, kInf,        -kInf,      kNaN,
-                                    0.1f,   -0.33333f, 12.75f,      -12.75f, 1e-20f};
-const std::vector<int> kInts = {0, 1, -1, 2, 7, -8, 255, -256, 65535, 65536, 123456789, -123456789, kMax, kMin, kMax - 1, kMin + 1};
+const std::vector<float> kFloats = {
+    0.0f, -0.0f, 1.0f,  -1.0f,  0.5f, 2.5f,  -2.5f, 0.99999994f, 1.0000001f, 1e-40f, -1e-3f,  255.0f, 16777217.0f,
+    1e9f, -3e9f, 3e30f, -3e30f, kInf, -kInf, kNaN,  0.1f,        -0.33333f,  12.75f, -12.75f, 1e-20f};
+const std::vector<int> kInts = {0,     1,     -1,        2,          7,    -8,   255,      -256,
+                                65535, 65536, 123456789, -123456789, kMax, kMin, kMax - 1, kMin + 1};
 
 /// The same bits, or both NaN: which NaN is nobody's business.
 bool same(float a, float b) {
@@ -83,8 +84,8 @@ void expect_float_operations(Target target, const float* a, const float* b, cons
                                 0.0f,
                                 static_cast<float>(i)};
     for (int k = 0; k < 19; ++k) {
-      EXPECT_TRUE(same(out[lanes * k + i], expected[k]))
-          << "operation " << k << " of " << x << ", " << y << ", " << z << ": " << out[lanes * k + i] << ", not " << expected[k];
+      EXPECT_TRUE(same(out[lanes * k + i], expected[k])) << "operation " << k << " of " << x << ", " << y << ", " << z
+                                                         << ": " << out[lanes * k + i] << ", not " << expected[k];
     }
   }
 }
@@ -101,7 +102,9 @@ TEST(Vec, FloatOperationsGiveTheIeeeBits) {
       expect_float_operations(target, a, b, c);
     }
     std::mt19937 random(5);
-    const auto uniform = [&random] { return static_cast<float>(static_cast<double>(random()) / 4294967296.0 * 600 - 300); };
+    const auto uniform = [&random] {
+      return static_cast<float>(static_cast<double>(random()) / 4294967296.0 * 600 - 300);
+    };
     for (int round = 0; round < 200; ++round) {
       float a[kMost], b[kMost], c[kMost];
       for (int i = 0; i < kMost; ++i) a[i] = uniform(), b[i] = uniform(), c[i] = uniform() * 100;
@@ -120,28 +123,32 @@ TEST(Vec, IntOperationsWrap) {
       int_operations(a, b, shift, out);
       for (int i = 0; i < lanes; ++i) {
         const std::int64_t x = a[i], y = b[i];
-        const int expected[14] = {wrap(x + y),
-                                  wrap(x - y),
-                                  wrap(static_cast<std::int64_t>(static_cast<std::uint64_t>(x) * static_cast<std::uint64_t>(y))),
-                                  std::min(a[i], b[i]),
-                                  std::max(a[i], b[i]),
-                                  a[i] & b[i],
-                                  a[i] | b[i],
-                                  wrap(x * (std::int64_t{1} << shift)),
-                                  a[i] >> shift,
-                                  wrap(x * 8),
-                                  a[i] >> 3,
-                                  std::min(a[i], b[i]),
-                                  a[0],
-                                  i};
-        for (int k = 0; k < 14; ++k) EXPECT_EQ(out[lanes * k + i], expected[k]) << "operation " << k << " of " << x << ", " << y;
+        const int expected[14] = {
+            wrap(x + y),
+            wrap(x - y),
+            wrap(static_cast<std::int64_t>(static_cast<std::uint64_t>(x) * static_cast<std::uint64_t>(y))),
+            std::min(a[i], b[i]),
+            std::max(a[i], b[i]),
+            a[i] & b[i],
+            a[i] | b[i],
+            wrap(x * (std::int64_t{1} << shift)),
+            a[i] >> shift,
+            wrap(x * 8),
+            a[i] >> 3,
+            std::min(a[i], b[i]),
+            a[0],
+            i};
+        for (int k = 0; k < 14; ++k)
+          EXPECT_EQ(out[lanes * k + i], expected[k]) << "operation " << k << " of " << x << ", " << y;
       }
     }
   });
 }
 
 TEST(Vec, ConversionsTruncateAndRound) {
-  const std::vector<float> floats = {0.0f, -0.0f, 0.999f, -0.999f, 1.5f, -1.5f, 2147483520.0f, -2147483648.0f, 8388607.5f, -8388607.5f, 3.0f, -7.9999995f, 1e-30f, 100.01f, -100.99f, 0.5f};
+  const std::vector<float> floats = {0.0f,          -0.0f,          0.999f,     -0.999f,     1.5f, -1.5f,
+                                     2147483520.0f, -2147483648.0f, 8388607.5f, -8388607.5f, 3.0f, -7.9999995f,
+                                     1e-30f,        100.01f,        -100.99f,   0.5f};
   on_each_target([&](Target, int lanes) {
     for (std::size_t first = 0; first < kMost; ++first) {
       float a[kMost], to_floats[kMost];
@@ -207,7 +214,8 @@ TEST(Vec, ReductionsHalveTheLanes) {
       float a[kMost], sum[kMost];
       double sum_d[kMost], out[4];
       for (int i = 0; i < kMost; ++i) {
-        a[i] = static_cast<float>(static_cast<double>(random()) / 4294967296.0 - 0.5) * std::pow(10.0f, static_cast<float>(i % 5));
+        a[i] = static_cast<float>(static_cast<double>(random()) / 4294967296.0 - 0.5) *
+               std::pow(10.0f, static_cast<float>(i % 5));
         sum[i] = a[i], sum_d[i] = static_cast<double>(a[i]);
       }
       for (int half = lanes / 2; half > 0; half /= 2) {
@@ -325,4 +333,4 @@ TEST(Vec, BytesAsNumbersAndCopies) {
   });
 }
 
-}  // namespace
+}  // namespace vec_test

@@ -13,7 +13,7 @@
 #include "support/targets.hpp"
 #include "textplane/photometry/warp_patch.hpp"
 
-namespace {
+namespace warp_kernels_test {
 
 using namespace textplane;
 using simd::Target;
@@ -305,4 +305,4 @@ TEST(WarpKernels, TouchesNothingOutside) {
   });
 }
 
-}  // namespace
+}  // namespace warp_kernels_test

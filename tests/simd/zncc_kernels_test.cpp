@@ -2,7 +2,7 @@
 #include "simd/policy_support.hpp"
 #include "textplane/photometry/candidates.hpp"
 
-namespace {
+namespace zncc_kernels_test {
 namespace tp = textplane;
 using textplane_test::PolicyScene;
 using textplane_test::Random;
@@ -20,13 +20,15 @@ TEST(ZnccKernels, EveryTargetAndCount) {
       Random random(static_cast<unsigned>(n));
       std::vector<tp::SE3d> poses(9, scene.T_t_h);
       for (std::size_t i = 1; i < 6; ++i) poses[i] = tp::se3_exp<double>(random.twist(0.02, 0.02)) * poses[i];
-      poses[6].t[0] += 0.45;           // partly outside, or wholly
-      poses[7].t[2] -= 100;            // behind
+      poses[6].t[0] += 0.45;  // partly outside, or wholly
+      poses[7].t[2] -= 100;   // behind
       poses[8].R(0, 0) = std::nan("");
       std::vector<float> zncc(9, 7.0F), plain(9, 7.0F);
       const tp::PhotometricOptions o;
-      ASSERT_EQ(tp::zncc_candidates(in, scene.theta, poses.data(), 9, o, scene.workspace, zncc.data(), &prepared), tp::Status::ok);
-      ASSERT_EQ(tp::zncc_candidates(in, scene.theta, poses.data(), 9, o, scene.workspace, plain.data()), tp::Status::ok);
+      ASSERT_EQ(tp::zncc_candidates(in, scene.theta, poses.data(), 9, o, scene.workspace, zncc.data(), &prepared),
+                tp::Status::ok);
+      ASSERT_EQ(tp::zncc_candidates(in, scene.theta, poses.data(), 9, o, scene.workspace, plain.data()),
+                tp::Status::ok);
       tp::PhotometricOptions l2;
       l2.robust.kind = tp::RobustKind::l2;
       for (std::size_t i = 0; i < 9; ++i) {
@@ -49,8 +51,9 @@ TEST(ZnccKernels, BadArguments) {
   EXPECT_EQ(tp::zncc_candidates(in, scene.theta, nullptr, 2, {}, scene.workspace, zncc), tp::Status::invalid_argument);
   EXPECT_EQ(tp::zncc_candidates(in, scene.theta, nullptr, 0, {}, scene.workspace, nullptr), tp::Status::ok);
   in.target = tp::ImageView8();
-  EXPECT_EQ(tp::zncc_candidates(in, scene.theta, &scene.T_t_h, 1, {}, scene.workspace, zncc), tp::Status::invalid_argument);
+  EXPECT_EQ(tp::zncc_candidates(in, scene.theta, &scene.T_t_h, 1, {}, scene.workspace, zncc),
+            tp::Status::invalid_argument);
   EXPECT_EQ(zncc[0], -1.0F);
 }
 
-}  // namespace
+}  // namespace zncc_kernels_test

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace gauss_newton_test {
 using textplane::Evaluation;
 using textplane::minimise;
 using textplane::SolveOptions;
@@ -376,4 +376,4 @@ TEST(GaussNewton, JudgesStepsOnTheSetOfTheirLinearisation) {
 
 static_assert(noexcept(minimise(std::declval<Rosenbrock&>(), std::declval<Eigen::Vector2d&>())),
               "minimise is noexcept");
-}  // namespace
+}  // namespace gauss_newton_test

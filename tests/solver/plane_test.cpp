@@ -11,7 +11,7 @@
 
 #include "solver/synthetic.hpp"
 
-namespace {
+namespace plane_test {
 using namespace textplane_test::planar;
 using textplane::PlaneOptions;
 using textplane::PlaneRefinement;
@@ -243,4 +243,4 @@ TEST(RefinePlane, InputThatNoPlaneComesFromGetsAStatus) {
   EXPECT_FALSE(
       is_ok(refine_plane(empty, theta, other.targets.data(), 1, other.scene.camera, {}, other.workspace).status));
 }
-}  // namespace
+}  // namespace plane_test

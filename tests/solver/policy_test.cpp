@@ -9,7 +9,7 @@
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/search.hpp"
 
-namespace {
+namespace policy_test {
 using namespace textplane_test::planar;
 namespace tp = textplane;
 using tp::LinearisePolicy;
@@ -175,4 +175,4 @@ TEST(SearchPose, KeepsTheGuessWhereNothingIsBetter) {
   EXPECT_EQ(found.R, truth.R);
 }
 
-}  // namespace
+}  // namespace policy_test

@@ -10,7 +10,7 @@
 
 #include "solver/synthetic.hpp"
 
-namespace {
+namespace pose_test {
 using namespace textplane_test::planar;
 using textplane::Evaluation;
 using textplane::PoseFit;
@@ -478,4 +478,4 @@ TEST(RefinePose, GarbageNeverGivesANonFinitePose) {
     }
   }
 }
-}  // namespace
+}  // namespace pose_test

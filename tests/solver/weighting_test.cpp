@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace weighting_test {
 
 using textplane::text_weight;
 using textplane::Weighting;
@@ -35,4 +35,4 @@ TEST(TextWeight, ZeroForWhatIsNotPositive) {
   }
 }
 
-}  // namespace
+}  // namespace weighting_test

@@ -8,7 +8,7 @@
 #include "textplane/solver/window.hpp"
 
 namespace textplane_test {
-namespace {
+namespace window_gauge_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -320,5 +320,5 @@ TEST(WindowTextInput, ATextWithoutParallaxIsTold) {
   EXPECT_EQ(w.texts[0].theta, scene.texts[0].theta);
 }
 
-}  // namespace
+}  // namespace window_gauge_test
 }  // namespace textplane_test

@@ -9,7 +9,7 @@
 #include "textplane/solver/window.hpp"
 
 namespace textplane_test {
-namespace {
+namespace window_linear_test {
 
 using Dense = Eigen::MatrixXd;
 
@@ -281,5 +281,5 @@ TEST(BlockCholesky, AZeroPivotIsHeldAndTold) {
   EXPECT_EQ(cholesky.factorise(scale.data(), 1e-12), -1);
 }
 
-}  // namespace
+}  // namespace window_linear_test
 }  // namespace textplane_test

@@ -8,7 +8,7 @@
 #include "solver/window_scene.hpp"
 
 namespace textplane_test {
-namespace {
+namespace window_test {
 
 tp::WindowOptions exact() {
   tp::WindowOptions o;
@@ -222,5 +222,5 @@ TEST(Window, AWorkspaceCarriesNothingOver) {
   }
 }
 
-}  // namespace
+}  // namespace window_test
 }  // namespace textplane_test

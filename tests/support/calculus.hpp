@@ -7,42 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <type_traits>
 
 #include "support/dual.hpp"
+#include "support/random.hpp"
 #include "textplane/core/se3.hpp"
 
 namespace textplane_test {
-
-/// std::mt19937 with own mappings: the standard's distributions differ between libraries.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
-  }
-  /// Standard normal, by Box and Muller.
-  double normal() {
-    const double r = std::sqrt(-2 * std::log(uniform(0, 1))), phi = uniform(0, 6.283185307179586);
-    return r * std::cos(phi);
-  }
-  template <int N>
-  Eigen::Matrix<double, N, 1> vector(double scale) {
-    Eigen::Matrix<double, N, 1> v;
-    for (int i = 0; i < N; ++i) v[i] = uniform(-scale, scale);
-    return v;
-  }
-  textplane::SE3d pose(double translation, double rotation) {
-    Eigen::Matrix<double, 6, 1> xi;
-    xi << vector<3>(translation), vector<3>(rotation);
-    return textplane::se3_exp<double>(xi);
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 /// d f / d x at x by central differences of fourth order; f maps Matrix<double, N, 1> to Matrix<double, M, 1>.
 template <int M, int N, class F>

@@ -37,7 +37,8 @@ inline std::vector<simd::Target> testable_targets() {
   std::vector<simd::Target> targets;
   for (int i = 0; i < simd::kTargetCount; ++i) {
     const auto target = static_cast<simd::Target>(i);
-    if (simd::supported(target) && (only == nullptr || std::strcmp(only, simd::to_string(target)) == 0)) targets.push_back(target);
+    if (simd::supported(target) && (only == nullptr || std::strcmp(only, simd::to_string(target)) == 0))
+      targets.push_back(target);
   }
   if (targets.empty()) ADD_FAILURE() << "no target " << only;
   return targets;
@@ -76,7 +77,8 @@ class TargetReport : public ::testing::Environment {
     std::string run, skipped;
     for (int i = 0; i < simd::kTargetCount; ++i) {
       const auto target = static_cast<simd::Target>(i);
-      if (targets_run()[static_cast<std::size_t>(i)]) run += std::string(" ") + simd::to_string(target) + emulation(target);
+      if (targets_run()[static_cast<std::size_t>(i)])
+        run += std::string(" ") + simd::to_string(target) + emulation(target);
       if (!simd::supported(target)) skipped += std::string(" ") + simd::to_string(target);
     }
     if (run.empty()) return;
