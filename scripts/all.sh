@@ -1,0 +1,81 @@
+# shellcheck shell=sh disable=SC2154,SC2034
+# The stages of `scripts/test --all` after those of --ci, sourced by it: stage(), note() and the lists are there.
+
+# needs STAGE PROGRAM...: whether the programs are there; a line of the summary where not.
+needs() {
+  name=$1
+  shift
+  for program in "$@"; do
+    if command -v "$program" >/dev/null 2>&1 || [ -e "$program" ]; then continue; fi
+    note "$name" 0 "left out: $program is missing"
+    return 1
+  done
+}
+
+# checked NAME COMMAND...: a stage whose last line of output is its line of the summary.
+checked() {
+  name=$1
+  shift
+  begin=$(date +%s)
+  say "$name"
+  log=$root/build/$name.log
+  mkdir -p "$root/build"
+  if "$@" >"$log" 2>&1; then outcome=; else outcome='FAILED: ' result=1; fi
+  cat "$log"
+  note "$name" "$(($(date +%s) - begin))" "$outcome$(tail -n 1 "$log")"
+}
+
+library_tests='test_core test_simd test_vectors test_geometry test_photometry test_features test_solver'
+library_only='-DTEXTPLANE_BUILD_EXAMPLES=OFF -DTEXTPLANE_TEST_OPENCV=OFF -DTEXTPLANE_TEST_CERES=OFF -DTEXTPLANE_TEST_PROPERTIES=OFF -DTEXTPLANE_TEST_INCLUDE_ALONE=OFF'
+library_filter='-R ^(core|simd|geometry|photometry|features|solver)\.'
+
+# Memory under valgrind, which has AVX2: kernels that read beyond what they may, or use what nobody wrote. A subset: it takes fifty
+# times as long.
+memcheck() {
+  for kernels in 'ResidualKernels.EveryNumberOfPixels' 'WarpKernels.*' 'HalveKernels.*' 'FastKernel.*' 'BatchKernels.*' 'SamplePoints.*' \
+    'EsmKernels.*'; do
+    TEXTPLANE_TEST_TARGET=${TEXTPLANE_TEST_TARGET:-avx2} valgrind --quiet --error-exitcode=9 --leak-check=full "$1" \
+      --gtest_brief=1 --gtest_filter="$kernels" || return 1
+  done
+  echo 'memcheck: no errors in seven groups of kernel tests on avx2'
+}
+
+cpp_check() {
+  cppcheck --std=c++17 --language=c++ --enable=warning,performance,portability --inline-suppr --quiet --error-exitcode=9 \
+    --suppressions-list="$root/.cppcheck" -DTEXTPLANE_EXTERN_KERNELS -D__GNUC__=12 -D__x86_64__ -I "$root/include" "$root/tests/everything.cpp" || return 1
+  echo 'cppcheck: no findings'
+}
+
+clang_tidy() {
+  clang-tidy --quiet --warnings-as-errors='*' "$root/tests/everything.cpp" -- -std=c++17 -DTEXTPLANE_EXTERN_KERNELS \
+    -I"$root/include" -isystem /usr/include/eigen3 || return 1
+  echo 'clang-tidy: no findings'
+}
+
+# Lines of include/ that the tests of the library run, on all targets of this machine together.
+coverage() {
+  rm -f "$root/build/coverage.txt"
+  gcovr -r "$root" --filter "$root/include/" --exclude '.*/adapters/' --exclude '.*neon.*' --exclude-throw-branches \
+    --object-directory "$root/build/coverage" --fail-under-line 95 -o "$root/build/coverage.txt" "$root/build/coverage"
+  outcome=$?
+  sed -n 's/^TOTAL */coverage of include (lines, run, share): /p' "$root/build/coverage.txt"
+  return $outcome
+}
+
+all_stages() {
+  if needs memcheck valgrind && [ -x "$root/build/dev/bin/test_simd" ]; then checked memcheck memcheck "$root/build/dev/bin/test_simd"; fi
+  if needs i386 /usr/lib/gcc/x86_64-linux-gnu/12/32 /usr/src/googletest; then stage i386 '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
+  if needs s390x s390x-linux-gnu-g++-11 qemu-s390x /usr/src/googletest; then stage s390x '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
+  stage unoptimised "$library_only" "$library_filter" "$library_tests"
+  stage cxx20 "$library_only" "$library_filter" "$library_tests"
+  stage cxx23 "$library_only" "$library_filter" "$library_tests"
+  if needs clang-tidy clang-tidy; then checked clang-tidy clang_tidy; fi
+  if needs cppcheck cppcheck; then checked cppcheck cpp_check; fi
+  if needs coverage gcovr; then
+    stage coverage "$library_only" "$library_filter" "$library_tests"
+    checked coverage-of-include coverage
+  fi
+  checked mutants "$root/tests/mutants/run"
+  if needs fuzz clang++; then checked fuzz "$root/tests/fuzz/run" --seconds 1800; fi
+  checked soak "$root/tests/soak/run" --build "$root/build/release"
+}
