@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/data_uri.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/report_frames.hpp"
 #include "textslam/statistics.hpp"

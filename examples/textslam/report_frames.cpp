@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/data_uri.hpp"
 #include "io/image_file.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/photometry/residual.hpp"

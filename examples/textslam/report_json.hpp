@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 
 #include "io/names.hpp"
 
@@ -20,9 +19,6 @@ Json short_vector(const Vector3<double>& v);
 Json short_pose(const SE3d& T);
 /// [x1, y1, ..., x4, y4] in tenths of a pixel; null where a corner is not finite.
 Json short_quad(const Quad<double>& quad);
-
-/// `data:image/jpeg;base64,...` of a JPEG's bytes.
-std::string jpeg_uri(std::string_view jpeg);
 
 /// The text of `json` for the inside of a script element: it holds no `<`, so neither `</script>` nor `<!--`, and parses to
 /// the same value. Bytes that are not UTF-8 become U+FFFD.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "io/data_uri.hpp"
 #include "io/image_codecs.hpp"
 #include "textslam/frame_line.hpp"
 #include "textslam/progress.hpp"

@@ -1,0 +1,13 @@
+# Runs PROGRAM and checks a number that it prints: the one after TEXT must lie below BELOW, or above ABOVE.
+execute_process(COMMAND ${PROGRAM} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE error)
+message("${output}${error}")
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} ended with ${result}")
+endif()
+if(NOT output MATCHES "${TEXT} ([0-9]+\\.?[0-9]*)")
+  message(FATAL_ERROR "no number after \"${TEXT}\"")
+endif()
+set(number ${CMAKE_MATCH_1})
+if((DEFINED BELOW AND NOT number LESS BELOW) OR (DEFINED ABOVE AND NOT number GREATER ABOVE))
+  message(FATAL_ERROR "${TEXT} ${number}: wanted below \"${BELOW}\", above \"${ABOVE}\"")
+endif()
