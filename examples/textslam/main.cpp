@@ -6,6 +6,7 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "renderer/render_sequence.hpp"
+#include "textslam/detector_options.hpp"
 #include "textslam/progress.hpp"
 #include "textslam/run.hpp"
 
@@ -46,9 +47,7 @@ int execute(int argc, char** argv) {
                  "text: points and text; points: points alone; loose: as points, text planes fitted to the points")
       ->check(CLI::IsMember({"text", "points", "loose"}))
       ->capture_default_str();
-  app.add_option("--detector", options.detector, "files: the sequence's detections; classical: built in")
-      ->check(CLI::IsMember({"files", "classical"}))
-      ->capture_default_str();
+  textslam::add_detector_options(app, options.detector);
   app.add_flag(
       "--real-time", options.parameters.real_time,
       "Frames come at the times of their stamps, and local adjustment has a thread of its own; without it, all is "

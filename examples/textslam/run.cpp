@@ -107,11 +107,11 @@ RunResult run(const RunOptions& options) {
     throw InputError(sequence.images_file, 0,
                      "frames " + std::to_string(options.first) + " to " + std::to_string(last) +
                          " asked for, but it has 0 to " + std::to_string(count - 1));
+  FrameSource source(sequence, options);
   create_output_folder(options.output);
 
   RunResult result;
   const int total = last - options.first + 1;
-  FrameSource source(sequence, options);
   System system(sequence.camera.pinhole, sequence.camera.width, sequence.camera.height, options.parameters);
   Clock clock(options.parameters.real_time);
   std::vector<std::vector<Detection>> detections;

@@ -7,12 +7,13 @@
 
 #include "textslam/outputs.hpp"
 #include "textslam/parameters.hpp"
+#include "textslam/text_detector.hpp"
 
 namespace textslam {
 
 struct RunOptions {
   std::string sequence, output;
-  std::string detector = "files";
+  DetectorOptions detector;
   int first = 0;  ///< Index of the first frame.
   int last = -1;  ///< Index of the last frame; -1: the sequence's last.
   Parameters parameters;

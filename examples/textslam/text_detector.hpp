@@ -1,4 +1,5 @@
 // TextDetector: where a frame's text quads come from. Everything else in the system is the same for all of them.
+// How to write one: docs/detectors.md.
 #ifndef TEXTSLAM_TEXT_DETECTOR_HPP
 #define TEXTSLAM_TEXT_DETECTOR_HPP
 
@@ -14,13 +15,34 @@ namespace textslam {
 class TextDetector {
  public:
   virtual ~TextDetector() = default;
-  /// Quads in raw image pixels, clockwise from the text's top left. May throw InputError.
+  /// Quads in raw image pixels, clockwise from the text's top left. May throw InputError. Called by one thread at a time.
   virtual std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) = 0;
 };
 
-/// `name`: "files" (the sequence's own detections, by any external detector) or "classical" (built in, no model).
-/// The sequence must outlive the detector. Throws std::invalid_argument that lists the names for any other.
-std::unique_ptr<TextDetector> make_detector(const std::string& name, const Sequence& sequence);
+/// Reads the text of a quad that another detector found.
+class TextReader {
+ public:
+  virtual ~TextReader() = default;
+  struct Reading {
+    std::string text = kUnreadText;
+    double score = 0;  ///< 0 to 1.
+  };
+  virtual Reading read(ImageView8 raw_image, const Quad<double>& quad) = 0;
+};
+
+struct DetectorOptions {
+  std::string name = "files";  ///< One of detector_names().
+  std::string model;           ///< Of `dnn`; empty: where scripts/get-detector puts it.
+  std::string words = "auto";  ///< "none", "tesseract", or "auto": by Tesseract after `dnn`, where it was built.
+};
+
+/// "files" (the sequence's own detections, by any external detector), "classical" (built in, no model), "dnn" (a network
+/// through OpenCV) and "tesseract"; the last two are plug-ins that a build may lack.
+const std::vector<std::string>& detector_names();
+
+/// The sequence must outlive the detector. Throws InputError where the plug-in was not built, saying how to build it, and for
+/// a model that is missing or wrong; std::invalid_argument that lists the names for any other name.
+std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, const Sequence& sequence);
 
 }  // namespace textslam
 

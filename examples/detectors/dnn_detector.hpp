@@ -1,0 +1,51 @@
+// DnnDetector: text quads by a network that OpenCV runs, of one of two kinds that its outputs tell apart:
+//
+//   DB    one output, the probability map at the size of the input (PP-OCR's detectors; scripts/get-detector gets one)
+//   EAST  two outputs at a quarter of it, score and geometry (frozen_east_text_detection.pb)
+//
+// It reads nothing.
+#ifndef TEXTSLAM_DETECTORS_DNN_DETECTOR_HPP
+#define TEXTSLAM_DETECTORS_DNN_DETECTOR_HPP
+
+#include <opencv2/dnn/dnn.hpp>
+#include <string>
+#include <vector>
+
+#include "detectors/db_boxes.hpp"
+#include "detectors/east_boxes.hpp"
+#include "textslam/text_detector.hpp"
+
+namespace textslam {
+
+struct DnnParameters {
+  int long_side =
+      960;  ///< px of the network's input: the image's longer side; the shorter in proportion, in whole steps.
+  DbParameters db;
+  EastParameters east;
+};
+
+class DnnDetector final : public TextDetector {
+ public:
+  /// `model`: any file that cv::dnn::readNet() knows. Throws InputError that names it where it is missing, does not load, does
+  /// not run, or has other outputs.
+  explicit DnnDetector(const std::string& model, const DnnParameters& parameters = {});
+
+  /// Text kUnreadText, score in [0, 1]. The frame itself is not used; nothing in an invalid view.
+  std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) override;
+
+  bool is_east() const { return outputs_.size() == 2; }
+
+ private:
+  std::vector<cv::Mat> forward(ImageView8 image, int width, int height);
+  std::string reason_it_is_wrong();
+
+  std::string model_;
+  DnnParameters parameters_;
+  cv::dnn::Net net_;
+  cv::Size loaded_for_;               // of the input
+  std::vector<std::string> outputs_;  // of EAST the score first
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_DETECTORS_DNN_DETECTOR_HPP

@@ -1,0 +1,34 @@
+// The detectors that need libraries of their own: each is built where its CMake option is on, and tells here whether it was.
+#ifndef TEXTSLAM_DETECTORS_PLUGINS_HPP
+#define TEXTSLAM_DETECTORS_PLUGINS_HPP
+
+#include <memory>
+#include <string>
+
+#include "textslam/text_detector.hpp"
+
+namespace textslam {
+
+#ifdef TEXTSLAM_WITH_DNN
+constexpr bool kHasDnn = true;
+/// See dnn_detector.hpp. Throws InputError where the model is missing or none that it knows.
+std::unique_ptr<TextDetector> make_dnn_detector(const std::string& model);
+#else
+constexpr bool kHasDnn = false;
+inline std::unique_ptr<TextDetector> make_dnn_detector(const std::string&) { return nullptr; }
+#endif
+
+#ifdef TEXTSLAM_WITH_TESSERACT
+constexpr bool kHasTesseract = true;
+/// See tesseract_detector.hpp. Throw InputError where Tesseract has no data for the language.
+std::unique_ptr<TextDetector> make_tesseract_detector();
+std::unique_ptr<TextReader> make_tesseract_reader();
+#else
+constexpr bool kHasTesseract = false;
+inline std::unique_ptr<TextDetector> make_tesseract_detector() { return nullptr; }
+inline std::unique_ptr<TextReader> make_tesseract_reader() { return nullptr; }
+#endif
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_DETECTORS_PLUGINS_HPP

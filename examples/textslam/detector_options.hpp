@@ -1,0 +1,26 @@
+// The options of a detector on the command line, the same for every program that has one. Needs CLI11.
+#ifndef TEXTSLAM_DETECTOR_OPTIONS_HPP
+#define TEXTSLAM_DETECTOR_OPTIONS_HPP
+
+#include <CLI/CLI.hpp>
+
+#include "textslam/text_detector.hpp"
+
+namespace textslam {
+
+inline void add_detector_options(CLI::App& app, DetectorOptions& options) {
+  app.add_option("--detector", options.name,
+                 "files: the sequence's detections; classical: built in; dnn, tesseract: plug-ins")
+      ->check(CLI::IsMember(detector_names()))
+      ->capture_default_str();
+  app.add_option(
+      "--model", options.model,
+      "Network of --detector dnn, DB or EAST, any file that OpenCV loads; by default scripts/get-detector's");
+  app.add_option("--words", options.words, "Who reads what a detector left unread; auto: tesseract after dnn")
+      ->check(CLI::IsMember({"auto", "none", "tesseract"}))
+      ->capture_default_str();
+}
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_DETECTOR_OPTIONS_HPP

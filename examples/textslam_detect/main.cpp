@@ -1,0 +1,74 @@
+// textslam-detect: runs a text detector alone, and writes what it finds in the format that `--detector files` reads.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "io/image_file.hpp"
+#include "io/input_error.hpp"
+#include "io/output_file.hpp"
+#include "textslam/detector_options.hpp"
+#include "textslam/progress.hpp"
+
+namespace {
+
+constexpr int kInputError = 2;
+
+// A folder with a sequence, or an image by itself.
+textslam::Sequence read_input(const std::string& path) {
+  if (std::filesystem::is_directory(path)) return textslam::read_sequence(path);
+  textslam::Sequence sequence;
+  textslam::FrameRef frame;
+  frame.path = path;
+  frame.stem = std::filesystem::path(path).stem().string();
+  sequence.frames.push_back(frame);
+  return sequence;
+}
+
+int execute(int argc, char** argv) {
+  std::vector<std::string> inputs;
+  std::string output;
+  std::size_t every = 1;
+  textslam::DetectorOptions detector;
+  detector.name = "classical";
+  CLI::App app{"Finds text in images: OUTPUT/<image stem>.txt, x1,y1,x2,y2,x3,y3,x4,y4,text a line (ICDAR)."};
+  app.add_option("INPUT", inputs, "Images, and folders with sequences")->required();
+  app.add_option("--output", output, "Folder for the detections")->required();
+  app.add_option("--every", every, "Of a sequence: one frame of so many")->check(CLI::PositiveNumber);
+  textslam::add_detector_options(app, detector);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "textslam-detect: %s (see textslam-detect --help)\n", error.what());
+    return kInputError;
+  }
+  for (const std::string& input : inputs) {
+    const textslam::Sequence sequence = read_input(input);
+    const auto detect = textslam::make_detector(detector, sequence);
+    textslam::create_output_folder(output);
+    textslam::Progress progress("detecting");
+    for (std::size_t i = 0; i < sequence.frames.size(); i += every) {
+      const textslam::FrameRef& frame = sequence.frames[i];
+      const textslam::Image<std::uint8_t> image = textslam::load_grey(frame.path);
+      textslam::write_detections(output + "/" + frame.stem + ".txt", detect->detect(frame, image.view()));
+      progress.show(i + 1, sequence.frames.size(), frame.stem);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return execute(argc, argv);
+  } catch (const textslam::InputError& error) {
+    std::fprintf(stderr, "textslam-detect: %s\n", error.what());
+    return kInputError;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "textslam-detect: %s\n", error.what());
+    return 1;
+  }
+}
