@@ -13,10 +13,10 @@ fi
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev fonts-dejavu-core"
-packages_test="$packages_demo libgtest-dev libopencv-dev libceres-dev"
-packages_ci="$packages_test clang libclang-rt-dev binutils qemu-user libsimde-dev g++-aarch64-linux-gnu googletest
-  chromium"
-packages_all="$packages_ci valgrind gcovr cppcheck clang-tidy g++-12-multilib g++-11-s390x-linux-gnu"
+packages_test="$packages_demo libgtest-dev"
+packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user libsimde-dev g++-aarch64-linux-gnu googletest
+  chromium valgrind"
+packages_all="$packages_ci gcovr cppcheck clang-tidy g++-12-multilib g++-11-s390x-linux-gnu"
 
 say() { printf '\n== %s\n' "$*"; }
 warn() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
