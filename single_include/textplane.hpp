@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: b5568a394887f054
+// Hash of these files: 2c2d79a7c95309ef
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 b5568a394887f054"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 2c2d79a7c95309ef"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -1619,7 +1619,8 @@ Status transform(const Quad<S>& quad, const Matrix3<S>& H, Quad<S>* out) noexcep
 }
 
 /// Where the plane carries a host quad (px) in the target (px). All corners must lie in front of both cameras, else
-/// behind_camera with *out untouched; whether they fall inside the target image is not checked.
+/// behind_camera; non_finite for NaN or overflow; *out is then untouched. Whether they fall inside the target image is not
+/// checked.
 template <class S>
 Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta, const SE3<S>& T_t_h,
                     const Pinhole<S>& target, Quad<S>* out) noexcept {
@@ -1629,6 +1630,7 @@ Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S
     const Status status = warp_point<S>(theta, T_t_h, host.unproject(quad.corner[i]), &m);
     if (!is_ok(status)) return status;
     projected.corner[i] = target.pixel(m);
+    if (!all_finite(projected.corner[i])) return Status::non_finite;
   }
   *out = projected;
   return Status::ok;

@@ -399,6 +399,9 @@ TEST(QuadTest, ProjectionBehindTheCameraLeavesTheOutput) {
   T.t = Vector3d(0, 0, -2);
   EXPECT_EQ(tp::project_quad(q, camera, Vector3d(0, 0, 1), T, camera, &out), tp::Status::behind_camera);
   EXPECT_EQ(tp::project_quad(q, camera, Vector3d(0, 0, kNan), T, camera, &out), tp::Status::non_finite);
+  const tp::Pinhole<double> infinite(1e308, 100, 1e308, 50);
+  EXPECT_EQ(tp::project_quad(q, camera, Vector3d(0, 0, 1), tp::SE3d{T.R, Vector3d(5, 0, 0)}, infinite, &out),
+            tp::Status::non_finite);
   EXPECT_EQ(tp::transform(q, Eigen::Matrix3d(-Eigen::Matrix3d::Identity()), &out), tp::Status::behind_camera);
   EXPECT_EQ(out.corner, untouched.corner);
   std::array<Vector3d, 4> points;

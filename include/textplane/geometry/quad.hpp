@@ -281,7 +281,8 @@ Status transform(const Quad<S>& quad, const Matrix3<S>& H, Quad<S>* out) noexcep
 }
 
 /// Where the plane carries a host quad (px) in the target (px). All corners must lie in front of both cameras, else
-/// behind_camera with *out untouched; whether they fall inside the target image is not checked.
+/// behind_camera; non_finite for NaN or overflow; *out is then untouched. Whether they fall inside the target image is not
+/// checked.
 template <class S>
 Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta, const SE3<S>& T_t_h,
                     const Pinhole<S>& target, Quad<S>* out) noexcept {
@@ -291,6 +292,7 @@ Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S
     const Status status = warp_point<S>(theta, T_t_h, host.unproject(quad.corner[i]), &m);
     if (!is_ok(status)) return status;
     projected.corner[i] = target.pixel(m);
+    if (!all_finite(projected.corner[i])) return Status::non_finite;
   }
   *out = projected;
   return Status::ok;
