@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 2c2d79a7c95309ef
+// Hash of these files: a1a4cc4e2ac73102
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 2c2d79a7c95309ef"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 a1a4cc4e2ac73102"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -3356,6 +3356,10 @@ TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { retu
 TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
 TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
 TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
+// By zero it gives what IEEE says, as in the vectors, where a lane that nobody looks at may do so.
+#if defined(__clang__)
+__attribute__((no_sanitize("float-divide-by-zero")))
+#endif
 TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return a / b; }
 // a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
@@ -4571,7 +4575,7 @@ TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { retu
 // nearest to where the centre goes; the middle of the image where that lies behind. False where it cannot be written in float.
 TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
                                              simd::Warp8* w) noexcept {
-  const double x = h[2], y = h[5], z = h[8], iz = 1 / z, px = x * iz, py = y * iz;
+  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
   w->hx = hx;
   w->hy = hy;
   w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
@@ -4785,7 +4789,7 @@ TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { retu
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
 TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
                                              simd::Warp8* w) noexcept {
-  const double x = h[2], y = h[5], z = h[8], iz = 1 / z, px = x * iz, py = y * iz;
+  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
   w->hx = hx;
   w->hy = hy;
   w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
@@ -4984,7 +4988,7 @@ TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { retu
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
 TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
                                              simd::Warp8* w) noexcept {
-  const double x = h[2], y = h[5], z = h[8], iz = 1 / z, px = x * iz, py = y * iz;
+  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
   w->hx = hx;
   w->hy = hy;
   w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
@@ -5190,7 +5194,7 @@ TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { retu
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
 TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
                                              simd::Warp8* w) noexcept {
-  const double x = h[2], y = h[5], z = h[8], iz = 1 / z, px = x * iz, py = y * iz;
+  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
   w->hx = hx;
   w->hy = hy;
   w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
@@ -5383,7 +5387,7 @@ TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { retu
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
 TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
                                              simd::Warp8* w) noexcept {
-  const double x = h[2], y = h[5], z = h[8], iz = 1 / z, px = x * iz, py = y * iz;
+  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
   w->hx = hx;
   w->hy = hy;
   w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
@@ -10390,7 +10394,7 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
     t = madd(p, p, t);
     s = madd(q, q, s);
   }
-  const double ratio = hsum_d(t) / hsum_d(s);
+  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
@@ -10790,7 +10794,7 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
     t = madd(p, p, t);
     s = madd(q, q, s);
   }
-  const double ratio = hsum_d(t) / hsum_d(s);
+  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
@@ -11165,7 +11169,7 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
     t = madd(p, p, t);
     s = madd(q, q, s);
   }
-  const double ratio = hsum_d(t) / hsum_d(s);
+  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
@@ -11547,7 +11551,7 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
     t = madd(p, p, t);
     s = madd(q, q, s);
   }
-  const double ratio = hsum_d(t) / hsum_d(s);
+  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
@@ -11916,7 +11920,7 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
     t = madd(p, p, t);
     s = madd(q, q, s);
   }
-  const double ratio = hsum_d(t) / hsum_d(s);
+  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
@@ -22636,7 +22640,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   bool inside = true;
   for (int corner = 0; corner < 4; ++corner) {
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
-    const double q = z[0] + u * z[1] + v * z[2], r = 1.0 / q;
+    const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
     inside =
         inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
@@ -22676,7 +22680,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
   const double size =
       __builtin_fabs(z[0]) + kWarpTileWidth * __builtin_fabs(z[1]) + kWarpTileHeight * __builtin_fabs(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
-  const double r = 1.0 / z[0];
+  const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
   t.oy = z[0] > 0.0 ? warp_cell(y[0] * r, a.height - 2) : a.height / 2;
   for (int i = 0; i < 3; ++i) {
@@ -22932,7 +22936,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   bool inside = true;
   for (int corner = 0; corner < 4; ++corner) {
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
-    const double q = z[0] + u * z[1] + v * z[2], r = 1.0 / q;
+    const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
     inside =
         inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
@@ -22968,7 +22972,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
   const double size =
       __builtin_fabs(z[0]) + kWarpTileWidth * __builtin_fabs(z[1]) + kWarpTileHeight * __builtin_fabs(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
-  const double r = 1.0 / z[0];
+  const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
   t.oy = z[0] > 0.0 ? warp_cell(y[0] * r, a.height - 2) : a.height / 2;
   for (int i = 0; i < 3; ++i) {
@@ -23211,7 +23215,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   bool inside = true;
   for (int corner = 0; corner < 4; ++corner) {
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
-    const double q = z[0] + u * z[1] + v * z[2], r = 1.0 / q;
+    const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
     inside =
         inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
@@ -23247,7 +23251,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
   const double size =
       __builtin_fabs(z[0]) + kWarpTileWidth * __builtin_fabs(z[1]) + kWarpTileHeight * __builtin_fabs(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
-  const double r = 1.0 / z[0];
+  const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
   t.oy = z[0] > 0.0 ? warp_cell(y[0] * r, a.height - 2) : a.height / 2;
   for (int i = 0; i < 3; ++i) {
@@ -23499,7 +23503,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   bool inside = true;
   for (int corner = 0; corner < 4; ++corner) {
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
-    const double q = z[0] + u * z[1] + v * z[2], r = 1.0 / q;
+    const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
     inside =
         inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
@@ -23535,7 +23539,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
   const double size =
       __builtin_fabs(z[0]) + kWarpTileWidth * __builtin_fabs(z[1]) + kWarpTileHeight * __builtin_fabs(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
-  const double r = 1.0 / z[0];
+  const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
   t.oy = z[0] > 0.0 ? warp_cell(y[0] * r, a.height - 2) : a.height / 2;
   for (int i = 0; i < 3; ++i) {
@@ -23771,7 +23775,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   bool inside = true;
   for (int corner = 0; corner < 4; ++corner) {
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
-    const double q = z[0] + u * z[1] + v * z[2], r = 1.0 / q;
+    const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
     inside =
         inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
@@ -23807,7 +23811,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
   const double size =
       __builtin_fabs(z[0]) + kWarpTileWidth * __builtin_fabs(z[1]) + kWarpTileHeight * __builtin_fabs(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
-  const double r = 1.0 / z[0];
+  const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
   t.oy = z[0] > 0.0 ? warp_cell(y[0] * r, a.height - 2) : a.height / 2;
   for (int i = 0; i < 3; ++i) {

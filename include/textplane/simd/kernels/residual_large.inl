@@ -99,7 +99,7 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
     t = madd(p, p, t);
     s = madd(q, q, s);
   }
-  const double ratio = hsum_d(t) / hsum_d(s);
+  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }

@@ -50,7 +50,7 @@ TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { retu
 // nearest to where the centre goes; the middle of the image where that lies behind. False where it cannot be written in float.
 TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
                                              simd::Warp8* w) noexcept {
-  const double x = h[2], y = h[5], z = h[8], iz = 1 / z, px = x * iz, py = y * iz;
+  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
   w->hx = hx;
   w->hy = hy;
   w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;

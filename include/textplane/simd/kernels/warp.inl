@@ -31,7 +31,7 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   bool inside = true;
   for (int corner = 0; corner < 4; ++corner) {
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
-    const double q = z[0] + u * z[1] + v * z[2], r = 1.0 / q;
+    const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
     inside =
         inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
@@ -71,7 +71,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
   const double size =
       __builtin_fabs(z[0]) + kWarpTileWidth * __builtin_fabs(z[1]) + kWarpTileHeight * __builtin_fabs(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
-  const double r = 1.0 / z[0];
+  const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
   t.oy = z[0] > 0.0 ? warp_cell(y[0] * r, a.height - 2) : a.height / 2;
   for (int i = 0; i < 3; ++i) {
