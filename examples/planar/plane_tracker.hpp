@@ -1,19 +1,20 @@
 // PlaneTracker: a planar object followed through a video from its quad in the first frame, by a camera that nobody calibrated.
 //
-// Every frame is aligned with the pixels of the first one, so nothing drifts. A frame's start is the best by ZNCC of a search round
-// the last pose and round the pose that went on as before; then pose and plane are found together, coarse to fine. H = R + t theta^T
-// with both free is any homography, so that a wrong focal length does no harm. Its scale, which H does not show, and the plane
-// of the first frames, which without parallax cannot be seen, are held by a weak pull of theta to where it was.
+// Every frame is aligned with the pixels of the first one, so nothing drifts. A frame's starts are the best by ZNCC of a search round the
+// last pose, and round the pose that went on as before; pose and plane are found from both, coarse to fine, and the better fit is kept.
+// H = R + t theta^T with both free is any homography, so that the focal length is a matter of conditioning alone. What H does not show,
+// its scale and without parallax the plane, and what a small quad hardly shows, perspective, is held by weak pulls.
 #ifndef TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
 #define TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/homography.hpp"
-#include "textplane/solver/pose.hpp"
+#include "textplane/solver/gauss_newton.hpp"
 #include "textplane/solver/search.hpp"
 
 namespace planar {
@@ -32,11 +33,12 @@ struct PlaneTrackerOptions {
   tp::PhotometricOptions photometric;
   tp::SolveOptions solve;
   tp::SearchOptions search;
-  tp::PoseOptions pose;  ///< Of the pose alone.
-  int plane_level = 2;   ///< From here on the plane is free, too.
-  double focal = 1.2;    ///< Of the camera, as a multiple of the image's longer side: a common lens.
-  double pull =
-      1e-3;  ///< Of theta to its last value, in units of the photometric cost for a plane turned by 45 degrees.
+  int plane_level = 2;  ///< From here on the plane is free, too.
+  double focal =
+      8;  ///< Of the camera, in sides of a square of the quad's area; its axis goes through the quad's centre.
+  double plane = 1e-3;  ///< Pull of theta to a plane that faces the first camera, as a part of the photometric cost.
+  double turn =
+      0.1;  ///< Pull of turns about the image's axes (rad^2): perspective, which a small quad hardly shows, is held.
   double lost = 0.5;  ///< A frame with a lower ZNCC than this is lost: the next one begins where this one did.
 
   PlaneTrackerOptions() {
@@ -46,44 +48,52 @@ struct PlaneTrackerOptions {
     search.level = 3;
     search.radius = 5;
     search.roll = 0.2;
-    pose.coarsest_level = 3;
-    pose.finest_level = 1;
   }
 };
 
-/// Pose and plane together as a problem for tp::minimise(): nine parameters (v, omega, theta).
+/// Pose and plane together as a problem for tp::minimise(): nine parameters (v, omega, theta), some of them pulled to where they were.
 class PosePlaneProblem {
  public:
   using State = PlaneState;
   static constexpr int kParameters = 9;
 
-  PosePlaneProblem(const tp::PhotometricInput& input, const tp::Vector3<double>& theta,
-                   const PlaneTrackerOptions& options, tp::PhotometricWorkspace& workspace)
-      : input_(input), theta_(theta), options_(options), workspace_(workspace) {}
+  /// `from`: what turns are counted from and theta is pulled to, with these weights.
+  PosePlaneProblem(const tp::PhotometricInput& input, const State& from, double turn, double plane,
+                   const tp::PhotometricOptions& options, tp::PhotometricWorkspace& workspace)
+      : input_(input), from_(from), options_(options), workspace_(workspace) {
+    weight_ << 0, 0, 0, turn, turn, 0, plane, plane, plane;
+  }
 
   tp::NormalEquations<9> linearise(const State& x) noexcept {
-    auto sums = tp::linearise_pose_plane(input_, x.theta, x.T_t_h, options_.photometric, workspace_);
-    for (int i = 6; i < 9; ++i) {
-      sums.H(i, i) += options_.pull;
-      sums.b[i] += options_.pull * (x.theta[i - 6] - theta_[i - 6]);
-    }
-    sums.cost += options_.pull * (x.theta - theta_).squaredNorm();
+    auto sums = tp::linearise_pose_plane(input_, x.theta, x.T_t_h, options_, workspace_);
+    const Eigen::Matrix<double, 9, 1> off = distance(x);
+    sums.H.diagonal() += weight_;
+    sums.b += weight_.cwiseProduct(off);
+    sums.cost += off.dot(weight_.cwiseProduct(off));
     return sums;
   }
   tp::Evaluation evaluate(const State& x) noexcept {
-    const auto c = tp::evaluate(input_, x.theta, x.T_t_h, options_.photometric, workspace_, workspace_.visible());
-    return {c.cost + options_.pull * (x.theta - theta_).squaredNorm(), static_cast<double>(c.lost) / input_.patch.n,
-            c.status};
+    const auto c = tp::evaluate(input_, x.theta, x.T_t_h, options_, workspace_, workspace_.visible());
+    const Eigen::Matrix<double, 9, 1> off = distance(x);
+    return {c.cost + off.dot(weight_.cwiseProduct(off)), static_cast<double>(c.lost) / input_.patch.n, c.status};
   }
   State retract(const State& x, const Eigen::Matrix<double, 9, 1>& step) const noexcept {
     return {tp::se3_exp<double>(step.head<6>()) * x.T_t_h, x.theta + step.tail<3>()};
   }
 
  private:
+  Eigen::Matrix<double, 9, 1> distance(const State& x) const noexcept {
+    Eigen::Matrix<double, 9, 1> off;
+    off << tp::Vector3<double>::Zero(), tp::so3_log<double>(x.T_t_h.R * from_.T_t_h.R.transpose()),
+        x.theta - from_.theta;
+    return off;
+  }
+
   const tp::PhotometricInput& input_;
-  const tp::Vector3<double> theta_;  ///< Where it is pulled to.
-  const PlaneTrackerOptions& options_;
+  const State from_;
+  const tp::PhotometricOptions& options_;
   tp::PhotometricWorkspace& workspace_;
+  Eigen::Matrix<double, 9, 1> weight_;
 };
 
 class PlaneTracker {
@@ -91,8 +101,9 @@ class PlaneTracker {
   /// `quad`: clockwise, px of `first`. status() tells whether it can be tracked.
   PlaneTracker(tp::ImageView8 first, const tp::Quad<double>& quad, const PlaneTrackerOptions& options = {})
       : options_(options) {
-    const double focal = options.focal * std::max(first.width(), first.height());
-    camera_ = {focal, focal, 0.5 * (first.width() - 1), 0.5 * (first.height() - 1)};
+    const tp::Vector2<double> centre = tp::centroid(quad);
+    const double focal = options.focal * std::sqrt(std::abs(tp::area(quad)));
+    camera_ = {focal, focal, centre[0], centre[1]};
     patch_ = tp::make_patch(first, camera_, quad, options.select);
     workspace_.reserve(patch_.max_pixels());
     prepared_ = std::vector<tp::TemplatePatch>(patch_.levels.size());
@@ -129,24 +140,27 @@ class PlaneTracker {
     return status;
   }
 
-  /// Coarse to fine from `state`, in place: first the pose alone, with the plane that is known, then both.
+  /// Coarse to fine from `state`, in place: first with the plane that is known, then with a free one.
   tp::Status align(const tp::PyramidView& image, PlaneState& state) {
     tp::Status status = tp::Status::too_few;
-    tp::PoseTextTerm term{&patch_, state.theta, tp::SE3d(), 1, scale_shift(state)};
-    pose_workspace_.reserve(&term, 1, 0);
-    state.T_t_h =
-        tp::refine_pose(&term, 1, nullptr, 0, image, camera_, state.T_t_h, options_.pose, pose_workspace_).T_t_w;
-    for (int level = std::min({patch_.level_count() - 1, image.levels - 1, options_.plane_level}); level >= 0;
-         --level) {
-      tp::NormalEquations<9> system;
+    PlaneState from = state;
+    for (int level = std::min(patch_.level_count(), image.levels) - 1; level >= 0; --level) {
+      const bool known = level > options_.plane_level;
+      if (!known) from.theta = PlaneState().theta;
       const tp::PhotometricInput input = tp::photometric_input(patch_, level, image, camera_, scale_shift(state));
-      PosePlaneProblem problem(input, PlaneState().theta, options_, workspace_);
+      PosePlaneProblem problem(input, from, options_.turn, known ? 1.0 : options_.plane, options_.photometric,
+                               workspace_);
+      tp::NormalEquations<9> system;
       status = tp::minimise(problem, state, options_.solve, &system).status;
+      // No step that lowers the cost: as good as it gets, and ZNCC says how good.
+      if (status == tp::Status::diverged) status = tp::Status::converged;
       zncc_ = system.zncc;
     }
     return status;
   }
 
+  const tp::Pinhole<double>& camera() const noexcept { return camera_; }
+  const tp::TextPatch& patch() const noexcept { return patch_; }
   const PlaneState& state() const noexcept { return state_; }
   double zncc() const noexcept { return zncc_; }
   /// The first frame's quad under the homography of `state`.
@@ -169,7 +183,6 @@ class PlaneTracker {
   std::vector<tp::TemplatePatch> prepared_;
   tp::Pyramid image_;
   tp::PhotometricWorkspace workspace_;
-  tp::PoseWorkspace pose_workspace_;
   PlaneState state_;
   tp::SE3d step_;
   double zncc_ = 0;

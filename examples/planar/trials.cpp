@@ -1,0 +1,242 @@
+#include "planar/trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "io/image_file.hpp"
+#include "io/input_error.hpp"
+#include "planar/peers.hpp"
+#include "renderer/random.hpp"
+#include "textslam/classical_detector.hpp"
+
+namespace planar {
+
+namespace {
+using textslam::InputError;
+using Matrix = tp::Matrix3<double>;
+
+constexpr double kSuccess = 1.0, kMinHeight = 20, kMinWidth = 60, kBorder = 12;  // px
+
+/// The pose and plane whose homography is H at four corners: a pose for each H that is not far from that of a camera.
+class CornerProblem {
+ public:
+  using State = PlaneState;
+  static constexpr int kParameters = 9;
+  struct System {
+    Eigen::Matrix<double, 9, 9> H = 1e-9 * Eigen::Matrix<double, 9, 9>::Identity();  // scale is free
+    Eigen::Matrix<double, 9, 1> b = Eigen::Matrix<double, 9, 1>::Zero();
+    double cost = 0;
+    tp::Status status = tp::Status::ok;
+  };
+
+  CornerProblem(const tp::Quad<double>& from, const tp::Quad<double>& to, const tp::Pinhole<double>& camera)
+      : from_(from), to_(to), camera_(camera) {}
+
+  System linearise(const State& x) noexcept {
+    System out;
+    for (std::size_t i = 0; i < 4; ++i) {
+      tp::Vector2<double> m;
+      tp::WarpJacobians<double> J;
+      out.status = tp::warp_point(x.theta, x.T_t_h, camera_.unproject(from_.corner[i]), &m, &J);
+      if (!tp::is_ok(out.status)) return out;
+      Eigen::Matrix<double, 2, 9> rows;
+      rows << J.pose, J.theta;
+      rows *= camera_.fx;
+      const tp::Vector2<double> r = camera_.pixel(m) - to_.corner[i];
+      out.H += rows.transpose() * rows;
+      out.b += rows.transpose() * r;
+      out.cost += r.squaredNorm();
+    }
+    return out;
+  }
+  tp::Evaluation evaluate(const State& x) noexcept {
+    const System s = linearise(x);
+    return {s.cost, 0, s.status};
+  }
+  State retract(const State& x, const Eigen::Matrix<double, 9, 1>& step) const noexcept {
+    return {tp::se3_exp<double>(step.head<6>()) * x.T_t_h, x.theta + step.tail<3>()};
+  }
+
+ private:
+  const tp::Quad<double>& from_;
+  const tp::Quad<double>& to_;
+  const tp::Pinhole<double>& camera_;
+};
+
+double corner_error(const tp::Quad<double>& a, const tp::Quad<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum += (a.corner[i] - b.corner[i]).norm() / 4;
+  return sum;
+}
+
+/// `state` turned, shifted and scaled at random so that its corners are `offset` px from where they were, on average.
+PlaneState perturbed(const PlaneTracker& tracker, const PlaneState& state, double offset, textslam::Random& random) {
+  const tp::Quad<double> there = tracker.quad(state);
+  const double reach = tracker.camera().fx / (0.5 * (there.corner[0] - there.corner[2]).norm());
+  tp::Vector6<double> xi;
+  for (int k = 0; k < 6; ++k) xi[k] = (k % 3 == 2 ? reach : 1.0) * random.normal();
+  xi *= 1e-3;
+  PlaneState out = state;
+  for (int k = 0; k < 20; ++k) {
+    out.T_t_h = tp::se3_exp(xi) * state.T_t_h;
+    xi *= offset / corner_error(tracker.quad(out), there);
+  }
+  return out;
+}
+
+std::vector<tp::Quad<double>> text_quads(const textslam::Image<std::uint8_t>& image) {
+  std::vector<tp::Quad<double>> out;
+  for (const auto& d : textslam::ClassicalDetector().detect({}, image.view())) {
+    const auto& c = d.quad.corner;
+    if ((c[0] - c[3]).norm() >= kMinHeight && (c[0] - c[1]).norm() >= kMinWidth &&
+        tp::inside_image(d.quad, image.width(), image.height(), kBorder))
+      out.push_back(d.quad);
+  }
+  return out;
+}
+
+/// Upright rectangles of a word's size at random places with as many corners as text has.
+std::vector<tp::Quad<double>> random_quads(const textslam::Image<std::uint8_t>& image, int count,
+                                           textslam::Random& random) {
+  constexpr double kWidth = 120, kHeight = 40;
+  constexpr int kThreshold = 20;
+  constexpr std::size_t kCorners = 60;
+  std::vector<tp::Corner> corners;
+  tp::detect_fast(image.view(), kThreshold, true, corners);
+  std::vector<tp::Quad<double>> out;
+  for (int tries = 0; tries < 100 * count && static_cast<int>(out.size()) < count; ++tries) {
+    const double x = random.uniform(kBorder, image.width() - kBorder - kWidth);
+    const double y = random.uniform(kBorder, image.height() - kBorder - kHeight);
+    tp::Quad<double> q;
+    q.corner = {tp::Vector2<double>(x, y), tp::Vector2<double>(x + kWidth, y),
+                tp::Vector2<double>(x + kWidth, y + kHeight), tp::Vector2<double>(x, y + kHeight)};
+    const auto inside = std::count_if(corners.begin(), corners.end(), [&q](const tp::Corner& c) {
+      return tp::contains(q, tp::Vector2<double>(c.x, c.y));
+    });
+    if (static_cast<std::size_t>(inside) >= kCorners) out.push_back(q);
+  }
+  return out;
+}
+
+Matrix read_homography(const std::string& path) {
+  std::ifstream file(path);
+  Matrix H;
+  for (int i = 0; i < 9; ++i)
+    if (!(file >> H(i / 3, i % 3))) throw InputError(path, 0, "not nine numbers");
+  return H;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+}  // namespace
+
+std::vector<PhotoSet> read_still_scenes(const std::string& folder) {
+  std::vector<PhotoSet> out;
+  if (!std::filesystem::is_directory(folder)) throw InputError(folder, 0, "no such folder");
+  std::vector<std::string> scenes;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_directory()) scenes.push_back(entry.path().string());
+  std::sort(scenes.begin(), scenes.end());
+  for (const std::string& scene : scenes) {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(scene)) files.push_back(entry.path().string());
+    std::sort(files.begin(), files.end());
+    if (files.size() < 2) throw InputError(scene, 0, "fewer than two photographs");
+    PhotoSet set;
+    set.first = files[0];
+    set.others.assign(files.begin() + 1, files.end());
+    set.truth.assign(set.others.size(), Matrix::Identity());
+    out.push_back(std::move(set));
+  }
+  if (out.empty()) throw InputError(folder, 0, "no scenes");
+  return out;
+}
+
+std::vector<PhotoSet> read_oxford(const std::string& folder) {
+  PhotoSet set;
+  set.text = false;
+  set.first = folder + "/img1.png";
+  for (int i = 2; i <= 6; ++i) {
+    set.others.push_back(folder + "/img" + std::to_string(i) + ".png");
+    Matrix H = read_homography(folder + "/H1to" + std::to_string(i) + "p.txt");
+    refine_whole(textslam::load_grey(set.first).view(), textslam::load_grey(set.others.back()).view(), &H);
+    set.truth.push_back(H);
+  }
+  return {set};
+}
+
+Trials run_trials(const std::vector<PhotoSet>& sets, int count, double offset, std::uint64_t seed) {
+  const int levels = PlaneTrackerOptions().select.levels;
+  struct Photos {
+    textslam::Image<std::uint8_t> first;
+    tp::Pyramid first_pyramid;
+    std::vector<tp::Pyramid> others;
+    std::vector<tp::Quad<double>> quads;
+  };
+  std::vector<Photos> photos;
+  Trials out;
+  textslam::Random random(seed);
+  for (const PhotoSet& set : sets) {
+    Photos& p = photos.emplace_back();
+    p.first = textslam::load_grey(set.first);
+    p.first_pyramid.build(p.first.view(), levels);
+    for (const std::string& other : set.others) p.others.emplace_back(textslam::load_grey(other).view(), levels);
+    p.quads = set.text ? text_quads(p.first) : random_quads(p.first, count, random);
+    out.quads += static_cast<int>(p.quads.size());
+  }
+  if (out.quads == 0) throw InputError(sets.front().first, 0, "no text found");
+
+  for (const char* name : {"textplane", "ECC", "SSD"}) out.scores.push_back({name, 0, 0, 0});
+  std::vector<std::vector<double>> times(out.scores.size());
+  while (out.count < count) {
+    const auto s = static_cast<std::size_t>(random.below(static_cast<int>(sets.size())));
+    Photos& p = photos[s];
+    if (p.quads.empty()) continue;
+    const tp::Quad<double>& quad = p.quads[static_cast<std::size_t>(random.below(static_cast<int>(p.quads.size())))];
+    const auto o = static_cast<std::size_t>(random.below(static_cast<int>(p.others.size())));
+    const tp::Pyramid& other = p.others[o];
+    PlaneTracker tracker(p.first.view(), quad);
+    tp::Quad<double> truth;
+    if (!tp::is_ok(tracker.status()) || !tp::is_ok(tp::transform(quad, sets[s].truth[o], &truth))) continue;
+    if (!tp::inside_image(truth, other.level(0).width(), other.level(0).height(), kBorder)) continue;
+    CornerProblem corners(quad, truth, tracker.camera());
+    PlaneState exact;
+    tp::SolveOptions solve;
+    solve.max_iterations = 100;
+    tp::minimise(corners, exact, solve);
+    if (corner_error(tracker.quad(exact), truth) > 0.01) continue;
+    ++out.count;
+
+    const PlaneState start = perturbed(tracker, exact, offset, random);
+    for (const bool off : {true, false}) {
+      const PlaneState& from = off ? start : exact;
+      const Matrix H =
+          tp::pixel_homography(tp::plane_homography(from.theta, from.T_t_h), tracker.camera(), tracker.camera());
+      PlaneState state = from;
+      Matrix ecc = H, ssd = H;
+      const std::function<bool()> align[] = {[&] { return tp::is_ok(tracker.align(other, state)); },
+                                             [&] { return align_ecc(p.first_pyramid, quad, other, &ecc); },
+                                             [&] { return align_ssd(tracker.patch(), other, &ssd); }};
+      for (std::size_t k = 0; k < out.scores.size(); ++k) {
+        const std::clock_t begin = std::clock();
+        const bool ok = align[k]();
+        if (off) times[k].push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+        tp::Quad<double> found = tracker.quad(state);
+        if (!ok || (k > 0 && !tp::is_ok(tp::transform(quad, k == 1 ? ecc : ssd, &found)))) continue;
+        if (corner_error(found, truth) < kSuccess) ++(off ? out.scores[k].successes : out.scores[k].from_truth);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < times.size(); ++k) out.scores[k].milliseconds = median(times[k]);
+  return out;
+}
+
+}  // namespace planar
