@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: a1a4cc4e2ac73102
+// Hash of these files: 269d8628a840ae9d
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 a1a4cc4e2ac73102"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 269d8628a840ae9d"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -27309,6 +27309,7 @@ struct BasicPlaneTarget {
 using PlaneTarget = BasicPlaneTarget<PyramidView>;
 using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
 
+/// Settings of refine_plane() and align_plane().
 struct PlaneOptions {
   PhotometricOptions photometric;
   SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
@@ -27355,6 +27356,7 @@ template <class View>
 class PlaneProblem;
 }  // namespace detail
 
+/// Memory of refine_plane(). Not to be shared by two threads at a time.
 class PlaneWorkspace {
  public:
   /// Makes room for a patch (every level) seen in `targets` images. The only member that allocates; never shrinks.
@@ -27753,6 +27755,7 @@ struct WindowPoint {
   Status status = Status::ok;
 };
 
+/// A point seen in a frame.
 struct WindowPointObservation {
   int frame = -1;
   int point = -1;
@@ -27787,6 +27790,7 @@ struct WindowText {
   Status status = Status::ok;
 };
 
+/// A text seen in a frame other than its host.
 struct WindowTextObservation {
   int text = -1;
   int frame = -1;       ///< Target frame, other than the host.
@@ -27811,6 +27815,7 @@ struct Window {
   std::vector<WindowTextObservation> text_observations;
 };
 
+/// Settings of solve_window().
 struct WindowOptions {
   PhotometricOptions photometric;
   Robust point_robust{RobustKind::huber,

@@ -32,6 +32,7 @@ struct BasicPlaneTarget {
 using PlaneTarget = BasicPlaneTarget<PyramidView>;
 using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
 
+/// Settings of refine_plane() and align_plane().
 struct PlaneOptions {
   PhotometricOptions photometric;
   SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
@@ -78,6 +79,7 @@ template <class View>
 class PlaneProblem;
 }  // namespace detail
 
+/// Memory of refine_plane(). Not to be shared by two threads at a time.
 class PlaneWorkspace {
  public:
   /// Makes room for a patch (every level) seen in `targets` images. The only member that allocates; never shrinks.

@@ -49,6 +49,7 @@ struct WindowPoint {
   Status status = Status::ok;
 };
 
+/// A point seen in a frame.
 struct WindowPointObservation {
   int frame = -1;
   int point = -1;
@@ -83,6 +84,7 @@ struct WindowText {
   Status status = Status::ok;
 };
 
+/// A text seen in a frame other than its host.
 struct WindowTextObservation {
   int text = -1;
   int frame = -1;       ///< Target frame, other than the host.
@@ -107,6 +109,7 @@ struct Window {
   std::vector<WindowTextObservation> text_observations;
 };
 
+/// Settings of solve_window().
 struct WindowOptions {
   PhotometricOptions photometric;
   Robust point_robust{RobustKind::huber,
