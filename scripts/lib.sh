@@ -14,8 +14,8 @@ packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev fonts-dejavu-core"
 packages_test="$packages_demo libgtest-dev"
-packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user libsimde-dev g++-aarch64-linux-gnu googletest
-  chromium valgrind"
+packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
+  libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen"
 packages_all="$packages_ci gcovr cppcheck clang-tidy g++-12-multilib g++-11-s390x-linux-gnu"
 
 say() { printf '\n== %s\n' "$*"; }

@@ -67,6 +67,7 @@ struct TextCostOptions {
 /// costs of a problem should share one; they keep it alive.
 class WorkspacePool {
  public:
+  /// What one evaluation needs.
   struct Workspace {
     PhotometricWorkspace photometric;
     std::vector<double> rows;  ///< Of TextRows::pixels.

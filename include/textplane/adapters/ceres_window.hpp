@@ -38,6 +38,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace adapters {
 
+/// A Window as a ceres::Problem: see the head of this file. Window, patches and images must outlive it.
 class WindowProblem {
  public:
   WindowProblem(Window& window, const WindowOptions& options, TextRows rows = TextRows::sums)
