@@ -37,7 +37,8 @@ memcheck() {
     TEXTPLANE_TEST_TARGET=${TEXTPLANE_TEST_TARGET:-avx2} valgrind --quiet --error-exitcode=9 --leak-check=full "$1" \
       --gtest_brief=1 --gtest_filter="$kernels" || return 1
   done
-  echo 'memcheck: no errors in seven groups of kernel tests on avx2'
+  valgrind --quiet --error-exitcode=9 --leak-check=full "$2" --gtest_brief=1 --gtest_filter='Threads.EachGets*' || return 1
+  echo 'memcheck: no errors in seven groups of kernel tests on avx2, nor in one of all kernels and the pose solver'
 }
 
 cpp_check() {
@@ -63,7 +64,7 @@ coverage() {
 }
 
 all_stages() {
-  if needs memcheck valgrind && [ -x "$root/build/dev/bin/test_simd" ]; then checked memcheck memcheck "$root/build/dev/bin/test_simd"; fi
+  if needs memcheck valgrind && [ -x "$root/build/dev/bin/test_simd" ]; then checked memcheck memcheck "$root/build/dev/bin/test_simd" "$root/build/dev/bin/test_threads"; fi
   if needs i386 /usr/lib/gcc/x86_64-linux-gnu/12/32 /usr/src/googletest; then stage i386 '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
   if needs s390x s390x-linux-gnu-g++-11 qemu-s390x /usr/src/googletest; then stage s390x '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
   stage unoptimised "$library_only" "$library_filter" "$library_tests"
