@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 269d8628a840ae9d
+// Hash of these files: 3e6a818ce7d0ff6b
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 269d8628a840ae9d"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 3e6a818ce7d0ff6b"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -1619,11 +1619,12 @@ Status transform(const Quad<S>& quad, const Matrix3<S>& H, Quad<S>* out) noexcep
 }
 
 /// Where the plane carries a host quad (px) in the target (px). All corners must lie in front of both cameras, else
-/// behind_camera; non_finite for NaN or overflow; *out is then untouched. Whether they fall inside the target image is not
-/// checked.
+/// behind_camera; non_finite for NaN or overflow; invalid_argument for a host camera without focal length; *out is then
+/// untouched. Whether they fall inside the target image is not checked.
 template <class S>
 Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta, const SE3<S>& T_t_h,
                     const Pinhole<S>& target, Quad<S>* out) noexcept {
+  if (host.fx == S(0) || host.fy == S(0)) return Status::invalid_argument;
   Quad<S> projected;
   for (std::size_t i = 0; i < 4; ++i) {
     Vector2<S> m;
@@ -1636,10 +1637,12 @@ Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S
   return Status::ok;
 }
 
-/// The four corners (px) on the plane, in the host frame. behind_camera or non_finite as plane_point(); *out untouched.
+/// The four corners (px) on the plane, in the host frame. behind_camera or non_finite as plane_point(), invalid_argument for a
+/// host camera without focal length; *out untouched.
 template <class S>
 Status quad_points(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta,
                    std::array<Vector3<S>, 4>* out) noexcept {
+  if (host.fx == S(0) || host.fy == S(0)) return Status::invalid_argument;
   std::array<Vector3<S>, 4> p;
   for (std::size_t i = 0; i < 4; ++i) {
     const Status status = plane_point<S>(theta, host.unproject(quad.corner[i]), &p[i]);

@@ -408,6 +408,10 @@ TEST(QuadTest, ProjectionBehindTheCameraLeavesTheOutput) {
   points.fill(Vector3d(7, 8, 9));
   // The plane's horizon crosses the quad: some corners in front, some not.
   EXPECT_EQ(tp::quad_points(q, camera, Vector3d(1, 0, 0.3), &points), tp::Status::behind_camera);
+  const tp::Pinhole<double> flat(0, 520, 319.5, 239.5);
+  EXPECT_EQ(tp::quad_points(q, flat, Vector3d(0, 0, 1), &points), tp::Status::invalid_argument);
+  EXPECT_EQ(tp::project_quad(q, flat, Vector3d(0, 0, 1), tp::SE3d(), camera, &out), tp::Status::invalid_argument);
+  EXPECT_EQ(out.corner, untouched.corner);
   EXPECT_EQ(points[0], Vector3d(7, 8, 9));
 }
 

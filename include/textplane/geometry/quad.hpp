@@ -281,11 +281,12 @@ Status transform(const Quad<S>& quad, const Matrix3<S>& H, Quad<S>* out) noexcep
 }
 
 /// Where the plane carries a host quad (px) in the target (px). All corners must lie in front of both cameras, else
-/// behind_camera; non_finite for NaN or overflow; *out is then untouched. Whether they fall inside the target image is not
-/// checked.
+/// behind_camera; non_finite for NaN or overflow; invalid_argument for a host camera without focal length; *out is then
+/// untouched. Whether they fall inside the target image is not checked.
 template <class S>
 Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta, const SE3<S>& T_t_h,
                     const Pinhole<S>& target, Quad<S>* out) noexcept {
+  if (host.fx == S(0) || host.fy == S(0)) return Status::invalid_argument;
   Quad<S> projected;
   for (std::size_t i = 0; i < 4; ++i) {
     Vector2<S> m;
@@ -298,10 +299,12 @@ Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S
   return Status::ok;
 }
 
-/// The four corners (px) on the plane, in the host frame. behind_camera or non_finite as plane_point(); *out untouched.
+/// The four corners (px) on the plane, in the host frame. behind_camera or non_finite as plane_point(), invalid_argument for a
+/// host camera without focal length; *out untouched.
 template <class S>
 Status quad_points(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta,
                    std::array<Vector3<S>, 4>* out) noexcept {
+  if (host.fx == S(0) || host.fy == S(0)) return Status::invalid_argument;
   std::array<Vector3<S>, 4> p;
   for (std::size_t i = 0; i < 4; ++i) {
     const Status status = plane_point<S>(theta, host.unproject(quad.corner[i]), &p[i]);
