@@ -64,17 +64,17 @@ struct TextObject {
   textplane::TextPatch patch;
   Vec3 theta = Vec3::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::vector<int> targets;          ///< Key frames (without the host) that observe it well.
-  std::map<std::string, int> votes;  ///< Words read, without those unread.
-  int detections = 0;                ///< Frames in which the detector saw it.
-  int failures = 0;                  ///< Key frames in a row that should have seen it and did not.
-  double zncc = 0;                   ///< Mean over its last refinement.
+  std::vector<int> targets;             ///< Key frames (without the host) that observe it well.
+  std::map<std::string, double> votes;  ///< Words read, without those unread: sums of the scores of their readings.
+  int detections = 0;                   ///< Frames in which the detector saw it.
+  int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
+  double zncc = 0;                      ///< Mean over its last refinement.
 
   bool has_plane() const { return state == TextState::tentative || state == TextState::mapped; }
-  /// The word read most often (the first in order among equals), kUnreadText where none was.
+  /// The word of most votes (the first in order among equals), kUnreadText where none was read.
   std::string word() const {
     std::string best = kUnreadText;
-    int most = 0;
+    double most = 0;
     for (const auto& [text, count] : votes)
       if (count > most) {
         best = text;

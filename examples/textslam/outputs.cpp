@@ -11,6 +11,7 @@
 #include "io/output_file.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/statistics.hpp"
+#include "textslam/text_index.hpp"
 
 namespace textslam {
 namespace {
@@ -200,7 +201,8 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
   return s;
 }
 
-void write_outputs(const std::string& folder, const System& system, const RunSummary& summary) {
+void write_outputs(const std::string& folder, const System& system, const RunSummary& summary,
+                   const std::function<std::string(int)>& image) {
   const auto at = [&](const char* name) { return folder + "/" + name; };
   const std::vector<std::function<void()>> writers = {
       [&] { write_tum(at("trajectory.txt"), final_trajectory(system)); },
@@ -208,6 +210,7 @@ void write_outputs(const std::string& folder, const System& system, const RunSum
       [&] { write_tum(at("keyframes.txt"), keyframe_trajectory(system.map())); },
       [&] { write_file(at("text_map.json"), text_map_json(system.map())); },
       [&] { write_file(at("text_map.ply"), text_map_ply(system.map())); },
+      [&] { write_file(at("text_index.json"), text_index_json(index_texts(system.map(), image))); },
       [&] { write_file(at("timing.json"), timing_json(system, summary.latency_ms)); },
       [&] { write_file(at("metrics.json"), metrics_json(summary)); },
   };

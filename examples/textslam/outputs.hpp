@@ -5,6 +5,7 @@
 //   keyframes.txt        TUM, final poses of the key frames
 //   text_map.json        {"texts":[{"id","text","corners","normal","theta","host","observations","zncc"}]}, world frame
 //   text_map.ply         text quads as faces, points, colours
+//   text_index.json      the texts by their words, for textslam-map, see text_index.hpp
 //   timing.json          milliseconds by stage; differs between two equal runs
 //   metrics.json         counts; errors where ground truth exists
 //   report.html          all of it to look at, see report.hpp; its block `run` differs between two equal runs
@@ -14,6 +15,7 @@
 #ifndef TEXTSLAM_OUTPUTS_HPP
 #define TEXTSLAM_OUTPUTS_HPP
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,7 +54,9 @@ std::string metrics_json(const RunSummary& summary);
 
 /// Writes every file but the report into `folder`, which exists. Where one cannot be written, the others are, and then the first error is
 /// thrown: std::runtime_error.
-void write_outputs(const std::string& folder, const System& system, const RunSummary& summary);
+/// `image`: the file of a frame that was processed, in the sequence's folder, by its index.
+void write_outputs(const std::string& folder, const System& system, const RunSummary& summary,
+                   const std::function<std::string(int)>& image);
 
 /// The table for the terminal.
 std::string format_summary(const RunSummary& summary);

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -146,7 +147,11 @@ RunResult run(const RunOptions& options) {
     });
   std::exception_ptr failure;
   try {
-    write_outputs(options.output, system, summary);
+    const auto image = [&](int index) {
+      const std::filesystem::path path(sequence.frames[static_cast<std::size_t>(options.first + index)].path);
+      return path.lexically_relative(sequence.folder).string();
+    };
+    write_outputs(options.output, system, summary, image);
   } catch (const std::exception&) {
     failure = std::current_exception();
   }

@@ -69,7 +69,7 @@ void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vec
     for (const Detection& detection : frame.detections) {
       if (textplane::iou(quad, detection.quad) < 0.4) continue;
       ++text.detections;
-      if (is_read(detection.text)) ++text.votes[detection.text];
+      if (is_read(detection.text)) text.votes[detection.text] += detection.score;
       break;
     }
   }
@@ -107,7 +107,7 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
                                        select_options(parameters_));
     if (!textplane::is_ok(text.patch.status)) continue;
     text.detections = 1;
-    if (is_read(detection.text)) ++text.votes[detection.text];
+    if (is_read(detection.text)) text.votes[detection.text] += detection.score;
     map_.texts.push_back(std::move(text));
   }
 }

@@ -226,6 +226,31 @@ TEST_F(TextslamRun, PlyHoldsTheMap) {
   }
 }
 
+TEST_F(TextslamRun, TheMapIsAskedForWords) {
+  const Json map = json_of(output("text_map.json")).at("texts");
+  ASSERT_FALSE(map.empty());
+  const std::string word = map.at(0).at("text");
+  const ProgramResult found = run_program(TEXTSLAM_MAP_PROGRAM, {"query", output(), word, "--json"});
+  expect_success(found);
+  const Json first = Json::parse(found.out).at("texts").at(0);
+  EXPECT_EQ(first.at("text"), word);
+  bool known = false;
+  for (const Json& text : map)
+    if (text.at("id") == first.at("id")) {
+      known = true;
+      EXPECT_LT((vec3_of(text.at("normal")) - vec3_of(first.at("normal"))).norm(), 1e-12);
+    }
+  EXPECT_TRUE(known);
+  EXPECT_TRUE(std::filesystem::exists(room(first.at("image").get<std::string>())));
+  const ProgramResult shown = run_program(TEXTSLAM_MAP_PROGRAM, {"query", output(), word});
+  expect_success(shown);
+  EXPECT_NE(shown.out.find(first.at("image").get<std::string>()), std::string::npos) << shown.out;
+  expect_refused(run_program(TEXTSLAM_MAP_PROGRAM, {"query", output(), "nobody wrote this"}), 1, "no text of ",
+                 "nobody wrote this", "textslam-map");
+  expect_refused(run_program(TEXTSLAM_MAP_PROGRAM, {"query", output("none"), "EXIT"}), 2,
+                 output("none") + "/text_index.json: ", "", "textslam-map");
+}
+
 TEST_F(TextslamRun, TimingsCoverEveryFrame) {
   const Json timing = json_of(output("timing.json"));
   EXPECT_EQ(timing.at("frames").size(), static_cast<std::size_t>(kFrames));
