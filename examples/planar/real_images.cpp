@@ -134,6 +134,10 @@ same parameters for everything (`PlaneTrackerOptions`):
 The data are published sets, not part of this repository: POT-210 (Liang et al., ICRA 2018), HOPE-Image (Tyree et al., 2022), Oxford affine
 regions (Mikolajczyk et al., 2005).
 
+How far to trust it: the tracker was developed with these very images in view, and none were held out. Over some sixteen settings V24_7
+gave 39 to 47 of 49 frames; over a dozen of focal length and penalty on turning, HOPE gave 73 to 91 of 100, leuven 83 to 93, bikes 44 to 61, and
+no setting won everywhere. One seed of random starts each.
+
 ## A plane through a video
 
 Two sequences of POT-210 with corners annotated in every second frame: the quad of the first frame is given, the camera unknown. The peers start
@@ -149,6 +153,9 @@ FAST corners. The start is a pose with corners 4 px off on average, by shift, tu
 peers the homography, all of them on four levels. The last but one column starts from the truth: what is lost there is lost to the
 truth's own error, or to pixels that look different, not to convergence. Truth is the identity on HOPE, whose camera stood still to about
 1 px, and on Oxford the published homography after OpenCV's ECC over the whole images.
+
+These patches are not those of the first trial, which took every quad of 30 x 12 px or more on HOPE and the published homographies as they are:
+78 on HOPE, 85 on leuven, 55 on bikes.
 )";
 
 int run(int argc, char** argv) {
