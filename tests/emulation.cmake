@@ -41,6 +41,7 @@ if(TEXTPLANE_SIMDE AND TEXTPLANE_RUNS_AVX2 AND CMAKE_CXX_COMPILER_ID STREQUAL "G
   target_compile_definitions(textplane_emulated INTERFACE "TEXTPLANE_EMULATED_AVX512=\"simd/emulated_avx512.hpp\"")
   get_target_property(sources test_simd SOURCES)
   add_executable(test_simd_avx512 ${sources} ${PROJECT_SOURCE_DIR}/cmake/kernels.cpp)
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/cmake/kernels.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_compile_definitions(test_simd_avx512 PRIVATE TEXTPLANE_EXTERN_KERNELS)
   target_precompile_headers(test_simd_avx512 PRIVATE ${precompiled})
   set_target_properties(test_simd_avx512 PROPERTIES UNITY_BUILD ${TEXTPLANE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
