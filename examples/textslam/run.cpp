@@ -27,7 +27,7 @@ class FrameSource {
         parameters_(options.parameters),
         first_(static_cast<std::size_t>(options.first)),
         undistort_(sequence.camera),
-        detector_(make_detector(options.detector, sequence)) {}
+        detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)) {}
 
   Frame load(int index, double* detect_ms) {
     const std::size_t at = first_ + static_cast<std::size_t>(index);
@@ -57,7 +57,7 @@ class FrameSource {
   const Parameters& parameters_;
   std::size_t first_;
   Undistorter undistort_;
-  std::unique_ptr<TextDetector> detector_;
+  std::shared_ptr<TextDetector> detector_;
 };
 
 // Real time: frames come when their time stamps say, counted from the first. One that is late is worked on at once; none is

@@ -2,6 +2,7 @@
 #ifndef TEXTSLAM_RUN_HPP
 #define TEXTSLAM_RUN_HPP
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace textslam {
 struct RunOptions {
   std::string sequence, output;
   DetectorOptions detector;
+  std::shared_ptr<TextDetector> own_detector;  ///< In place of `detector`, where there is one.
   int first = 0;  ///< Index of the first frame.
   int last = -1;  ///< Index of the last frame; -1: the sequence's last.
   Parameters parameters;
