@@ -268,10 +268,12 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
   if (map.keyframes.size() < 2) return;
   Selection selection;
   selection.fixed_frames.push_back(0);
-  for (std::size_t i = 1; i < map.keyframes.size(); ++i) selection.free_frames.push_back(static_cast<int>(i));
+  selection.free_frames = map.keyframe_ids();
+  selection.free_frames.erase(selection.free_frames.begin());
   for (std::size_t i = 0; i < map.points.size(); ++i)
     if (!map.points[i].bad) selection.points.push_back(static_cast<int>(i));
-  selection.scale_frame = std::max(1, farthest_neighbour(map, parameters, 0, selection.free_frames));
+  selection.scale_frame = farthest_neighbour(map, parameters, 0, selection.free_frames);
+  if (selection.scale_frame < 0) selection.scale_frame = selection.free_frames.front();
   for (int round = 0; round < 2; ++round) {
     Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
     adjustment.weigh_texts(map);

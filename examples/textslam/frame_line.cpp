@@ -18,6 +18,7 @@ std::string frame_line(int index, const FrameRecord& record, const Map& map) {
               {"points", record.points},
               {"texts", record.texts},
               {"keyframe", is_keyframe},
+              {"map_keyframes", map.keyframe_ids().size()},
               {"pose", record.live ? short_pose(record.T_w_c_live) : Json(nullptr)},
               {"ms",
                {{"detection", short_number(record.detect_ms)},

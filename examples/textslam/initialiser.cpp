@@ -60,7 +60,7 @@ bool Initialiser::build(const Frame& frame, Map& map, std::vector<Track>* tracks
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     if (view.inlier[i]) kept.push_back(tracks_[i]);
   const SE3d T_w_b = view.T_b_a.inverse();
-  map.keyframes.push_back({reference_, SE3d{}, {}});
+  map.keyframes.push_back({reference_, SE3d{}, {}, false});
   insert_keyframe(map, frame, T_w_b, kept);
   Parameters loose = parameters_;
   loose.min_parallax = 0.5 * parameters_.init_min_parallax;

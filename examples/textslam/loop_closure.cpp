@@ -12,7 +12,6 @@
 namespace textslam {
 namespace {
 
-
 Map part_of(const Map& map, const LocalMap& local, bool inside) {
   Map part = map;
   for (std::size_t i = 0; i < part.points.size(); ++i) {
@@ -89,7 +88,12 @@ int key_frame_met(const Map& old_part, const Recovery& seen) {
 
 double way_between(const Map& map, int a, int b) {
   double way = 0;
-  for (int id = a; id < b; ++id) way += (map.keyframe(id + 1).T_w_c.t - map.keyframe(id).T_w_c.t).norm();
+  int before = a;
+  for (int id = a + 1; id <= b; ++id) {
+    if (map.keyframe(id).culled) continue;
+    way += (map.keyframe(id).T_w_c.t - map.keyframe(before).T_w_c.t).norm();
+    before = id;
+  }
   return way;
 }
 

@@ -94,13 +94,17 @@ class Spreader {
     }
   }
 
-  // Neighbours in time hold the graph together where nothing else does.
+  // Neighbours in time hold the graph together where nothing else does. Those culled hang on it by one edge, and do nothing.
   void add_sequence() {
     std::vector<int> order;
     for (int id = 0; id < static_cast<int>(nodes_.size()); ++id) order.push_back(id);
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return map_.keyframe(a).frame.index < map_.keyframe(b).frame.index; });
-    for (std::size_t i = 1; i < order.size(); ++i) add_edge(order[i - 1], order[i]);
+    int before = order.front();
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      add_edge(before, order[i]);
+      if (!map_.keyframe(order[i]).culled) before = order[i];
+    }
   }
 
   Map& map_;

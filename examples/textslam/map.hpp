@@ -47,6 +47,7 @@ struct KeyFrame {
   Frame frame;
   SE3d T_w_c;
   std::vector<int> points;  ///< Ids of the map points observed here.
+  bool culled = false;      ///< Out of the map (keyframe_culling.hpp): without an image, and its pose is of no use.
 };
 
 enum class TextState {
@@ -96,6 +97,13 @@ struct Map {
   SE3d T_c_h(const SE3d& T_c_w, int host) const { return T_c_w * keyframes[static_cast<std::size_t>(host)].T_w_c; }
   KeyFrame& keyframe(int id) { return keyframes[static_cast<std::size_t>(id)]; }
   const KeyFrame& keyframe(int id) const { return keyframes[static_cast<std::size_t>(id)]; }
+  /// Ids of the key frames, without those culled.
+  std::vector<int> keyframe_ids() const {
+    std::vector<int> ids;
+    for (std::size_t i = 0; i < keyframes.size(); ++i)
+      if (!keyframes[i].culled) ids.push_back(static_cast<int>(i));
+    return ids;
+  }
   MapPoint& point(int id) { return points[static_cast<std::size_t>(id)]; }
   const MapPoint& point(int id) const { return points[static_cast<std::size_t>(id)]; }
 };

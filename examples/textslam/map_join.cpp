@@ -170,7 +170,8 @@ MapLink link_maps(const Map& a, const Map& b, const Parameters& parameters, cons
 JoinedIds join_maps(Map& a, const Map& b, const MapLink& link) {
   JoinedIds ids;
   ids.first_keyframe = static_cast<int>(a.keyframes.size());
-  for (const KeyFrame& keyframe : b.keyframes) a.keyframes.push_back({keyframe.frame, link.S_a_b * keyframe.T_w_c, {}});
+  for (const KeyFrame& keyframe : b.keyframes)
+    a.keyframes.push_back({keyframe.frame, link.S_a_b * keyframe.T_w_c, {}, keyframe.culled});
 
   ids.points.assign(b.points.size(), -1);
   for (const auto& [of_a, of_b] : link.points) ids.points[static_cast<std::size_t>(of_b)] = of_a;

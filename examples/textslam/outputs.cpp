@@ -44,13 +44,14 @@ std::string text_map_ply(const Map& map) {
   std::vector<std::array<Vec3, 4>> quads;
   for (const TextObject& text : map.texts)
     if (text.state == TextState::mapped) quads.push_back(world_corners(map, text));
+  const std::vector<int> keyframes = map.keyframe_ids();
   std::vector<Vec3> points;
   for (const MapPoint& point : map.points)
     if (!point.bad) points.push_back(point.p_w);
 
   std::ostringstream out;
   out << "ply\nformat ascii 1.0\ncomment textplane: text objects (faces, blue), points (grey), key frames (orange)\n"
-      << "element vertex " << 4 * quads.size() + points.size() + map.keyframes.size()
+      << "element vertex " << 4 * quads.size() + points.size() + keyframes.size()
       << "\nproperty float x\nproperty float y\nproperty float z\n"
       << "property uchar red\nproperty uchar green\nproperty uchar blue\n"
       << "element face " << quads.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
@@ -62,7 +63,7 @@ std::string text_map_ply(const Map& map) {
   for (const auto& quad : quads)
     for (const Vec3& corner : quad) vertex(corner, "30 90 220");
   for (const Vec3& point : points) vertex(point, "150 150 150");
-  for (const KeyFrame& keyframe : map.keyframes) vertex(keyframe.T_w_c.t, "240 140 20");
+  for (const int id : keyframes) vertex(map.keyframe(id).T_w_c.t, "240 140 20");
   for (std::size_t i = 0; i < quads.size(); ++i)
     out << "4 " << 4 * i << ' ' << 4 * i + 1 << ' ' << 4 * i + 2 << ' ' << 4 * i + 3 << '\n';
   return out.str();
@@ -123,7 +124,7 @@ Json loops_json(const std::vector<LoopRecord>& loops) {
 // In order of time, which that of the ids is not where maps were joined.
 std::vector<StampedPose> keyframe_trajectory(const Map& map) {
   std::vector<StampedPose> poses;
-  for (const KeyFrame& keyframe : map.keyframes) poses.push_back({keyframe.frame.timestamp, keyframe.T_w_c});
+  for (const int id : map.keyframe_ids()) poses.push_back({map.keyframe(id).frame.timestamp, map.keyframe(id).T_w_c});
   std::sort(poses.begin(), poses.end(),
             [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
   return poses;
@@ -191,7 +192,7 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
   s.loops = system.loops();
   s.map_frames = system.map_frames();
   const Map& map = system.map();
-  s.keyframes = map.keyframes.size();
+  s.keyframes = map.keyframe_ids().size();
   for (const MapPoint& point : map.points) s.points += point.bad ? 0 : 1;
   for (const TextObject& text : map.texts) s.texts += text.state == TextState::mapped ? 1 : 0;
   s.has_truth = !sequence.groundtruth.empty();

@@ -49,6 +49,8 @@ struct Parameters {
   int keyframe_min_gap = 3;         ///< Frames.
   double keyframe_flow = 25;        ///< px: median motion of the points since the last key frame.
   double keyframe_min_share = 0.7;  ///< Of the last key frame's points still tracked.
+  int redundant_views = 12;         ///< Of a point or text in other key frames; one whose points
+  double redundant_share = 0.9;     ///< have as many, this share of them, is culled.
 
   // Points
   double min_parallax = 1.0;      ///< Degrees, for triangulation.
@@ -106,6 +108,7 @@ struct Parameters {
   // Last poses of the frames between key frames
   int refit_min_points = 40;   ///< Map points, else the pose stays as it was to its key frame.
   int refit_max_points = 250;  ///< Remembered of a frame.
+  int refit_frames = 3000;     ///< Older ones get their last pose at once, lest memory grows with the way.
 
   // Recovery
   int relocalise_candidates = 5;        ///< Key frames tried for a lost frame.

@@ -13,6 +13,17 @@ void add_observation(Map& map, int point, int keyframe, const Vec2& px) {
   map.keyframe(keyframe).points.push_back(point);
 }
 
+void drop_point(Map& map, int point) {
+  MapPoint& dropped = map.point(point);
+  dropped.bad = true;
+  for (const PointObservation& o : dropped.observations) {
+    auto& points = map.keyframe(o.keyframe).points;
+    points.erase(std::remove(points.begin(), points.end(), point), points.end());
+  }
+  dropped.observations.clear();
+  dropped.observations.shrink_to_fit();  // most points of a long run are bad in the end
+}
+
 void remove_observation(Map& map, int point, int keyframe) {
   auto& observations = map.point(point).observations;
   observations.erase(std::remove_if(observations.begin(), observations.end(),
@@ -20,19 +31,12 @@ void remove_observation(Map& map, int point, int keyframe) {
                      observations.end());
   auto& points = map.keyframe(keyframe).points;
   points.erase(std::remove(points.begin(), points.end(), point), points.end());
-  if (observations.size() < 2) {
-    map.point(point).bad = true;
-    for (const PointObservation& o : observations) {
-      auto& others = map.keyframe(o.keyframe).points;
-      others.erase(std::remove(others.begin(), others.end(), point), others.end());
-    }
-    observations.clear();
-  }
+  if (observations.size() < 2) drop_point(map, point);
 }
 
 int insert_keyframe(Map& map, const Frame& frame, const SE3d& T_w_c, std::vector<Track>& tracks) {
   const int id = static_cast<int>(map.keyframes.size());
-  map.keyframes.push_back({frame, T_w_c, {}});
+  map.keyframes.push_back({frame, T_w_c, {}, false});
   for (Track& track : tracks) {
     if (track.point < 0) {
       track.observations.push_back({id, track.px.cast<double>()});
@@ -89,15 +93,10 @@ int triangulate_tracks(Map& map, const Parameters& parameters, std::vector<Track
 
 void cull_points(Map& map, const Parameters& parameters, std::vector<Track>& tracks) {
   for (std::size_t id = 0; id < map.points.size(); ++id) {
-    MapPoint& point = map.points[id];
+    const MapPoint& point = map.points[id];
     if (point.bad || point.visible < 20) continue;
     if (point.found >= parameters.min_found_share * point.visible) continue;
-    point.bad = true;
-    for (const PointObservation& o : point.observations) {
-      auto& points = map.keyframe(o.keyframe).points;
-      points.erase(std::remove(points.begin(), points.end(), static_cast<int>(id)), points.end());
-    }
-    point.observations.clear();
+    drop_point(map, static_cast<int>(id));
   }
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [&](const Track& t) { return t.point >= 0 && map.point(t.point).bad; }),

@@ -19,6 +19,9 @@ int triangulate_tracks(Map& map, const Parameters& parameters, std::vector<Track
 /// Adds the observation of `point` in `keyframe` to both.
 void add_observation(Map& map, int point, int keyframe, const Vec2& px);
 
+/// Flags a point bad and takes it from the key frames that observe it.
+void drop_point(Map& map, int point);
+
 /// Removes the observation of `point` in `keyframe` from both; a point left with fewer than two is flagged bad.
 void remove_observation(Map& map, int point, int keyframe);
 

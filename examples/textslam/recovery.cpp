@@ -50,9 +50,9 @@ Recovery relocalise_by_keyframes(const Map& map, const Parameters& parameters, c
     double zncc;
   };
   std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
-    const RotationPrior prior = align_rotation(map.keyframes[i].frame, frame, map.camera, Eigen::Matrix3d::Identity());
-    if (prior.zncc > 0.3) candidates.push_back({static_cast<int>(i), prior.zncc});
+  for (const int id : map.keyframe_ids()) {
+    const RotationPrior prior = align_rotation(map.keyframe(id).frame, frame, map.camera, Eigen::Matrix3d::Identity());
+    if (prior.zncc > 0.3) candidates.push_back({id, prior.zncc});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.zncc > b.zncc; });

@@ -90,8 +90,8 @@ Json world_json(const System& system, const Sequence& sequence, const RunSummary
     if (!map.points[i].bad) good.push_back(static_cast<int>(i));
   for (const int id : spread(good, kReportPoints))
     for (const double value : map.point(id).p_w) points.push_back(short_number(value));
-  for (const KeyFrame& keyframe : map.keyframes)
-    keyframes.push_back({{"frame", keyframe.frame.index}, {"pose", short_pose(keyframe.T_w_c)}});
+  for (const int id : map.keyframe_ids())
+    keyframes.push_back({{"frame", map.keyframe(id).frame.index}, {"pose", short_pose(map.keyframe(id).T_w_c)}});
   for (const FrameRecord& record : system.records())
     trajectory.push_back(record.state == FrameState::tracked ? short_pose(system.final_pose(record)) : Json(nullptr));
   if (is_aligned(summary)) {

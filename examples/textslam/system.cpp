@@ -4,6 +4,7 @@
 
 #include "textslam/adjustment.hpp"
 #include "textslam/feature_tracks.hpp"
+#include "textslam/keyframe_culling.hpp"
 #include "textslam/loose_planes.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/recovery.hpp"
@@ -41,6 +42,12 @@ const FrameRecord& System::process(const Frame& frame, double detect_ms) {
     const bool begun = initialiser_.add(frame, map_, &tracks);
     record.track_ms = now_ms() - start;
     if (begun) begin_map(frame, std::move(tracks), record);
+  }
+  const auto remembered = static_cast<std::size_t>(parameters_.refit_frames);
+  if (records_.size() > remembered) {
+    FrameRecord& oldest = records_[records_.size() - remembered - 1];
+    refit(oldest);
+    std::vector<SeenPoint>().swap(oldest.seen);
   }
   return record;
 }
@@ -159,12 +166,30 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
     if (parameters_.mode == Mode::text)
       for (const Detection& detection : fresh) quads.push_back(detection.quad);
   }
+  cull_keyframes();
   last_keyframe_points_ = 0;
   for (const Track& track : tracks) last_keyframe_points_ += track.point >= 0 ? 1 : 0;
   add_corners(frame, last_keyframe_, quads, parameters_, tracks);
   tracker_->correct(T_c_w);
   set_pose(record, T_c_w);
   record.seen.clear();
+}
+
+// Frames whose poses are relative to a key frame that goes are handed over to the one before it, as is its own.
+void System::cull_keyframes() {
+  for (int id = 0; (id = find_redundant_keyframe(map_, parameters_, local_, id)) >= 0;) {
+    const KeyFrame& keyframe = map_.keyframe(id);
+    const int before = keyframe_before(map_, id);
+    const SE3d T_before_id = map_.keyframe(before).T_w_c.inverse() * keyframe.T_w_c;
+    records_[static_cast<std::size_t>(keyframe.frame.index)].seen =
+        seen_by_keyframe(map_, id, static_cast<std::size_t>(parameters_.refit_max_points));
+    for (FrameRecord& record : records_) {
+      if (record.map != map_.number || record.keyframe != id) continue;
+      record.keyframe = before;
+      record.T_k_c = T_before_id * record.T_k_c;
+    }
+    cull_keyframe(map_, id, tracker_->tracks());
+  }
 }
 
 // The frames since that key frame were tracked in the map as it was before.
@@ -174,13 +199,11 @@ void System::take_over(const Adjuster::Collected& adjusted) {
   if (tracker_) tracker_->correct(tracker_->pose() * adjusted.moved.inverse());
 }
 
-void System::refit_poses() {
-  for (FrameRecord& record : records_) {
-    if (record.state != FrameState::tracked || record.seen.empty()) continue;
-    SE3d T_c_w = final_pose(record).inverse();
-    if (refit_pose(map_, parameters_, record.seen, &T_c_w))
-      record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * T_c_w.inverse();
-  }
+void System::refit(FrameRecord& record) const {
+  if (record.state != FrameState::tracked || record.map != map_.number || record.seen.empty()) return;
+  SE3d T_c_w = final_pose(record).inverse();
+  if (refit_pose(map_, parameters_, record.seen, &T_c_w))
+    record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * T_c_w.inverse();
 }
 
 void System::fill_in(const std::function<Frame(int)>& load) {
@@ -225,7 +248,7 @@ void System::finish() {
     adjust_all(map_, parameters_, parameters_.final_iterations);
     TextRefiner(map_, parameters_).refine();
   }
-  refit_poses();
+  for (FrameRecord& record : records_) refit(record);
 }
 
 }  // namespace textslam

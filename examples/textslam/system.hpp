@@ -3,6 +3,8 @@
 // Frame -> (initialiser | tracker | recovery) -> key frame? -> points, text, local adjustment. Without random draws, and
 // single-threaded but for the local adjustment in real time (adjuster.hpp): without that the same frames give the same bytes.
 //
+// Redundant key frames are culled (keyframe_culling.hpp): what it knows grows with the ground seen, not with time.
+//
 // One map is worked on at a time. Where it is lost for long another begins, and it is stored; a lost frame is looked for in
 // the stored maps, too, and a key frame that shows a stored map joins the two (system_maps.cpp). In the end the map with most
 // frames is the result.
@@ -101,7 +103,8 @@ class System {
   void set_pose(FrameRecord& record, const SE3d& T_c_w);
   bool keyframe_needed(const Frame& frame) const;
   void add_keyframe(const Frame& frame, FrameRecord& record);
-  void refit_poses();
+  void cull_keyframes();
+  void refit(FrameRecord& record) const;
 
   Parameters parameters_;
   Map map_;

@@ -219,7 +219,7 @@ void TextMapper::observe_again() {
     const LocalMap near = parameters_.loop_closure ? LocalMap() : local_map(map_, parameters_, text.host);
     std::vector<int> before = std::move(text.targets);
     text.targets.clear();
-    for (int id = 0; id < static_cast<int>(map_.keyframes.size()); ++id)
+    for (const int id : map_.keyframe_ids())
       if (id != text.host && near.has_keyframe(id)) observe(text, id, parameters_.text_min_share);
     if (static_cast<int>(text.targets.size()) + 1 < parameters_.text_min_observations) text.targets = std::move(before);
   }
@@ -234,7 +234,8 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
       Vec3 theta;
       if (near && initial_plane(text, id, tracks, &theta) && refine(text, {id}, theta, parameters_.text_min_zncc)) {
         text.state = TextState::tentative;
-        for (int other = text.host + 1; other < id; ++other) observe(text, other, 1);
+        for (int other = text.host + 1; other < id; ++other)
+          if (!map_.keyframe(other).culled) observe(text, other, 1);
       } else if (id - text.host > parameters_.text_patience) {
         text.state = TextState::dropped;
         continue;

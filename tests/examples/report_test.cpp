@@ -134,6 +134,9 @@ TEST(FrameLine, IsAnObject) {
   EXPECT_EQ(tracked.at("pose"), Json::array({1, 2, 3, 0, 0, 0, 1}));
   EXPECT_EQ(tracked.at("keyframe"), false);
   EXPECT_EQ(Json::parse(frame_line(3, record, map)).at("keyframe"), true);
+  EXPECT_EQ(tracked.at("map_keyframes"), 1);
+  map.keyframes.emplace_back().culled = true;
+  EXPECT_EQ(Json::parse(frame_line(4, record, map)).at("map_keyframes"), 1);
 }
 
 TEST(Progress, SaysHowLongItWillTake) {
