@@ -5,18 +5,16 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "io/output_file.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textslam/report_json.hpp"
 #include "textslam/statistics.hpp"
 #include "textslam/text_index.hpp"
 
 namespace textslam {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 

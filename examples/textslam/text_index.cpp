@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 
 #include "io/json_file.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/evaluate_text.hpp"
+#include "textslam/report_json.hpp"
 
 namespace textslam {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kNoMatch = 3;
 
