@@ -12,7 +12,7 @@ fi
 # Debian and Ubuntu package names. "a|b": either will do, a is the one that gets installed.
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
-  nlohmann-json3-dev fonts-dejavu-core"
+  nlohmann-json3-dev libyaml-cpp-dev fonts-dejavu-core"
 packages_test="$packages_demo libgtest-dev"
 packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen"

@@ -5,6 +5,7 @@
 
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
+#include "io/paths.hpp"
 #include "io/text_file.hpp"
 
 namespace textslam {
@@ -54,8 +55,7 @@ std::vector<Detection> read_pair(const std::string& boxes, const std::string& wo
     if (!trimmed(rest).empty()) throw InputError(boxes, line.number, "a box has 8 numbers and nothing after them");
     detections.push_back(detection);
   }
-  std::error_code error;
-  if (!fs::exists(words, error)) return detections;
+  if (!is_there(words)) return detections;
   const std::vector<TextLine> lines = read_lines(words);
   if (lines.size() != detections.size()) {
     throw InputError(
@@ -69,6 +69,28 @@ std::vector<Detection> read_pair(const std::string& boxes, const std::string& wo
     detections[i].text = detection_text(line.substr(0, comma));
     detections[i].score = require_number(line.substr(comma + 1), words, lines[i].number, "the score");
   }
+  return detections;
+}
+
+const std::string kTruthPrefix = "gt_";
+
+std::vector<fs::path> icdar_files(const fs::path& folder, const std::string& stem) {
+  return {folder / (stem + ".txt"), folder / ("res_" + stem + ".txt"), folder / (kTruthPrefix + stem + ".txt")};
+}
+
+// Without <stem>.txt: beside images that could be anything.
+std::vector<fs::path> files_beside(const FrameRef& frame) {
+  if (frame.path.empty()) return {};
+  std::vector<fs::path> files = icdar_files(fs::path(frame.path).parent_path(), frame.stem);
+  files.erase(files.begin());
+  return files;
+}
+
+std::vector<Detection> read_named(const fs::path& file, const std::string& stem) {
+  std::vector<Detection> detections = read_icdar(file.string());
+  if (file.filename() != kTruthPrefix + stem + ".txt") return detections;
+  const auto ignored = [](const Detection& detection) { return detection.text == kUnreadText; };
+  detections.erase(std::remove_if(detections.begin(), detections.end(), ignored), detections.end());
   return detections;
 }
 
@@ -87,16 +109,33 @@ std::vector<Detection> read_icdar(const std::string& path) {
 }
 
 std::vector<Detection> read_detections(const Sequence& sequence, const FrameRef& frame) {
+  const bool own = sequence.detections.empty();
+  if (own && sequence.video) return {};
   const fs::path folder(sequence.folder);
-  std::error_code error;
-  const fs::path icdar = folder / "detections" / (frame.stem + ".txt");
-  if (fs::exists(icdar, error)) return read_icdar(icdar.string());
-  for (const char* name : {"detections", "text"}) {
-    const fs::path boxes = folder / name / (frame.stem + "_dete.txt");
-    const fs::path words = folder / name / (frame.stem + "_mean.txt");
-    if (fs::exists(boxes, error)) return read_pair(boxes.string(), words.string(), sequence.camera);
+  for (const fs::path& file : icdar_files(own ? folder / "detections" : fs::path(sequence.detections), frame.stem)) {
+    if (is_there(file)) return read_named(file, frame.stem);
+  }
+  if (own) {
+    for (const fs::path& file : files_beside(frame)) {
+      if (is_there(file)) return read_named(file, frame.stem);
+    }
+  }
+  for (const fs::path& place : own ? std::vector<fs::path>{folder / "detections", folder / "text"}
+                                   : std::vector<fs::path>{sequence.detections}) {
+    const fs::path boxes = place / (frame.stem + "_dete.txt");
+    const fs::path words = place / (frame.stem + "_mean.txt");
+    if (is_there(boxes)) return read_pair(boxes.string(), words.string(), sequence.camera);
   }
   return {};
+}
+
+bool has_detections(const Sequence& sequence) {
+  if (!sequence.detections.empty()) return true;
+  if (sequence.video) return false;
+  const fs::path folder(sequence.folder);
+  if (is_folder(folder / "detections") || is_folder(folder / "text")) return true;
+  const std::vector<fs::path> beside = files_beside(sequence.frames.front());
+  return std::any_of(beside.begin(), beside.end(), is_there);
 }
 
 std::string format_detections(const std::vector<Detection>& detections) {

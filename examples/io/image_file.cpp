@@ -1,5 +1,6 @@
 #include "io/image_file.hpp"
 
+#include <fstream>
 #include <string_view>
 
 #include "io/image_codecs.hpp"
@@ -18,16 +19,35 @@ void check_image_size(std::size_t width, std::size_t height, const std::string& 
   }
 }
 
-Image<std::uint8_t> load_grey(const std::string& path) {
-  const std::string bytes = read_file(path);
-  const auto starts_with = [&](std::string_view magic) { return bytes.compare(0, magic.size(), magic) == 0; };
-  if (bytes.empty()) throw InputError(path, 0, "the file is empty");
-  if (starts_with("\xFF\xD8\xFF")) return decode_jpeg(bytes, path);
-  if (starts_with("\x89PNG\r\n\x1A\n")) return decode_png(bytes, path);
+namespace {
+
+using Decoder = Image<std::uint8_t> (*)(const std::string& bytes, const std::string& path);
+
+// By the first bytes; null for what is no image of a known kind.
+Decoder decoder_of(std::string_view bytes) {
+  const auto starts_with = [&](std::string_view magic) { return bytes.substr(0, magic.size()) == magic; };
+  if (starts_with("\xFF\xD8\xFF")) return decode_jpeg;
+  if (starts_with("\x89PNG\r\n\x1A\n")) return decode_png;
   if (bytes.size() > 2 && bytes[0] == 'P' &&
       (bytes[1] == '2' || bytes[1] == '3' || bytes[1] == '5' || bytes[1] == '6')) {
-    return decode_pnm(bytes, path);
+    return decode_pnm;
   }
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_image_file(const std::string& path) {
+  char bytes[8] = {};
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes, sizeof bytes);
+  return decoder_of(std::string_view(bytes, static_cast<std::size_t>(file.gcount()))) != nullptr;
+}
+
+Image<std::uint8_t> load_grey(const std::string& path) {
+  const std::string bytes = read_file(path);
+  if (bytes.empty()) throw InputError(path, 0, "the file is empty");
+  if (const Decoder decode = decoder_of(bytes)) return decode(bytes, path);
   throw InputError(path, 0, "this is not a JPEG, PNG, PGM or PPM image");
 }
 

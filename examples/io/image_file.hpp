@@ -18,6 +18,9 @@ namespace textslam {
 constexpr int kMaxImageSide = 16384;
 constexpr int kMaxImagePixels = 1 << 27;
 
+/// Whether the file can be read and begins as an image of these kinds does.
+bool is_image_file(const std::string& path);
+
 /// The image as grey values. Throws InputError (file, no line) when the file is missing, unreadable, of an unknown
 /// kind, corrupt, truncated or too large. Safe to call from several threads.
 Image<std::uint8_t> load_grey(const std::string& path);

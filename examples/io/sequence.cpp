@@ -1,14 +1,14 @@
 #include "io/sequence.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <cstdio>
 #include <filesystem>
-#include <map>
 #include <utility>
 
+#include "io/detections.hpp"
+#include "io/euroc.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
+#include "io/paths.hpp"
 #include "io/text_file.hpp"
 
 namespace textslam {
@@ -17,192 +17,151 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Setting {
-  std::string value;
-  int line = 0;
-};
-using Settings = std::map<std::string, Setting>;
+constexpr double kUsualFps = 30;
 
-// "value  # comment" and "'value'" as YAML means them, for scalars on one line.
-std::string_view scalar(std::string_view text) {
-  text = trimmed(text);
-  if (!text.empty() && (text[0] == '"' || text[0] == '\'')) {
-    const std::size_t end = text.find(text[0], 1);
-    if (end != std::string_view::npos) return text.substr(1, end - 1);
-  }
-  if (!text.empty() && text[0] == '#') return {};
-  const std::size_t comment = std::min(text.find(" #"), text.find("\t#"));
-  return trimmed(text.substr(0, comment));
-}
+std::string inside(const std::string& folder, const char* name) { return (fs::path(folder) / name).string(); }
 
-// The top-level `key: value` lines. Indented lines and list items belong to keys of other programs; directives and
-// document marks are passed over, "%YAML:1.0" of OpenCV included, which a YAML parser refuses.
-Settings read_settings(const std::string& path) {
-  Settings settings;
+std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
+
+// EuRoC's, by its name or by what it says, or camera.yaml.
+CameraModel read_any_camera(const std::string& path) {
+  if (fs::path(path).filename() == "sensor.yaml") return read_euroc_camera(path).model;
   for (const TextLine& line : read_lines(path)) {
-    const char first = line.text[0];
-    const std::string_view text = trimmed(line.text);
-    if (text[0] == '#' || first == '%' || text == "---" || text == "...") continue;
-    if (first == ' ' || first == '\t' || first == '-') continue;
-    const std::size_t colon = text.find(':');
-    if (colon == std::string_view::npos || colon == 0) {
-      throw InputError(path, line.number, "expected 'key: value', not " + shown(text));
-    }
-    const std::string key(trimmed(text.substr(0, colon)));
-    const auto [entry, is_new] =
-        settings.emplace(key, Setting{std::string(scalar(text.substr(colon + 1))), line.number});
-    if (!is_new) {
-      throw InputError(path, line.number, key + " is given twice, first in line " + std::to_string(entry->second.line));
-    }
+    if (line.text.compare(0, 11, "intrinsics:") == 0) return read_euroc_camera(path).model;
   }
-  return settings;
+  return read_camera(path);
 }
 
-class CameraReader {
- public:
-  explicit CameraReader(const std::string& path) : path_(path), settings_(read_settings(path)) {}
-
-  const Setting* find(const std::string& key) const {
-    const auto entry = settings_.find(key);
-    return entry == settings_.end() ? nullptr : &entry->second;
-  }
-  double number(const std::string& key) const {
-    const Setting* setting = find(key);
-    if (!setting) throw InputError(path_, 0, "the key " + key + " is missing");
-    return require_number(setting->value, path_, setting->line, key);
-  }
-  double positive(const std::string& key) const {
-    const double value = number(key);
-    if (!(value > 0)) refuse(key, "should be positive");
-    return value;
-  }
-  int size(const std::string& key) const {
-    const double value = positive(key);
-    if (value > kMaxImageSide || value != std::floor(value)) {
-      refuse(key, "should be a whole number of at most " + std::to_string(kMaxImageSide));
-    }
-    return static_cast<int>(value);
-  }
-  [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
-    const Setting* setting = find(key);
-    throw InputError(path_, setting->line, key + " " + reason + ", not " + shown(setting->value));
-  }
-
- private:
-  std::string path_;
-  Settings settings_;
-};
-
-std::vector<FrameRef> read_frames(const std::string& folder, const std::string& images_file) {
-  std::vector<FrameRef> frames;
-  for (const TextLine& line : read_lines(images_file)) {
-    const std::string_view text = trimmed(line.text);
-    if (text[0] == '#') continue;
-    const std::string_view time = split_blanks(text).front();
-    const std::string path(trimmed(text.substr(time.size())));
-    FrameRef frame;
-    frame.line = line.number;
-    frame.timestamp = require_number(time, images_file, line.number, "the timestamp");
-    if (path.empty()) throw InputError(images_file, line.number, "the image's path is missing after the timestamp");
-    if (!frames.empty() && !(frame.timestamp > frames.back().timestamp)) {
-      throw InputError(
-          images_file, line.number,
-          "times must increase: " + shown(time) + " does not follow line " + std::to_string(frames.back().line));
-    }
-    frame.path = (fs::path(folder) / path).string();
-    frame.stem = fs::path(path).stem().string();
-    frames.push_back(std::move(frame));
-  }
-  if (frames.empty()) throw InputError(images_file, 0, "the list names no image");
-  return frames;
+void use_fov(Sequence* sequence, double fov) {
+  const Image<std::uint8_t> first = load_image(*sequence, 0);
+  sequence->camera = camera_from_fov(fov, first.width(), first.height());
+  sequence->camera_source = "the first one is";
+  sequence->approximate_fov = fov;
 }
 
-bool exists(const std::string& path) {
-  std::error_code error;
-  return fs::exists(path, error);
+// The camera from --camera, from the sequence's own calibration `own` (empty: of a layout without one), or from --fov.
+void choose_camera(Sequence* sequence, const SequenceOptions& options, const std::string& own) {
+  const bool has_own = !own.empty() && is_there(own);
+  const std::string file = !options.camera.empty() ? options.camera : has_own ? own : "";
+  if (!file.empty()) {
+    if (options.fov > 0) throw InputError(file, 0, "the camera is calibrated here: leave out --fov");
+    sequence->camera = read_any_camera(file);
+    sequence->camera_source = fs::path(file).filename().string() + " says";
+  } else if (options.fov > 0) {
+    use_fov(sequence, options.fov);
+  } else if (options.needs_camera) {
+    throw InputError(own.empty() ? sequence->images_file : own, 0,
+                     std::string(own.empty() ? "there is no calibration" : "No such file") +
+                         ": give --camera FILE, or --fov DEGREES for an approximate camera");
+  }
 }
 
-bool is_folder(const std::string& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
+void read_video(Sequence* sequence, const std::string& path, const SequenceOptions& options) {
+  sequence->folder = fs::path(path).parent_path().string();
+  sequence->images_file = path;
+  sequence->video = open_video(path);
+  for (const double time : sequence->video->times()) {
+    char number[24];
+    std::snprintf(number, sizeof number, "%06zu", sequence->frames.size());
+    sequence->frames.push_back({time, path, number, 0});
+  }
+  choose_camera(sequence, options, "");
+}
+
+void read_listed(Sequence* sequence, const std::string& list, const SequenceOptions& options) {
+  sequence->images_file = list;
+  sequence->frames = read_frame_list(sequence->folder, list);
+  choose_camera(sequence, options, inside(sequence->folder, "camera.yaml"));
+  sequence->groundtruth = read_groundtruth(sequence->folder);
+}
+
+void read_euroc(Sequence* sequence, const EurocFiles& files, const SequenceOptions& options) {
+  sequence->images_file = files.list;
+  sequence->frames = read_euroc_frames(files.list, files.images);
+  choose_camera(sequence, options, files.camera);
+  sequence->groundtruth = read_groundtruth(sequence->folder);
+}
+
+void read_images(Sequence* sequence, const SequenceOptions& options) {
+  const std::string& folder = sequence->folder;
+  const std::vector<std::string> names = image_names(folder);
+  if (names.empty())
+    throw InputError(folder, 0,
+                     "the folder has neither images.txt nor rgb.txt, no mav0/cam0, and no images (png, jpg, pgm)");
+  sequence->images_file = folder;
+  sequence->frames = number_frames(folder, names, kUsualFps);
+  const std::string camera = inside(folder, "camera.yaml");
+  choose_camera(sequence, options, is_there(camera) ? camera : "");
+  const double fps = options.fps > 0 ? options.fps : sequence->camera.fps > 0 ? sequence->camera.fps : kUsualFps;
+  sequence->frames = number_frames(folder, names, fps);
+  sequence->groundtruth = read_groundtruth(folder);
+}
+
+void refuse_fps(const std::string& path, const SequenceOptions& options) {
+  if (options.fps > 0) throw InputError(path, 0, "its frames have times: leave out --fps");
 }
 
 }  // namespace
 
-CameraModel read_camera(const std::string& path) {
-  const CameraReader reader(path);
-  if (const Setting* type = reader.find("Camera.type")) {
-    if (type->value != "PinHole" && type->value != "Pinhole") reader.refuse("Camera.type", "should be PinHole");
-  }
-  CameraModel camera;
-  camera.width = reader.size("Camera.width");
-  camera.height = reader.size("Camera.height");
-  camera.fps = reader.positive("Camera.fps");
-  camera.pinhole.fx = reader.positive("Camera.fx");
-  camera.pinhole.fy = reader.positive("Camera.fy");
-  camera.pinhole.cx = reader.number("Camera.cx");
-  camera.pinhole.cy = reader.number("Camera.cy");
-  camera.lens.k1 = reader.number("Camera.k1");
-  camera.lens.k2 = reader.number("Camera.k2");
-  camera.lens.p1 = reader.number("Camera.p1");
-  camera.lens.p2 = reader.number("Camera.p2");
-  if (reader.find("Camera.k3")) camera.lens.k3 = reader.number("Camera.k3");
-  return camera;
-}
-
-std::string format_camera(const CameraModel& camera) {
-  const std::array<std::pair<const char*, double>, 12> keys = {{{"width", camera.width},
-                                                                {"height", camera.height},
-                                                                {"fps", camera.fps},
-                                                                {"fx", camera.pinhole.fx},
-                                                                {"fy", camera.pinhole.fy},
-                                                                {"cx", camera.pinhole.cx},
-                                                                {"cy", camera.pinhole.cy},
-                                                                {"k1", camera.lens.k1},
-                                                                {"k2", camera.lens.k2},
-                                                                {"p1", camera.lens.p1},
-                                                                {"p2", camera.lens.p2},
-                                                                {"k3", camera.lens.k3}}};
-  std::string out;
-  for (const auto& [key, value] : keys) out += std::string("Camera.") + key + ": " + shortest(value) + "\n";
-  return out;
-}
-
-Sequence read_sequence(const std::string& folder) {
-  if (!is_folder(folder)) throw InputError(folder, 0, exists(folder) ? "this is not a folder" : "no such folder");
-  const auto inside = [&](const char* name) { return (fs::path(folder) / name).string(); };
+Sequence read_sequence(const std::string& path, const SequenceOptions& options) {
+  if (!is_there(path)) throw InputError(path, 0, "no such folder or file");
+  if (!options.detections.empty() && !is_folder(options.detections))
+    throw InputError(options.detections, 0, "no such folder: detections are expected there");
   Sequence sequence;
-  sequence.folder = folder;
-  sequence.images_file = inside("images.txt");
-  if (!exists(sequence.images_file)) {
-    const std::string other = inside("rgb.txt");
-    if (!exists(other)) throw InputError(folder, 0, "the folder has neither images.txt nor rgb.txt");
-    sequence.images_file = other;
+  sequence.folder = path;
+  sequence.detections = options.detections;
+  EurocFiles euroc;
+  if (!is_folder(path)) {
+    refuse_fps(path, options);
+    read_video(&sequence, path, options);
+  } else if (const std::string list = find_list(path); !list.empty()) {
+    refuse_fps(list, options);
+    read_listed(&sequence, list, options);
+  } else if (find_euroc(path, &euroc)) {
+    refuse_fps(euroc.list, options);
+    read_euroc(&sequence, euroc, options);
+  } else {
+    read_images(&sequence, options);
   }
-  sequence.camera = read_camera(inside("camera.yaml"));
-  sequence.frames = read_frames(folder, sequence.images_file);
-  const std::string truth = inside("groundtruth.txt");
-  if (exists(truth)) sequence.groundtruth = read_tum(truth);
-  sequence.has_detections = is_folder(inside("detections")) || is_folder(inside("text"));
+  sequence.has_detections = has_detections(sequence);
   return sequence;
 }
 
-Image<std::uint8_t> load_frame(const Sequence& sequence, std::size_t index) {
+std::vector<StampedPose> read_groundtruth(const std::string& folder) {
+  const std::string tum = inside(folder, "groundtruth.txt");
+  if (is_there(tum)) return read_tum(tum);
+  EurocFiles euroc;
+  if (!find_euroc(folder, &euroc) || !is_there(euroc.truth) || !is_there(euroc.camera)) return {};
+  return read_euroc_truth(euroc.truth, read_euroc_camera(euroc.camera).T_b_c);
+}
+
+std::string frame_name(const Sequence& sequence, std::size_t index) {
   const FrameRef& frame = sequence.frames.at(index);
-  Image<std::uint8_t> image;
+  const fs::path path(frame.path);
+  if (sequence.video) return path.filename().string() + "#" + frame.stem;
+  return path.lexically_relative(sequence.folder).string();
+}
+
+Image<std::uint8_t> load_image(const Sequence& sequence, std::size_t index) {
+  const FrameRef& frame = sequence.frames.at(index);
+  if (sequence.video) return sequence.video->load(index);
   try {
-    image = load_grey(frame.path);
+    return load_grey(frame.path);
   } catch (const InputError& error) {
+    if (frame.line == 0) throw;
     throw InputError(sequence.images_file, frame.line, error.what());
   }
+}
+
+Image<std::uint8_t> load_frame(const Sequence& sequence, std::size_t index) {
+  Image<std::uint8_t> image = load_image(sequence, index);
   const CameraModel& camera = sequence.camera;
-  if (image.width() != camera.width || image.height() != camera.height) {
-    const auto size = [](int width, int height) { return std::to_string(width) + " x " + std::to_string(height); };
-    throw InputError(sequence.images_file, frame.line,
-                     frame.path + ": the image is " + size(image.width(), image.height()) + " px, camera.yaml says " +
-                         size(camera.width, camera.height));
-  }
-  return image;
+  if (image.width() == camera.width && image.height() == camera.height) return image;
+  const FrameRef& frame = sequence.frames[index];
+  const std::string message = "the image is " + size_text(image.width(), image.height()) + " px, " +
+                              sequence.camera_source + " " + size_text(camera.width, camera.height);
+  if (frame.line == 0) throw InputError(frame.path, 0, message);
+  throw InputError(sequence.images_file, frame.line, frame.path + ": " + message);
 }
 
 }  // namespace textslam

@@ -1,62 +1,68 @@
-// A sequence: a folder with images.txt (or TUM's rgb.txt), camera.yaml and, optionally, groundtruth.txt and detections.
+// A sequence: frames with times, their camera and, optionally, true poses and text detections. It is one of
 //
-//   images.txt        `timestamp path` a line, times strictly increasing, `#` comments; the path is relative to the
-//                     folder and runs to the end of the line
-//   camera.yaml       `Camera.key: value` a line with the keys width height fps fx fy cx cy k1 k2 p1 p2 [k3]; other
-//                     keys of an ORB-SLAM settings file are ignored
-//   groundtruth.txt   TUM, see io/trajectory.hpp
-//   detections/       see io/detections.hpp
+//   a folder with images.txt or TUM's rgb.txt (io/frame_list.hpp), camera.yaml (io/camera_model.hpp) and, optionally,
+//     groundtruth.txt (TUM, io/trajectory.hpp)
+//   a folder of the EuRoC layout (io/euroc.hpp)
+//   a folder of images, in the order of their names (io/frame_list.hpp), with a camera.yaml or without
+//   a video file (io/video_file.hpp)
+//
+// Detections: io/detections.hpp.
 #ifndef TEXTSLAM_IO_SEQUENCE_HPP
 #define TEXTSLAM_IO_SEQUENCE_HPP
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "io/camera_model.hpp"
+#include "io/frame_list.hpp"
 #include "io/names.hpp"
 #include "io/trajectory.hpp"
+#include "io/video_file.hpp"
 
 namespace textslam {
 
-/// The camera that took the images: raw pixel = pinhole.pixel(lens.distort(m)).
-struct CameraModel {
-  Pinhole<double> pinhole;
-  RadialTangential<double> lens;
-  int width = 0, height = 0;  ///< px
-  double fps = 0;
-};
-
-struct FrameRef {
-  double timestamp = 0;  ///< s
-  std::string path;      ///< the image, resolved against the sequence's folder
-  std::string stem;      ///< file name without its last extension: the name of its detections
-  int line = 0;          ///< in Sequence::images_file
+/// What the input does not say, or says otherwise.
+struct SequenceOptions {
+  std::string camera;  ///< camera.yaml, or EuRoC's sensor.yaml, in place of the sequence's own
+  double fov = 0;  ///< degrees, above 0 and below 180: camera_from_fov() where there is no calibration; 0: not given
+  double fps = 0;  ///< of a folder of images; 0: what its camera.yaml says, or 30
+  std::string detections;    ///< folder of the detections, in place of the sequence's own
+  bool needs_camera = true;  ///< false: without calibration the camera stays empty
 };
 
 struct Sequence {
-  std::string folder;
+  std::string folder;  ///< of a video, the one that it lies in
   CameraModel camera;
+  std::string camera_source;             ///< what says the size of the images, for messages
+  double approximate_fov = 0;            ///< degrees, where the camera is a guess from it; 0: it is calibrated
   std::vector<FrameRef> frames;          ///< at least one, times strictly increasing
-  std::string images_file;               ///< the list that the frames come from
-  std::vector<StampedPose> groundtruth;  ///< empty where the folder has none
-  bool has_detections = false;           ///< the folder has a folder of detections
+  std::string images_file;               ///< the list that the frames come from, or the folder of images, or the video
+  std::vector<StampedPose> groundtruth;  ///< camera to world; empty where the sequence has none
+  std::string detections;                ///< SequenceOptions::detections
+  bool has_detections = false;  ///< there is a folder of detections, or the first image has a file of them beside it
+  std::shared_ptr<VideoFile> video;  ///< null for images
 };
 
 /// Reads everything but images and detections. Throws InputError, with file and line where there is one, for whatever
-/// is missing, malformed, unsorted or not finite. Whether the images exist is seen when they are loaded, so that a
-/// broken frame in the middle does not cost the ones before it.
-Sequence read_sequence(const std::string& folder);
+/// is missing, malformed, unsorted or not finite, and for an option that the input makes meaningless. Whether the images exist
+/// is seen when they are loaded, so that a broken frame in the middle does not cost the ones before it.
+Sequence read_sequence(const std::string& path, const SequenceOptions& options = {});
 
-/// Throws InputError for a missing or repeated key, a bad number, a focal length or size that is not positive, or a
-/// lens model other than the pinhole.
-CameraModel read_camera(const std::string& path);
-/// The text that read_camera() reads; the numbers survive the round trip exactly.
-std::string format_camera(const CameraModel& camera);
+/// The true poses of a folder of any layout; none where it has none, or no sensor.yaml to say where EuRoC's body has its camera.
+/// Throws InputError for a broken file.
+std::vector<StampedPose> read_groundtruth(const std::string& folder);
+
+/// What a user knows a frame by: its image's path from the folder, or `video.mp4#000123`.
+std::string frame_name(const Sequence& sequence, std::size_t index);
 
 /// Decodes frame `index` (below frames.size()). Throws InputError that names images_file and the frame's line when the
 /// image is missing, will not decode, or is not camera.width x camera.height.
 Image<std::uint8_t> load_frame(const Sequence& sequence, std::size_t index);
+/// The same for an image of any size.
+Image<std::uint8_t> load_image(const Sequence& sequence, std::size_t index);
 
 }  // namespace textslam
 

@@ -9,6 +9,7 @@
 #include "textslam/detector_options.hpp"
 #include "textslam/progress.hpp"
 #include "textslam/run.hpp"
+#include "textslam/sequence_options.hpp"
 
 namespace {
 
@@ -38,8 +39,7 @@ int execute(int argc, char** argv) {
   bool only_render = false;
 
   CLI::App app{"SLAM with points and planar text: a sequence of images becomes a trajectory and a 3D text map."};
-  app.add_option("SEQUENCE", options.sequence,
-                 "Folder with images.txt (or rgb.txt), camera.yaml, optionally detections/ and groundtruth.txt");
+  app.add_option("SEQUENCE", options.sequence, textslam::kSequenceHelp);
   app.add_option("--render", render.kind, "Render a sequence of this kind into OUTPUT/sequence and run on it")
       ->check(CLI::IsMember(textslam::render_kinds()));
   app.add_option("--output", options.output, "Folder for the results")->required();
@@ -47,6 +47,7 @@ int execute(int argc, char** argv) {
                  "text: points and text; points: points alone; loose: as points, text planes fitted to the points")
       ->check(CLI::IsMember({"text", "points", "loose"}))
       ->capture_default_str();
+  textslam::add_sequence_options(app, options.input);
   textslam::add_detector_options(app, options.detector);
   app.add_flag(
       "--real-time", options.parameters.real_time,
@@ -96,8 +97,8 @@ int execute(int argc, char** argv) {
   if (!options.json_lines)
     std::printf("%s  %-22s %s\n", textslam::format_summary(result.summary).c_str(), "output",
                 (result.report.empty() ? options.output : result.report).c_str());
-  const std::string warning = textslam::warning(result.summary);
-  if (!warning.empty()) std::fprintf(stderr, "textslam: %s\n", warning.c_str());
+  for (const std::string& warning : textslam::warnings(result.summary))
+    std::fprintf(stderr, "textslam: warning: %s\n", warning.c_str());
   if (result.error.empty()) return 0;
   std::fprintf(stderr, "textslam: %s\n", result.error.c_str());
   return result.interrupted ? kSignal + textslam::interrupted() : kInputError;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "io/output_file.hpp"
+#include "io/text_file.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/report_json.hpp"
 #include "textslam/statistics.hpp"
@@ -142,6 +143,7 @@ std::string metrics_json(const RunSummary& s) {
            {"maps", s.map_frames.size()},
            {"map_frames", s.map_frames},
            {"loops", loops_json(s.loops)}};
+  if (s.approximate_fov > 0) out["approximate_camera"] = {{"fov_deg", s.approximate_fov}};
   if (s.has_truth) {
     out["trajectory"] = errors_json(s.trajectory);
     out["trajectory_live"] = errors_json(s.live);
@@ -193,6 +195,8 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
   s.keyframes = map.keyframe_ids().size();
   for (const MapPoint& point : map.points) s.points += point.bad ? 0 : 1;
   for (const TextObject& text : map.texts) s.texts += text.state == TextState::mapped ? 1 : 0;
+  s.approximate_fov = sequence.approximate_fov;
+  s.has_detections = sequence.has_detections;
   s.has_truth = !sequence.groundtruth.empty();
   if (!s.has_truth) return s;
   s.trajectory = evaluate_trajectory(final_trajectory(system), sequence.groundtruth, frames);
@@ -237,7 +241,8 @@ std::string format_summary(const RunSummary& s) {
   row("frames tracked", "%zu of %zu (%.1f %%)", s.tracked, s.frames, share);
   if (s.first_tracked_live >= 0) row("map began at frame", "%d", s.first_tracked_live);
   row("key frames, points", "%zu, %zu", s.keyframes, s.points);
-  row("text objects", "%zu", s.texts);
+  row("text objects", s.texts > 0 || s.has_detections ? "%zu" : "%zu: the sequence has no detections, see --detector",
+      s.texts);
   if (!s.loops.empty()) {
     const auto largest = std::max_element(s.loops.begin(), s.loops.end(), [](const LoopRecord& a, const LoopRecord& b) {
       return a.found.translation < b.found.translation;
@@ -266,12 +271,18 @@ std::string format_summary(const RunSummary& s) {
   return out.str();
 }
 
-std::string warning(const RunSummary& s) {
-  if (s.map_frames.size() < 2) return "";
+std::vector<std::string> warnings(const RunSummary& s) {
+  std::vector<std::string> out;
+  if (s.approximate_fov > 0) {
+    out.push_back("the camera is approximate, a pinhole of " + shortest(s.approximate_fov) +
+                  " degrees without lens distortion: take angles and shapes with care");
+  }
+  if (s.map_frames.size() < 2) return out;
   std::string frames;
   for (const std::size_t count : s.map_frames) frames += (frames.empty() ? "" : ", ") + std::to_string(count);
-  return "warning: " + std::to_string(s.map_frames.size()) + " separate maps, of " + frames +
-         " frames; the outputs hold the first of these";
+  out.push_back(std::to_string(s.map_frames.size()) + " separate maps, of " + frames +
+                " frames; the outputs hold the first of these");
+  return out;
 }
 
 }  // namespace textslam

@@ -33,7 +33,9 @@ struct RunSummary {
   std::size_t keyframes = 0, points = 0, texts = 0;
   std::vector<LoopRecord> loops;
   std::vector<std::size_t>
-      map_frames;  ///< Of each map, that of the outputs first; more than one: they were never joined.
+      map_frames;               ///< Of each map, that of the outputs first; more than one: they were never joined.
+  double approximate_fov = 0;   ///< Degrees, of a camera without calibration; 0: it is calibrated.
+  bool has_detections = false;  ///< The sequence has.
   bool has_truth = false;
   TrajectoryEvaluation trajectory, live;
   TextEvaluation text;
@@ -61,8 +63,8 @@ void write_outputs(const std::string& folder, const System& system, const RunSum
 /// The table for the terminal.
 std::string format_summary(const RunSummary& summary);
 
-/// What the user should know beyond the table, a line without its end; empty where all is well.
-std::string warning(const RunSummary& summary);
+/// What the user should know beyond the table, lines without their ends; empty where all is well.
+std::vector<std::string> warnings(const RunSummary& summary);
 
 }  // namespace textslam
 

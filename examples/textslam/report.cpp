@@ -31,17 +31,22 @@ Json summary_json(const RunSummary& s) {
   return out;
 }
 
+Json camera_json(const Sequence& sequence) {
+  const CameraModel& camera = sequence.camera;
+  Json out{{"width", camera.width},
+           {"height", camera.height},
+           {"fx", short_number(camera.pinhole.fx)},
+           {"fy", short_number(camera.pinhole.fy)},
+           {"cx", short_number(camera.pinhole.cx)},
+           {"cy", short_number(camera.pinhole.cy)}};
+  if (sequence.approximate_fov > 0) out["approximate_fov_deg"] = short_number(sequence.approximate_fov);
+  return out;
+}
+
 Json data_json(const ReportInput& in) {
-  const CameraModel& camera = in.sequence.camera;
   return {{"version", TEXTPLANE_VERSION_STRING},
           {"summary", summary_json(in.summary)},
-          {"camera",
-           {{"width", camera.width},
-            {"height", camera.height},
-            {"fx", short_number(camera.pinhole.fx)},
-            {"fy", short_number(camera.pinhole.fy)},
-            {"cx", short_number(camera.pinhole.cx)},
-            {"cy", short_number(camera.pinhole.cy)}}},
+          {"camera", camera_json(in.sequence)},
           {"min_zncc", in.parameters.text_min_zncc},
           {"cull_zncc", in.parameters.text_cull_zncc},
           {"start", in.system.records().empty() ? Json(nullptr) : Json(in.system.records().front().timestamp)},
@@ -54,7 +59,7 @@ Json data_json(const ReportInput& in) {
 
 Json run_json(const ReportInput& in) {
   return {{"command", in.command},
-          {"sequence", in.sequence.folder},
+          {"sequence", in.sequence.video ? in.sequence.images_file : in.sequence.folder},
           {"first", in.first},
           {"target", textplane::simd::to_string(textplane::simd::active_target())},
           {"timing", report_timing_json(in.system)}};

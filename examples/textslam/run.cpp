@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <exception>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -101,7 +100,7 @@ void keep_going(RunResult& result, Step step) {
 }  // namespace
 
 RunResult run(const RunOptions& options) {
-  const Sequence sequence = read_sequence(options.sequence);
+  const Sequence sequence = read_sequence(options.sequence, options.input);
   const int count = static_cast<int>(sequence.frames.size());
   const int last = options.last < 0 ? count - 1 : options.last;
   if (options.first < 0 || options.first > last || last >= count)
@@ -147,10 +146,7 @@ RunResult run(const RunOptions& options) {
     });
   std::exception_ptr failure;
   try {
-    const auto image = [&](int index) {
-      const std::filesystem::path path(sequence.frames[static_cast<std::size_t>(options.first + index)].path);
-      return path.lexically_relative(sequence.folder).string();
-    };
+    const auto image = [&](int index) { return frame_name(sequence, static_cast<std::size_t>(options.first + index)); };
     write_outputs(options.output, system, summary, image);
   } catch (const std::exception&) {
     failure = std::current_exception();

@@ -14,10 +14,11 @@ namespace textslam {
 
 struct RunOptions {
   std::string sequence, output;
+  SequenceOptions input;  ///< What the sequence does not say itself.
   DetectorOptions detector;
   std::shared_ptr<TextDetector> own_detector;  ///< In place of `detector`, where there is one.
-  int first = 0;  ///< Index of the first frame.
-  int last = -1;  ///< Index of the last frame; -1: the sequence's last.
+  int first = 0;                               ///< Index of the first frame.
+  int last = -1;                               ///< Index of the last frame; -1: the sequence's last.
   Parameters parameters;
   bool report = true;       ///< Write report.html.
   bool json_lines = false;  ///< An object a frame on standard output (frame_line()), then one with the metrics.

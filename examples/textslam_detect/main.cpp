@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kInputError = 2;
 
-// A folder with a sequence, or an image by itself.
-textslam::Sequence read_input(const std::string& path) {
-  if (std::filesystem::is_directory(path)) return textslam::read_sequence(path);
+// A sequence, or an image by itself.
+textslam::Sequence read_input(const std::string& path, const textslam::SequenceOptions& options) {
+  if (!textslam::is_image_file(path)) return textslam::read_sequence(path, options);
   textslam::Sequence sequence;
   textslam::FrameRef frame;
   frame.path = path;
@@ -29,12 +29,16 @@ int execute(int argc, char** argv) {
   std::vector<std::string> inputs;
   std::string output;
   std::size_t every = 1;
+  textslam::SequenceOptions input_options;
+  input_options.needs_camera = false;
   textslam::DetectorOptions detector;
   detector.name = "classical";
   CLI::App app{"Finds text in images: OUTPUT/<image stem>.txt, x1,y1,x2,y2,x3,y3,x4,y4,text a line (ICDAR)."};
-  app.add_option("INPUT", inputs, "Images, and folders with sequences")->required();
+  app.add_option("INPUT", inputs, "Images, folders with sequences or of images, and videos")->required();
   app.add_option("--output", output, "Folder for the detections")->required();
   app.add_option("--every", every, "Of a sequence: one frame of so many")->check(CLI::PositiveNumber);
+  app.add_option("--detections", input_options.detections,
+                 "Of --detector files: their folder, if not the sequence's own");
   textslam::add_detector_options(app, detector);
   try {
     app.parse(argc, argv);
@@ -45,13 +49,13 @@ int execute(int argc, char** argv) {
     return kInputError;
   }
   for (const std::string& input : inputs) {
-    const textslam::Sequence sequence = read_input(input);
+    const textslam::Sequence sequence = read_input(input, input_options);
     const auto detect = textslam::make_detector(detector, sequence);
     textslam::create_output_folder(output);
     textslam::Progress progress("detecting");
     for (std::size_t i = 0; i < sequence.frames.size(); i += every) {
       const textslam::FrameRef& frame = sequence.frames[i];
-      const textslam::Image<std::uint8_t> image = textslam::load_grey(frame.path);
+      const textslam::Image<std::uint8_t> image = textslam::load_image(sequence, i);
       textslam::write_detections(output + "/" + frame.stem + ".txt", detect->detect(frame, image.view()));
       progress.show(i + 1, sequence.frames.size(), frame.stem);
     }

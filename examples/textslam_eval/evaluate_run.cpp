@@ -4,29 +4,26 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/euroc.hpp"
 #include "io/input_error.hpp"
 #include "io/json_file.hpp"
-#include "io/text_file.hpp"
-#include "io/trajectory.hpp"
+#include "io/sequence.hpp"
 
 namespace textslam {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The stems of the frames in images.txt: what names their files in truth/quads. The images themselves may be gone.
+// The stems of the frames in the list of any layout: what names their files in truth/quads. The images themselves may be gone.
 std::vector<std::string> frame_stems(const std::string& truth) {
-  const std::string path = truth + "/images.txt";
+  EurocFiles euroc;
+  std::vector<FrameRef> frames;
+  if (const std::string list = find_list(truth); !list.empty())
+    frames = read_frame_list(truth, list);
+  else if (find_euroc(truth, &euroc))
+    frames = read_euroc_frames(euroc.list, euroc.images);
   std::vector<std::string> stems;
-  if (!fs::exists(path)) return stems;
-  for (const TextLine& line : read_lines(path)) {
-    const std::string_view text = trimmed(line.text);
-    if (text.front() == '#') continue;
-    const std::size_t blank = text.find_first_of(" \t");
-    if (blank == std::string_view::npos) throw InputError(path, line.number, "a time and a path expected");
-    require_number(text.substr(0, blank), path, line.number, "a time");
-    stems.push_back(fs::path(std::string(trimmed(text.substr(blank)))).stem().string());
-  }
+  for (const FrameRef& frame : frames) stems.push_back(frame.stem);
   return stems;
 }
 
@@ -58,7 +55,8 @@ RunEvaluation evaluate_run(const std::string& run, const std::string& truth, boo
   out.frames = frame_count(run, stems.size());
   EvaluationOptions options;
   options.with_scale = with_scale;
-  const std::vector<StampedPose> reference = read_tum(folder + "/groundtruth.txt");
+  std::vector<StampedPose> reference = read_groundtruth(folder);
+  if (reference.empty()) reference = read_tum(folder + "/groundtruth.txt");  // says what is missing
   const std::vector<StampedPose> poses = read_tum(run + "/trajectory.txt");
   out.poses = poses.size();
   out.trajectory = evaluate_trajectory(poses, reference, out.frames, options);

@@ -21,7 +21,8 @@ int execute(int argc, char** argv) {
   app.add_option("RUN", runs, "Output folders of textslam: trajectory.txt, and text_map.json where there is one")
       ->required();
   app.add_option("--truth", truth,
-                 "Folder with groundtruth.txt, and truth/signs.json where there is one; without it RUN/sequence");
+                 "Folder with groundtruth.txt, and truth/signs.json where there is one, or in EuRoC's layout; without "
+                 "it RUN/sequence");
   app.add_option("--scale", scale, "sim3: aligned with scale; se3: without")
       ->check(CLI::IsMember({"sim3", "se3"}))
       ->capture_default_str();

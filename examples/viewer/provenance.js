@@ -46,7 +46,9 @@ function show_provenance(data, run) {
     facts.push(["Time stamps", `${data.start} to ${Number(end.toFixed(6))} s${date}`]);
   }
   const c = data.camera;
-  facts.push(["Camera", `${c.width} x ${c.height} px, fx ${c.fx}, fy ${c.fy}, cx ${c.cx}, cy ${c.cy}`]);
+  const fov = c.approximate_fov_deg;
+  const guess = fov === undefined ? "" : `: approximate, a pinhole of ${fov}\u00b0 (--fov), not calibrated`;
+  facts.push(["Camera", `${c.width} x ${c.height} px, fx ${c.fx}, fy ${c.fy}, cx ${c.cx}, cy ${c.cy}${guess}`]);
   if (data.summary.scale !== undefined) facts.push(["Unit of the map", `${data.summary.scale} m, by the alignment with the ground truth`]);
   for (const [name, value] of facts) by_id("provenance").append(element("dt", name), element("dd", value));
   by_id("command").textContent = run.command.map(quoted).join(" ");

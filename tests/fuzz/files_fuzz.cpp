@@ -8,6 +8,7 @@
 
 #include "fuzz.hpp"
 #include "io/detections.hpp"
+#include "io/euroc.hpp"
 #include "io/evaluate_signs.hpp"
 #include "io/image_codecs.hpp"
 #include "io/image_file.hpp"
@@ -54,6 +55,13 @@ void read_as(int what, const std::string& path) {
       TEXTPLANE_FUZZ_REQUIRE(image.width() > 0 && image.height() > 0);
       break;
     }
+    case 7: TEXTPLANE_FUZZ_REQUIRE(read_euroc_camera(path).model.pinhole.valid()); break;
+    case 8:
+      for (const FrameRef& frame : read_euroc_frames(path, "images")) TEXTPLANE_FUZZ_REQUIRE(frame.line > 0);
+      break;
+    case 9:
+      for (const StampedPose& pose : read_euroc_truth(path, {})) TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(pose.T_w_c));
+      break;
     default: read_lines(path);
   }
 }
@@ -64,7 +72,7 @@ void read_as(int what, const std::string& path) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace textplane_fuzz;
   Input in(data, size);
-  const int what = in.byte() % 7;
+  const int what = in.byte() % 10;
   const MemoryFile file(in.rest());
   try {
     read_as(what, file.path());

@@ -25,6 +25,18 @@ Camera.width: 640
 Camera.height: 480
 Camera.fps: 30.0
 """
+SENSOR = """sensor_type: camera
+T_BS:
+  cols: 4
+  rows: 4
+  data: [0, -1, 0, 0.1, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+rate_hz: 20
+resolution: [752, 480]
+camera_model: pinhole
+intrinsics: [458.654, 457.296, 367.215, 248.375] # fu, fv, cu, cv
+distortion_model: radial-tangential
+distortion_coefficients: [-0.28, 0.07, 0.0002, 1.7e-05]
+"""
 TEXT_MAP = """{"texts":[{"id":0,"text":"EXIT","corners":[[0,0,1],[1,0,1],[1,1,1],[0,1,1]],"normal":[0,0,-1],
 "theta":[0,0,1],"host":0.1,"observations":7,"zncc":0.9}]}"""
 
@@ -48,6 +60,9 @@ def files():
     yield "ppm", 5, b"P6 2 2 65535\n" + bytes(range(24))
     yield "plain", 5, b"P2\n3 2\n15\n0 1 2 3 4 15\n"
     yield "lines", 6, b"one\r\ntwo\n\n# three\n"
+    yield "euroc_camera", 7, SENSOR.encode()
+    yield "euroc_frames", 8, b"#timestamp [ns],filename\r\n1403636579763555584,a.png\r\n1403636579813555456,b.png\r\n"
+    yield "euroc_truth", 9, b"#timestamp,x,y,z,w,x,y,z,v\n1403636579763555584,4.6,-1.7,0.8,0.6,0.0,-0.8,0.0,1\n"
 
 
 def write(folder, name, data):

@@ -208,7 +208,7 @@ TEST_F(TextslamEval, BrokenInputNamesFileAndLine) {
   expect_bad(truth + "/truth/quads/000003.txt:1: ", "'all'");
   fs::remove(folder_.path("truth/truth/quads/000003.txt"));
   folder_.write("truth/images.txt", "0 images/000000.png\none\n");
-  expect_bad(truth + "/images.txt:2: ", "a time and a path");
+  expect_bad(truth + "/images.txt:2: ", "the timestamp should be a finite number, not 'one'");
   fs::remove(folder_.path("truth/images.txt"));
   folder_.write("run/metrics.json", "{\"frames\":\"many\"}");
   expect_bad(run + "/metrics.json: ", "frames");

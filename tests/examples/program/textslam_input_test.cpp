@@ -3,8 +3,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "examples/renderer_support.hpp"
 #include "examples/program/textslam_support.hpp"
+#include "examples/renderer_support.hpp"
 #include "io/evaluate.hpp"
 #include "io/image_file.hpp"
 
@@ -43,7 +43,9 @@ class TextslamInput : public testing::Test {
     const int line = read_sequence(sequence()).frames[static_cast<std::size_t>(frame)].line;
     return sequence("images.txt") + ":" + std::to_string(line) + ": ";
   }
-  std::string sequence(const std::string& name = "") const { return folder_.path(name.empty() ? "seq" : "seq/" + name); }
+  std::string sequence(const std::string& name = "") const {
+    return folder_.path(name.empty() ? "seq" : "seq/" + name);
+  }
   std::string output(const std::string& name = "") const { return folder_.path(name.empty() ? "out" : "out/" + name); }
   void write(const std::string& name, const std::string& bytes) const { folder_.write("seq/" + name, bytes); }
   void replace(const std::string& name, const std::string& from, const std::string& to) const {
@@ -94,7 +96,7 @@ TEST_F(TextslamInput, MissingList) {
 TEST_F(TextslamInput, MissingCamera) {
   make_flat(1);
   fs::remove(sequence("camera.yaml"));
-  expect_refused(run(), 2, sequence("camera.yaml") + ": ", "No such file");
+  expect_refused(run(), 2, sequence("camera.yaml") + ": ", "No such file: give --camera");
 }
 
 TEST_F(TextslamInput, EmptyList) {
@@ -284,6 +286,27 @@ TEST_F(TextslamInput, BlackFramesInTheMiddle) {
   }
 }
 
+// Without calibration: refused, or with an angle in its place, and then the outputs say so.
+TEST_F(TextslamInput, CameraFromAnAngle) {
+  make_room();
+  fs::remove(sequence("camera.yaml"));
+  expect_refused(run(), 2, sequence("camera.yaml") + ": ", "--fov DEGREES");
+  expect_refused(run({"--fov", "180"}), 2, "", "--fov");
+  expect_refused(run({"--fov", "60", "--camera", "x.yaml"}), 2, "", "--fov");
+  const ProgramResult result = run({"--fov", "60.5"});
+  expect_refused(result, 0, "warning: ", "approximate, a pinhole of 60.5 degrees");
+  EXPECT_EQ(metrics().at("approximate_camera").at("fov_deg"), 60.5);
+  const Json data = Json::parse(report_block(bytes_of(output("report.html")), "data"));
+  EXPECT_EQ(data.at("camera").at("approximate_fov_deg"), 60.5);
+
+  // The same images by their names alone, at the same rate.
+  const ProgramResult by_name = textslam_program({sequence("images"), "--detections", sequence("detections"), "--fov",
+                                                  "60.5", "--fps", "30", "--output", folder_.path("names")});
+  EXPECT_EQ(by_name.code, 0) << by_name.err;
+  EXPECT_EQ(bytes_of(folder_.path("names/text_map.json")), bytes_of(output("text_map.json")));
+  EXPECT_EQ(bytes_of(folder_.path("names/trajectory.txt")), bytes_of(output("trajectory.txt")));
+}
+
 TEST_F(TextslamInput, UnknownOptionsAndNames) {
   make_flat(1);
   expect_refused(run({"--fast"}), 2, "", "--fast");
@@ -296,7 +319,8 @@ TEST_F(TextslamInput, UnknownOptionsAndNames) {
   expect_refused(textslam_program({"--output", output()}), 2, "", "SEQUENCE or --render");
   expect_refused(run({"--noise", "3"}), 2, "", "--render");
   expect_refused(textslam_program({"--render", "room", "--missed", "1.5", "--output", output()}), 2, "", "missed");
-  expect_refused(textslam_program({sequence(), "--render", "room", "--output", output()}), 2, "", "SEQUENCE or --render");
+  expect_refused(textslam_program({sequence(), "--render", "room", "--output", output()}), 2, "",
+                 "SEQUENCE or --render");
   expect_refused(textslam_program({sequence()}), 2, "", "--output");
   EXPECT_FALSE(fs::exists(output()));
   const ProgramResult help = textslam_program({"--help"});

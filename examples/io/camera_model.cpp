@@ -1,0 +1,144 @@
+#include "io/camera_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "io/image_file.hpp"
+#include "io/input_error.hpp"
+#include "io/text_file.hpp"
+
+namespace textslam {
+
+namespace {
+
+struct Setting {
+  std::string value;
+  int line = 0;
+};
+using Settings = std::map<std::string, Setting>;
+
+// "value  # comment" and "'value'" as YAML means them, for scalars on one line.
+std::string_view scalar(std::string_view text) {
+  text = trimmed(text);
+  if (!text.empty() && (text[0] == '"' || text[0] == '\'')) {
+    const std::size_t end = text.find(text[0], 1);
+    if (end != std::string_view::npos) return text.substr(1, end - 1);
+  }
+  if (!text.empty() && text[0] == '#') return {};
+  const std::size_t comment = std::min(text.find(" #"), text.find("\t#"));
+  return trimmed(text.substr(0, comment));
+}
+
+// The top-level `key: value` lines. Indented lines and list items belong to keys of other programs; directives and
+// document marks are passed over, "%YAML:1.0" of OpenCV included, which a YAML parser refuses.
+Settings read_settings(const std::string& path) {
+  Settings settings;
+  for (const TextLine& line : read_lines(path)) {
+    const char first = line.text[0];
+    const std::string_view text = trimmed(line.text);
+    if (text[0] == '#' || first == '%' || text == "---" || text == "...") continue;
+    if (first == ' ' || first == '\t' || first == '-') continue;
+    const std::size_t colon = text.find(':');
+    if (colon == std::string_view::npos || colon == 0) {
+      throw InputError(path, line.number, "expected 'key: value', not " + shown(text));
+    }
+    const std::string key(trimmed(text.substr(0, colon)));
+    const auto [entry, is_new] =
+        settings.emplace(key, Setting{std::string(scalar(text.substr(colon + 1))), line.number});
+    if (!is_new) {
+      throw InputError(path, line.number, key + " is given twice, first in line " + std::to_string(entry->second.line));
+    }
+  }
+  return settings;
+}
+
+class CameraReader {
+ public:
+  explicit CameraReader(const std::string& path) : path_(path), settings_(read_settings(path)) {}
+
+  const Setting* find(const std::string& key) const {
+    const auto entry = settings_.find(key);
+    return entry == settings_.end() ? nullptr : &entry->second;
+  }
+  double number(const std::string& key) const {
+    const Setting* setting = find(key);
+    if (!setting) throw InputError(path_, 0, "the key " + key + " is missing");
+    return require_number(setting->value, path_, setting->line, key);
+  }
+  double positive(const std::string& key) const {
+    const double value = number(key);
+    if (!(value > 0)) refuse(key, "should be positive");
+    return value;
+  }
+  int size(const std::string& key) const {
+    const double value = positive(key);
+    if (value > kMaxImageSide || value != std::floor(value)) {
+      refuse(key, "should be a whole number of at most " + std::to_string(kMaxImageSide));
+    }
+    return static_cast<int>(value);
+  }
+  [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
+    const Setting* setting = find(key);
+    throw InputError(path_, setting->line, key + " " + reason + ", not " + shown(setting->value));
+  }
+
+ private:
+  std::string path_;
+  Settings settings_;
+};
+
+}  // namespace
+
+CameraModel read_camera(const std::string& path) {
+  const CameraReader reader(path);
+  if (const Setting* type = reader.find("Camera.type")) {
+    if (type->value != "PinHole" && type->value != "Pinhole") reader.refuse("Camera.type", "should be PinHole");
+  }
+  CameraModel camera;
+  camera.width = reader.size("Camera.width");
+  camera.height = reader.size("Camera.height");
+  camera.fps = reader.positive("Camera.fps");
+  camera.pinhole.fx = reader.positive("Camera.fx");
+  camera.pinhole.fy = reader.positive("Camera.fy");
+  camera.pinhole.cx = reader.number("Camera.cx");
+  camera.pinhole.cy = reader.number("Camera.cy");
+  camera.lens.k1 = reader.number("Camera.k1");
+  camera.lens.k2 = reader.number("Camera.k2");
+  camera.lens.p1 = reader.number("Camera.p1");
+  camera.lens.p2 = reader.number("Camera.p2");
+  if (reader.find("Camera.k3")) camera.lens.k3 = reader.number("Camera.k3");
+  return camera;
+}
+
+std::string format_camera(const CameraModel& camera) {
+  const std::array<std::pair<const char*, double>, 12> keys = {{{"width", camera.width},
+                                                                {"height", camera.height},
+                                                                {"fps", camera.fps},
+                                                                {"fx", camera.pinhole.fx},
+                                                                {"fy", camera.pinhole.fy},
+                                                                {"cx", camera.pinhole.cx},
+                                                                {"cy", camera.pinhole.cy},
+                                                                {"k1", camera.lens.k1},
+                                                                {"k2", camera.lens.k2},
+                                                                {"p1", camera.lens.p1},
+                                                                {"p2", camera.lens.p2},
+                                                                {"k3", camera.lens.k3}}};
+  std::string out;
+  for (const auto& [key, value] : keys) out += std::string("Camera.") + key + ": " + shortest(value) + "\n";
+  return out;
+}
+
+CameraModel camera_from_fov(double fov, int width, int height) {
+  CameraModel camera;
+  camera.width = width;
+  camera.height = height;
+  camera.pinhole.fx = camera.pinhole.fy = 0.5 * width / std::tan(fov * (M_PI / 360));
+  camera.pinhole.cx = 0.5 * (width - 1);
+  camera.pinhole.cy = 0.5 * (height - 1);
+  return camera;
+}
+
+}  // namespace textslam

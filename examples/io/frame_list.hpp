@@ -1,0 +1,42 @@
+// The frames of a sequence by name and time: from a list, or from the names in a folder.
+//
+//   images.txt, rgb.txt   `timestamp path` a line, times strictly increasing, `#` comments; the path is relative to the folder
+//                         and runs to the end of the line
+//   a folder of images    .png .jpg .jpeg .pgm .ppm, in the order of their names as a person counts: runs of digits by their
+//                         value, so that 9.png comes before 10.png; hidden files are passed over. Times: 0, 1/fps, 2/fps, ...
+#ifndef TEXTSLAM_IO_FRAME_LIST_HPP
+#define TEXTSLAM_IO_FRAME_LIST_HPP
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace textslam {
+
+struct FrameRef {
+  double timestamp = 0;  ///< s
+  std::string path;      ///< the image, resolved against the sequence's folder; of a video, the video
+  std::string
+      stem;      ///< file name without its last extension, of a video the frame's number: the name of its detections
+  int line = 0;  ///< in the list that names it; 0: there is none
+};
+
+/// The path of images.txt, or of rgb.txt where there is none; empty where the folder has neither.
+std::string find_list(const std::string& folder);
+
+/// The frames of such a list, paths resolved against `folder`. Throws InputError with the line for a bad number, a
+/// missing path or times that do not increase, and for a list without images.
+std::vector<FrameRef> read_frame_list(const std::string& folder, const std::string& list);
+
+/// The names of the images in a folder, in order; none where there are none. Throws InputError where it cannot be read.
+std::vector<std::string> image_names(const std::string& folder);
+
+/// Frames for these names, `fps` (positive) a second.
+std::vector<FrameRef> number_frames(const std::string& folder, const std::vector<std::string>& names, double fps);
+
+/// The order of names as a person counts. Strict: names that differ in their zeros alone have an order, too.
+bool natural_less(std::string_view a, std::string_view b);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_IO_FRAME_LIST_HPP

@@ -1,0 +1,226 @@
+// VideoFile on libav. A frame is known by its time stamp: to load one, the decoder goes on to it, or back to the key picture
+// before it. What it passes on the way is kept, up to kKeptBytes, so that going backwards decodes every picture twice at most
+// for groups of pictures that fit.
+#include "io/video_file.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/display.h>
+#include <libswscale/swscale.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+
+#include "io/image_codecs.hpp"
+#include "io/input_error.hpp"
+
+namespace textslam {
+namespace {
+
+constexpr std::size_t kKeptBytes = std::size_t(1) << 27;
+
+struct Free {
+  void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
+  void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
+  void operator()(AVFrame* p) const { av_frame_free(&p); }
+  void operator()(AVPacket* p) const { av_packet_free(&p); }
+  void operator()(SwsContext* p) const { sws_freeContext(p); }
+};
+template <class T>
+using Owned = std::unique_ptr<T, Free>;
+
+std::string reason(int error) {
+  char text[AV_ERROR_MAX_STRING_SIZE] = {};
+  av_strerror(error, text, sizeof text);
+  return text;
+}
+
+// `image` turned by quarters of a turn, clockwise.
+Image<std::uint8_t> turned(const Image<std::uint8_t>& image, int quarters) {
+  if (quarters == 0) return image;
+  const int w = image.width(), h = image.height();
+  Image<std::uint8_t> out(quarters == 2 ? w : h, quarters == 2 ? h : w, 0);
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      const int X = quarters == 1 ? h - 1 - y : quarters == 2 ? w - 1 - x : y;
+      const int Y = quarters == 1 ? x : quarters == 2 ? h - 1 - y : w - 1 - x;
+      out(X, Y) = image(x, y);
+    }
+  }
+  return out;
+}
+
+class LibavVideo final : public VideoFile {
+ public:
+  explicit LibavVideo(const std::string& path) : path_(path), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
+    if (!packet_ || !frame_) throw std::bad_alloc();
+    av_log_set_level(AV_LOG_QUIET);  // what matters is said in our line
+    open();
+    while (next_picture()) {
+      const std::int64_t stamp = frame_->best_effort_timestamp;
+      if (stamp != AV_NOPTS_VALUE && (stamps_.empty() || stamp > stamps_.back())) stamps_.push_back(stamp);
+    }
+    if (stamps_.empty()) throw InputError(path_, 0, "the video has no frame that decodes");
+    for (const std::int64_t stamp : stamps_)
+      times_.push_back(static_cast<double>(stamp - stamps_.front()) * av_q2d(stream_->time_base));
+    open();
+  }
+
+  const std::vector<double>& times() const override { return times_; }
+
+  Image<std::uint8_t> load(std::size_t index) override {
+    for (const auto& [at, image] : kept_) {
+      if (at == index) return image;
+    }
+    const bool ahead = position_ == 0 || stamps_.at(index) > stamps_[position_ - 1];
+    if (!ahead) seek(stamps_[index]);
+    if (advance_to(index)) return kept_.back().second;
+    // The container pointed behind the frame.
+    open();
+    if (advance_to(index)) return kept_.back().second;
+    throw InputError(path_, 0, "frame " + std::to_string(index) + " does not decode");
+  }
+
+ private:
+  // Opens the file anew, the decoder before its first frame.
+  void open() {
+    scaler_.reset();
+    decoder_.reset();
+    format_.reset();
+    AVFormatContext* format = nullptr;
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "protocol_whitelist", "file", 0);  // a playlist must not reach into the network
+    const int opened = avformat_open_input(&format, ("file:" + path_).c_str(), nullptr, &options);
+    av_dict_free(&options);
+    if (opened < 0) throw InputError(path_, 0, "this is not a folder, nor a video: " + reason(opened));
+    format_.reset(format);
+    // Demuxers that take any text, or an image by itself, for a video.
+    const std::string kind = format->iformat->name;
+    if (kind == "tty" || kind == "image2" || kind.find("_pipe") != std::string::npos)
+      throw InputError(path_, 0, "this is not a folder, nor a video");
+    const AVCodec* codec = nullptr;
+    if (avformat_find_stream_info(format, nullptr) < 0) throw InputError(path_, 0, "the video has no known format");
+    const int number = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+    if (number < 0) throw InputError(path_, 0, "there is no video in it that this build decodes");
+    stream_ = format->streams[number];
+    decoder_.reset(avcodec_alloc_context3(codec));
+    if (!decoder_ || avcodec_parameters_to_context(decoder_.get(), stream_->codecpar) < 0) throw std::bad_alloc();
+    decoder_->pkt_timebase = stream_->time_base;
+    decoder_->thread_count = 0;
+    const int ready = avcodec_open2(decoder_.get(), codec, nullptr);
+    if (ready < 0) throw InputError(path_, 0, "the video's decoder does not start: " + reason(ready));
+    quarters_ = rotation();
+    restart();
+  }
+
+  void restart() {
+    position_ = 0;
+    drained_ = false;
+  }
+
+  // Phones write the picture as the sensor has it, and how to turn it beside it.
+  int rotation() const {
+    const std::uint8_t* matrix = av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+    if (!matrix) return 0;
+    const double degrees = av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
+    if (!std::isfinite(degrees)) return 0;
+    const int quarters = static_cast<int>(std::lround(-degrees / 90));
+    return ((quarters % 4) + 4) % 4;
+  }
+
+  void seek(std::int64_t stamp) {
+    if (av_seek_frame(format_.get(), stream_->index, stamp, AVSEEK_FLAG_BACKWARD) < 0) return open();
+    avcodec_flush_buffers(decoder_.get());
+    restart();
+  }
+
+  // Into frame_; false at the end. Pictures with damage are passed over.
+  bool next_picture() {
+    for (;;) {
+      const int got = avcodec_receive_frame(decoder_.get(), frame_.get());
+      if (got == 0) {
+        if (frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return true;
+        continue;
+      }
+      if (got != AVERROR(EAGAIN) || drained_) return false;
+      send_packet();
+    }
+  }
+
+  // The next packet of the video to the decoder; at the end of the file what makes it give the pictures that it holds.
+  void send_packet() {
+    while (av_read_frame(format_.get(), packet_.get()) >= 0) {
+      const bool ours = packet_->stream_index == stream_->index;
+      if (ours) avcodec_send_packet(decoder_.get(), packet_.get());  // one that is broken gives no picture
+      av_packet_unref(packet_.get());
+      if (ours) return;
+    }
+    drained_ = true;
+    avcodec_send_packet(decoder_.get(), nullptr);
+  }
+
+  // Decodes up to frame `index`, which then is the last one kept; false where the decoder was behind it, or it does not come.
+  bool advance_to(std::size_t index) {
+    while (next_picture()) {
+      const std::int64_t stamp = frame_->best_effort_timestamp;
+      const auto found = std::lower_bound(stamps_.begin(), stamps_.end(), stamp);
+      if (found == stamps_.end() || *found != stamp) continue;
+      const auto at = static_cast<std::size_t>(found - stamps_.begin());
+      position_ = at + 1;
+      if (at > index) return false;
+      keep(at, grey());
+      if (at == index) return true;
+    }
+    return false;
+  }
+
+  void keep(std::size_t index, Image<std::uint8_t> image) {
+    const auto size = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+    const std::size_t most = std::max<std::size_t>(kKeptBytes / size, 2);
+    kept_.emplace_back(index, std::move(image));
+    while (kept_.size() > most) kept_.pop_front();
+  }
+
+  Image<std::uint8_t> grey() {
+    const int w = frame_->width, h = frame_->height;
+    check_image_size(static_cast<std::size_t>(w), static_cast<std::size_t>(h), path_);
+    scaler_.reset(sws_getCachedContext(scaler_.release(), w, h, static_cast<AVPixelFormat>(frame_->format), w, h,
+                                       AV_PIX_FMT_GRAY8, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
+    if (!scaler_) throw InputError(path_, 0, "the video's pixels are of a kind that cannot be made grey");
+    // libswscale may write past the end of a row, up to its alignment.
+    const int stride = (w + 63) / 64 * 64;
+    std::vector<std::uint8_t> rows(static_cast<std::size_t>(stride) * static_cast<std::size_t>(h) + 64);
+    std::uint8_t* const planes[1] = {rows.data()};
+    const int strides[1] = {stride};
+    sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, h, planes, strides);
+    Image<std::uint8_t> image(w, h, 0);
+    for (int y = 0; y < h; ++y) std::copy_n(rows.data() + static_cast<std::ptrdiff_t>(y) * stride, w, &image(0, y));
+    return turned(image, quarters_);
+  }
+
+  std::string path_;
+  Owned<AVPacket> packet_;
+  Owned<AVFrame> frame_;
+  Owned<AVFormatContext> format_;
+  Owned<AVCodecContext> decoder_;
+  Owned<SwsContext> scaler_;
+  AVStream* stream_ = nullptr;
+  int quarters_ = 0;          // that turn the picture upright, clockwise
+  std::size_t position_ = 0;  // one past the last frame that came from the decoder; 0 after a restart
+  bool drained_ = false;      // the decoder has had the last packet
+  std::vector<std::int64_t> stamps_;
+  std::vector<double> times_;
+  std::deque<std::pair<std::size_t, Image<std::uint8_t>>> kept_;
+};
+
+}  // namespace
+
+bool has_video() { return true; }
+
+std::unique_ptr<VideoFile> open_video(const std::string& path) { return std::make_unique<LibavVideo>(path); }
+
+}  // namespace textslam
