@@ -48,7 +48,7 @@ class SensorFile {
     try {
       root_ = YAML::Load(read_file(path));
     } catch (const YAML::Exception& error) {
-      throw InputError(path, error.mark.is_null() ? 0 : error.mark.line + 1, "this is no YAML: " + error.msg);
+      throw InputError(path, error.mark.is_null() ? 0 : error.mark.line + 1, "this is no YAML: " + shown(error.msg));
     }
     if (!root_.IsMap()) throw InputError(path, 0, "expected 'key: value' lines");
   }

@@ -247,6 +247,7 @@ TEST_F(LayoutTest, EurocCameraThatIsWrong) {
   };
   expect_sensor("", 0, "expected 'key: value' lines");
   expect_sensor("a: [1, 2\nb: 3\n", 2, "this is no YAML");
+  expect_sensor("a: \"\\\x01\"\n", 1, "this is no YAML: 'unknown escape character: ?'");
   expect_sensor(replaced(kSensor, "resolution: [8, 6]\n", ""), 0, "the key resolution is missing");
   expect_sensor(replaced(kSensor, "[8, 6]", "[8, 6.5]"), 12, "whole numbers of at most 16384");
   expect_sensor(replaced(kSensor, "[8, 6]", "8"), 12, "resolution should be 2 numbers in brackets");
