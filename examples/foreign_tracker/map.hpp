@@ -1,0 +1,74 @@
+// What the foreign tracker's map is made of: frames with key points, points in the world, and who saw what.
+#ifndef FOREIGN_TRACKER_MAP_HPP
+#define FOREIGN_TRACKER_MAP_HPP
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <utility>
+#include <vector>
+
+#include "foreign_tracker/se3.hpp"
+#include "textplane/textplane.hpp"  // text
+
+namespace foreign {
+
+constexpr float kScale = 1.2F;  // between ORB's levels
+constexpr int kLevels = 8;
+
+struct Camera {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  int width = 0, height = 0;
+
+  Eigen::Vector2d project(const Eigen::Vector3d& p) const { return {fx * p[0] / p[2] + cx, fy * p[1] / p[2] + cy}; }
+  Eigen::Vector3d ray(const cv::Point2f& px) const { return {(px.x - cx) / fx, (px.y - cy) / fy, 1}; }
+  bool contains(const Eigen::Vector2d& px) const { return px[0] >= 0 && px[1] >= 0 && px[0] < width && px[1] < height; }
+  cv::Matx33d matrix() const { return {fx, 0, cx, 0, fy, cy, 0, 0, 1}; }
+};
+
+struct Frame;
+
+struct MapPoint {
+  Eigen::Vector3d p_w;
+  cv::Mat descriptor;
+  double reach = 0;                                  // the distance at which it is one pixel of ORB's first level large
+  std::vector<std::pair<Frame*, std::size_t>> seen;  // key frames, key points
+  std::size_t made = 0;                              // number of key frames then
+  int expected = 1, found = 1;                       // in frames
+  bool bad = false;
+};
+
+struct Frame {
+  double time = 0;
+  cv::Mat image;
+  std::vector<cv::KeyPoint> keys;
+  cv::Mat descriptors;
+  std::vector<MapPoint*> points;                // of each key point, or null
+  std::vector<std::vector<std::size_t>> cells;  // key points by cells of the image: matcher.hpp
+  Se3 T_w_c;
+  std::vector<textplane::Quad<double>> quads;  // text
+  textplane::Pyramid pyramid;                  // text
+  struct TextFeatures* text = nullptr;         // text
+
+  double sigma(std::size_t key) const { return std::pow(kScale, keys[key].octave); }
+  int tracked() const {
+    int n = 0;
+    for (const MapPoint* p : points) n += p != nullptr;
+    return n;
+  }
+};
+
+/// Everything made is kept, so that pointers stay valid; bad points are passed over.
+struct Map {
+  std::vector<std::unique_ptr<Frame>> key_frames;
+  std::vector<std::unique_ptr<MapPoint>> points;
+};
+
+/// The key frames that share most points with `frame`, itself left out; at least 15 points, best first.
+std::vector<Frame*> covisible(const Map& map, const Frame& frame, std::size_t most);
+
+}  // namespace foreign
+
+#endif  // FOREIGN_TRACKER_MAP_HPP
