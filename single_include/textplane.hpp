@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 3e6a818ce7d0ff6b
+// Hash of these files: 67d248d148618e20
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 3e6a818ce7d0ff6b"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 67d248d148618e20"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -221,9 +221,12 @@ bool all_finite(const Eigen::DenseBase<Derived>& m) noexcept {
 template <class S, int N>
 class Ldlt {
  public:
+  /// The matrix of the system.
   using Matrix = Eigen::Matrix<S, N, N>;
+  /// Right side and solution.
   using Vector = Eigen::Matrix<S, N, 1>;
 
+  /// Factorises `a`, of which the lower triangle is read; a pivot below tolerance times its diagonal entry counts as zero.
   explicit Ldlt(const Matrix& a, S tolerance = S(16) * std::numeric_limits<S>::epsilon()) noexcept : l_(a) {
     for (int j = 0; j < N; ++j) {
       S d = l_(j, j);
@@ -239,8 +242,10 @@ class Ldlt {
     ok_ = true;
   }
 
+  /// Whether every pivot was usable.
   bool ok() const noexcept { return ok_; }
 
+  /// a^-1 b; of use where ok().
   Vector solve(const Vector& b) const noexcept {
     Vector x = b;
     for (int i = 0; i < N; ++i)
@@ -251,6 +256,7 @@ class Ldlt {
     return x;
   }
 
+  /// a^-1; of use where ok().
   Matrix inverse() const noexcept {
     Matrix inv;
     for (int c = 0; c < N; ++c) {
@@ -271,7 +277,9 @@ class Ldlt {
 /// Eigenvalues (ascending) and eigenvectors (columns) of a symmetric N x N matrix by cyclic Jacobi rotations.
 template <class S, int N>
 struct SymmetricEigen {
+  /// Eigenvalues.
   Eigen::Matrix<S, N, 1> values;
+  /// Eigenvectors of unit length, a column each, in the order of the values.
   Eigen::Matrix<S, N, N> vectors;
 };
 
@@ -392,9 +400,13 @@ template <class S>
 struct Pinhole {
   static_assert(!std::is_integral<S>::value, "textplane: a camera of integers; write Pinhole<double>(500, ...)");
 
-  S fx = S(1), fy = S(1), cx = S(0), cy = S(0);
+  S fx = S(1);  ///< Focal length along x, px.
+  S fy = S(1);  ///< Focal length along y, px.
+  S cx = S(0);  ///< Principal point, px.
+  S cy = S(0);  ///< Likewise.
 
   Pinhole() = default;
+  /// Focal lengths and principal point, px.
   Pinhole(S fx_, S fy_, S cx_, S cy_) noexcept : fx(fx_), fy(fy_), cx(cx_), cy(cy_) {}
 
   /// Finite, with positive focal lengths.
@@ -421,6 +433,7 @@ struct Pinhole {
     return {fx * k, fy * k, (cx + S(0.5)) * k - S(0.5), (cy + S(0.5)) * k - S(0.5)};
   }
 
+  /// The same of another scalar.
   template <class U>
   Pinhole<U> cast() const noexcept {
     return {U(fx), U(fy), U(cx), U(cy)};
@@ -431,8 +444,13 @@ struct Pinhole {
 /// m_d = m (1 + k1 r^2 + k2 r^4 + k3 r^6) + (2 p1 x y + p2 (r^2 + 2 x^2), p1 (r^2 + 2 y^2) + 2 p2 x y).
 template <class S>
 struct RadialTangential {
-  S k1 = S(0), k2 = S(0), p1 = S(0), p2 = S(0), k3 = S(0);
+  S k1 = S(0);  ///< Radial, of r^2.
+  S k2 = S(0);  ///< Radial, of r^4.
+  S p1 = S(0);  ///< Tangential.
+  S p2 = S(0);  ///< Tangential.
+  S k3 = S(0);  ///< Radial, of r^6.
 
+  /// Whether it distorts nothing.
   bool is_zero() const noexcept { return k1 == S(0) && k2 == S(0) && p1 == S(0) && p2 == S(0) && k3 == S(0); }
 
   /// Distorted normalised point of m. If J is given it receives d m_d / d m (2 x 2).
@@ -472,6 +490,7 @@ struct RadialTangential {
     return Status::degenerate;
   }
 
+  /// The same of another scalar.
   template <class U>
   RadialTangential<U> cast() const noexcept {
     return {U(k1), U(k2), U(p1), U(p2), U(k3)};
@@ -499,7 +518,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 template <class T>
 class ImageView {
  public:
+  /// Type of a pixel, const where the view may not write.
   using Pixel = T;
+  /// A byte of the same constness: strides count these.
   using Byte = std::conditional_t<std::is_const<T>::value, const unsigned char, unsigned char>;
 
   constexpr ImageView() noexcept = default;
@@ -514,9 +535,13 @@ class ImageView {
   ImageView(const ImageView<U>& other) noexcept
       : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
 
+  /// The top-left pixel.
   T* data() const noexcept { return data_; }
+  /// In px.
   int width() const noexcept { return width_; }
+  /// In px.
   int height() const noexcept { return height_; }
+  /// Bytes from a row to the next.
   std::ptrdiff_t stride() const noexcept { return stride_; }
 
   /// Not null, not empty, and no row overlaps the next.
@@ -525,9 +550,11 @@ class ImageView {
            stride_ >= static_cast<std::ptrdiff_t>(width_) * static_cast<std::ptrdiff_t>(sizeof(T));
   }
 
+  /// The first pixel of row y, not checked.
   T* row(int y) const noexcept {
     return reinterpret_cast<T*>(reinterpret_cast<Byte*>(data_) + static_cast<std::ptrdiff_t>(y) * stride_);
   }
+  /// The pixel at column x, row y, not checked.
   T& operator()(int x, int y) const noexcept { return row(y)[x]; }
 
   /// (x, y) has a pixel on each side to interpolate between: inside [0, width - 1] x [0, height - 1]. False for NaN.
@@ -548,25 +575,38 @@ template <class T>
 class Image {
  public:
   Image() = default;
+  /// An image of width x height px, filled with `value`.
   Image(int width, int height, T value = T()) { resize(width, height, value); }
 
+  /// Makes it width x height px, filled with `value`; what it held is gone.
   void resize(int width, int height, T value = T()) {
     width_ = width > 0 ? width : 0;
     height_ = height > 0 ? height : 0;
     pixels_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), value);
   }
 
+  /// In px.
   int width() const noexcept { return width_; }
+  /// In px.
   int height() const noexcept { return height_; }
+  /// Whether it has no pixels.
   bool empty() const noexcept { return pixels_.empty(); }
+  /// The top-left pixel; rows follow without gaps.
   T* data() noexcept { return pixels_.data(); }
+  /// The top-left pixel; rows follow without gaps.
   const T* data() const noexcept { return pixels_.data(); }
+  /// The pixel at column x, row y, not checked.
   T& operator()(int x, int y) noexcept { return pixels_[index(x, y)]; }
+  /// The pixel at column x, row y, not checked.
   const T& operator()(int x, int y) const noexcept { return pixels_[index(x, y)]; }
+  /// The first pixel of row y, not checked.
   T* row(int y) noexcept { return pixels_.data() + index(0, y); }
+  /// The first pixel of row y, not checked.
   const T* row(int y) const noexcept { return pixels_.data() + index(0, y); }
 
+  /// A view of all of it, valid until the image is resized or gone.
   ImageView<T> view() noexcept { return {pixels_.data(), width_, height_}; }
+  /// A view of all of it, valid until the image is resized or gone.
   ImageView<const T> view() const noexcept { return {pixels_.data(), width_, height_}; }
 
  private:
@@ -611,13 +651,19 @@ template <class S>
 struct SE3 {
   static_assert(!std::is_integral<S>::value, "textplane: a pose of integers; its scalar is float, double or a dual number");
 
+  /// Rotation: source to destination frame.
   Matrix3<S> R = Matrix3<S>::Identity();
+  /// Translation: the source's origin in the destination frame.
   Vector3<S> t = Vector3<S>::Zero();
 
+  /// A point of the source frame in the destination frame.
   Vector3<S> operator*(const Vector3<S>& p) const noexcept { return product(R, p) + t; }
+  /// First `b`, then this: T_a_b T_b_c = T_a_c.
   SE3 operator*(const SE3& b) const noexcept { return {product(R, b.R), product(R, b.t) + t}; }
+  /// Destination to source.
   SE3 inverse() const noexcept { return {R.transpose(), -(R.transpose() * t)}; }
 
+  /// The same of another scalar.
   template <class U>
   SE3<U> cast() const noexcept {
     return {R.template cast<U>(), t.template cast<U>()};
@@ -997,7 +1043,8 @@ enum class PerturbationSide {
 /// d xi / d xi_h and d xi / d xi_t, xi the left perturbation of T_t_h.
 template <class S>
 struct RelativePoseJacobians {
-  Eigen::Matrix<S, 6, 6> host, target;
+  Eigen::Matrix<S, 6, 6> host;    ///< d xi(T_t_h) / d xi of the host's pose.
+  Eigen::Matrix<S, 6, 6> target;  ///< d xi(T_t_h) / d xi of the target's pose.
 };
 
 /// How perturbations of the world poses move T_t_h = T_w_t^-1 T_w_h, exactly and not to first order only:
@@ -1039,6 +1086,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// zero.
 template <class S>
 struct PlaneFit {
+  /// Of the numbers.
   using Scalar = S;
   Vector3<S> value = Vector3<S>::Zero();  ///< theta in the host frame.
   /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative
@@ -1047,6 +1095,7 @@ struct PlaneFit {
   int rank = 0;                                 ///< Of the weighted design matrix (0 to 3).
   S condition = std::numeric_limits<S>::max();  ///< Its largest over smallest singular value; max() unless rank is 3.
   S sigma = S(0);                               ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
+  /// Whether `value` can be used.
   Status status = Status::too_few;
 };
 
@@ -1360,8 +1409,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Four corners, clockwise from the text's top left.
 template <class S>
 struct Quad {
+  /// Clockwise from the text's top left, px or normalised.
   std::array<Vector2<S>, 4> corner{Vector2<S>::Zero(), Vector2<S>::Zero(), Vector2<S>::Zero(), Vector2<S>::Zero()};
 
+  /// The same of another scalar.
   template <class U>
   Quad<U> cast() const noexcept {
     Quad<U> q;
@@ -1381,11 +1432,16 @@ bool all_finite(const Quad<S>& quad) noexcept {
 template <class S>
 class ConvexPolygon {
  public:
+  /// Most vertices that it holds.
   static constexpr int kCapacity = 16;
 
+  /// Number of vertices.
   int size() const noexcept { return size_; }
+  /// Whether it has no vertices.
   bool empty() const noexcept { return size_ == 0; }
+  /// Vertex i, not checked.
   const Vector2<S>& operator[](int i) const noexcept { return vertex_[static_cast<std::size_t>(i)]; }
+  /// Takes all vertices out.
   void clear() noexcept { size_ = 0; }
   /// Appends a vertex; one that finds the polygon full is dropped.
   void push(const Vector2<S>& p) noexcept {
@@ -1400,7 +1456,8 @@ class ConvexPolygon {
 /// Axis-aligned bounding box.
 template <class S>
 struct Bounds {
-  Vector2<S> min = Vector2<S>::Zero(), max = Vector2<S>::Zero();
+  Vector2<S> min = Vector2<S>::Zero();  ///< Least x and least y, in the unit of the quad.
+  Vector2<S> max = Vector2<S>::Zero();  ///< Greatest x and greatest y.
 };
 
 namespace detail {
@@ -3115,7 +3172,9 @@ constexpr int kMaxPyramidLevels = 8;
 
 /// The levels of a pyramid that somebody else owns, finest first. Levels from `levels` on are empty views.
 struct PyramidView {
+  /// Finest first; each half the size of the one before.
   std::array<ImageView8, kMaxPyramidLevels> level;
+  /// How many of them there are.
   int levels = 0;
 };
 
@@ -3167,6 +3226,7 @@ class Pyramid {
     return Status::ok;
   }
 
+  /// How many levels it has; 0 before it is built.
   int levels() const noexcept { return count_; }
 
   /// Level l, an empty view for l outside [0, levels()). It lives as long as the pyramid is neither built anew nor moved.
@@ -3176,12 +3236,14 @@ class Pyramid {
     return {pixels_.data() + offset_[i], width_[i], height_[i]};
   }
 
+  /// All levels; they live as long as those of level().
   PyramidView view() const noexcept {
     PyramidView v;
     for (int l = 0; l < count_; ++l) v.level[static_cast<std::size_t>(l)] = level(l);
     v.levels = count_;
     return v;
   }
+  /// As view().
   operator PyramidView() const noexcept { return view(); }
 
  private:
@@ -6190,21 +6252,33 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// and optionally a byte each that is zero for pixels to be left out (null: all count). gx, gy: the host image's gradient
 /// there, in intensity units a px, which template_jacobian and esm need (null: these policies are not possible).
 struct PatchView {
+  /// Columns, px of the level.
   const float* x = nullptr;
+  /// Rows, px of the level.
   const float* y = nullptr;
+  /// Grey levels of the host there.
   const float* intensity = nullptr;
+  /// Zero: the pixel is left out; null: none is.
   const std::uint8_t* mask = nullptr;
+  /// Number of pixels.
   int n = 0;
+  /// Gradient along x, grey levels a px; null: not known.
   const float* gx = nullptr;
+  /// Gradient along y, likewise.
   const float* gy = nullptr;
   simd::PointBounds bounds = {};  ///< Of x and y, where known: saves the kernels a look at them.
 };
 
 /// The host pixels of one pyramid level. x, y and intensity have one length, gx and gy that length too or none.
 struct PatchLevel {
-  std::vector<float> x, y, intensity, gx, gy;
+  std::vector<float> x;          ///< Columns, px of the level.
+  std::vector<float> y;          ///< Rows, px of the level.
+  std::vector<float> intensity;  ///< Grey levels of the host there.
+  std::vector<float> gx;         ///< Its gradient along x, grey levels a px.
+  std::vector<float> gy;         ///< Likewise along y.
   simd::PointBounds bounds;  ///< Of x and y. Whoever changes these in place calls find_bounds(), or clears it.
 
+  /// Sets `bounds` by the positions.
   void find_bounds() noexcept { bounds = simd::point_bounds(x.data(), y.data(), static_cast<int>(x.size())); }
 
   /// Valid until the vectors change.
@@ -6242,6 +6316,7 @@ struct TextPatch {
   Pinhole<double> camera;                    ///< Of the host, level 0.
   Status status = Status::invalid_argument;  ///< Of its making.
 
+  /// Pyramid levels that it has pixels of.
   int level_count() const noexcept { return static_cast<int>(levels.size()); }
   /// Pixels of the level that has most.
   int max_pixels() const noexcept {
@@ -6308,7 +6383,9 @@ using Matrix2d = Eigen::Matrix<double, 2, 2>;
 
 /// Covariances, px^2 of each image, of the Gaussian filters that bring host and target to one blur on the plane.
 struct BlurMatch {
+  /// Covariance of the host's filter, px^2 of the host.
   Matrix2d host = Matrix2d::Zero();
+  /// Covariance of the target's filter, px^2 of the target.
   Matrix2d target = Matrix2d::Zero();
 };
 
@@ -6353,9 +6430,12 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
 /// above along the principal axes; what is not finite counts as 0). Weights are means over a pixel and sum to 1. No allocation.
 class BlurKernel {
  public:
+  /// px, of the widest kernel.
   static constexpr int kMaxRadius = 8;
+  /// px^2, of the widest kernel.
   static constexpr double kMaxVariance = 9.0;
 
+  /// The kernel of a covariance in px^2.
   explicit BlurKernel(const Matrix2d& covariance) noexcept {
     const SymmetricEigen<double, 2> axes =
         symmetric_eigen<double, 2>(all_finite(covariance) ? covariance : Matrix2d::Zero());
@@ -6371,7 +6451,9 @@ class BlurKernel {
     for (int i = 0; i < width() * width(); ++i) weights_[i] = static_cast<float>(raw[i] / sum);
   }
 
+  /// px: weights beyond it are zero.
   int radius() const noexcept { return radius_; }
+  /// px: weights in a row.
   int width() const noexcept { return 2 * radius_ + 1; }
   /// |x|, |y| <= radius().
   float at(int x, int y) const noexcept { return weights_[index(x, y)]; }
@@ -6563,15 +6645,19 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Pairs that somebody else owns; `stride` counts pairs. Empty where width is 0.
 struct PairView {
+  /// Rows of pairs.
   const std::uint16_t* data = nullptr;
+  /// Pairs from a row to the next.
   std::ptrdiff_t stride = 0;
-  int width = 0, height = 0;  ///< Of the image they were made of.
+  int width = 0;   ///< px, of the image they were made of.
+  int height = 0;  ///< Likewise.
 };
 
 /// Owns the pairs of one image after the other.
 class PreparedTarget {
  public:
   PreparedTarget() = default;
+  /// As prepare().
   explicit PreparedTarget(const ImageView8& image) { prepare(image); }
 
   /// Fills the pairs of `image`. invalid_argument, and none afterwards, for an image that is not valid() or that the kernels
@@ -6632,7 +6718,9 @@ enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
 ///   cauchy  rho = d^2 log(1 + r2 / d^2)                        weight = 1 / (1 + r2 / d^2)
 ///   tukey   rho = d^2 / 3 (1 - (1 - r2 / d^2)^3), else d^2/3   weight = (1 - r2 / d^2)^2, 0 for |r| > d
 struct Robust {
+  /// Which cost.
   RobustKind kind = RobustKind::huber;
+  /// Where it leaves the quadratic, in the unit of |r|.
   double delta = 1.0;
 
   /// A known kind with a finite positive delta (l2 ignores it).
@@ -6642,6 +6730,7 @@ struct Robust {
            delta > 0.0;
   }
 
+  /// The cost of the squared residual r2.
   double rho(double r2) const noexcept {
     const double d2 = delta * delta;
     switch (kind) {
@@ -13829,6 +13918,7 @@ enum class Normalisation : std::uint8_t {
 
 /// Settings of the photometric residual.
 struct PhotometricOptions {
+  /// Of the derivatives.
   Normalisation normalisation = Normalisation::exact;
   /// Acts on r sqrt(N), that is, delta is in units of 1/sqrt(N): on the difference of two patches of unit variance. The
   /// default 0.5 is 1.345 sigma (95 % efficiency) for the residuals of a match with ZNCC 0.93, since E = sigma^2 and
@@ -13838,6 +13928,7 @@ struct PhotometricOptions {
   double min_contrast = 1.0;  ///< Least population standard deviation of either side, in intensity units.
   bool precise = false;       ///< All in double, by the reference, whatever the input: slow.
 
+  /// Whether the numbers make sense.
   bool valid() const noexcept { return robust.valid() && is_finite(min_contrast); }
 };
 
@@ -13848,8 +13939,11 @@ struct BasicPhotometricInput {
   static_assert(std::is_same<T, std::uint8_t>::value || std::is_same<T, float>::value,
                 "textplane: target images are 8-bit or float; T is the pixel's type without const");
 
+  /// Host pixels of one level.
   PatchView patch;
-  Pinhole<double> host_camera, target_camera;
+  Pinhole<double> host_camera;    ///< Of the level that `patch` is of.
+  Pinhole<double> target_camera;  ///< Of the level that `target` is.
+  /// Image of one level.
   ImageView<const T> target;
   PairView pairs = {};  ///< Of an 8-bit target, optional: PreparedTarget. Must be of the same image.
 };
@@ -13902,7 +13996,9 @@ inline int scale_shift(double host_area, double target_area, int limit = 1) noex
 /// the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless is_ok(status).
 template <int P>
 struct NormalEquations {
+  /// J^T W J.
   Eigen::Matrix<double, P, P> H;
+  /// J^T W r.
   Eigen::Matrix<double, P, 1> b;
   double cost = 0.0;   ///< Sum of rho(N r^2) / N.
   double error = 0.0;  ///< E = sum of r^2, in [0, 4].
@@ -13910,6 +14006,7 @@ struct NormalEquations {
   int visible = 0;     ///< N.
   double mean = 0.0;   ///< Of the target intensities of the visible pixels.
   double s = 0.0;      ///< ||I - mean|| of the same.
+  /// Whether the sums can be used.
   Status status = Status::invalid_argument;
 
   NormalEquations() noexcept { clear(); }
@@ -13929,6 +14026,7 @@ struct PhotometricCost {
   double zncc = 0.0;   ///< 1 - E / 2.
   int visible = 0;     ///< N.
   int lost = 0;        ///< Pixels of the given set that are not visible now.
+  /// Whether the cost can be used.
   Status status = Status::invalid_argument;
 };
 
@@ -13937,6 +14035,7 @@ struct ResidualSummary {
   int visible = 0;    ///< N.
   double mean = 0.0;  ///< Of the target intensities of the visible pixels.
   double s = 0.0;     ///< ||I - mean|| of the same.
+  /// Whether the residuals can be used.
   Status status = Status::invalid_argument;
 };
 
@@ -13944,6 +14043,7 @@ struct ResidualSummary {
 class PhotometricWorkspace {
  public:
   PhotometricWorkspace() = default;
+  /// With room for n pixels.
   explicit PhotometricWorkspace(int n) { reserve(n); }
 
   /// Makes room for patches of n pixels: 89 bytes a pixel and some. The only member that allocates; never shrinks.
@@ -13964,9 +14064,13 @@ class PhotometricWorkspace {
 
   /// Buffers of the double reference, and that of the float kernels, which lies in the same memory.
   std::uint8_t* visible_flags() noexcept { return visible_.data(); }
+  /// Room for a number a pixel: the host's intensities.
   double* host() noexcept { return reinterpret_cast<double*>(aligned()); }
+  /// Room for a number a pixel: the target's intensities.
   double* target() noexcept { return host() + visible_.size(); }
+  /// Room for the derivatives, a row a pixel.
   double* rows() noexcept { return target() + visible_.size(); }
+  /// The same memory, as the float kernels use it.
   float* scratch() noexcept { return reinterpret_cast<float*>(aligned()); }
   /// 2 (capacity() + 16) floats more, for the kernels of linearise_by().
   float* more_scratch() noexcept { return scratch() + simd::residual_scratch(capacity()); }
@@ -13998,9 +14102,13 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// mean and s = ||I - mean|| = sigma sqrt(n), sigma the population standard deviation, of n intensities. The normalised
 /// intensity is (I - mean) / s: zero mean, unit norm.
 struct IntensityStats {
+  /// Of the intensities.
   double mean = 0.0;
+  /// Norm of the intensities less their mean.
   double s = 0.0;
+  /// How many intensities.
   int n = 0;
+  /// Whether they have contrast enough.
   Status status = Status::too_few;
 };
 
@@ -18793,7 +18901,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 class TemplatePatch {
  public:
   TemplatePatch() = default;
+  /// Moves what was prepared.
   TemplatePatch(TemplatePatch&&) = default;
+  /// Moves what was prepared.
   TemplatePatch& operator=(TemplatePatch&&) = default;
   TemplatePatch(const TemplatePatch&) = delete;
   TemplatePatch& operator=(const TemplatePatch&) = delete;
@@ -18823,7 +18933,9 @@ class TemplatePatch {
     return Status::ok;
   }
 
+  /// Whether it was prepared.
   bool ready() const noexcept { return ready_; }
+  /// Pixels that it was prepared of; 0 before.
   int size() const noexcept { return ready_ ? model_.n : 0; }
   /// For the kernels of simd/template.hpp; ready() must be true.
   const simd::TemplateModel& model() const noexcept { return model_; }
@@ -22249,8 +22361,11 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// One object of a batch: host pixels of one level, the host's camera of that level, and the plane in the host frame.
 struct TextBatchItem {
+  /// Host pixels of one level.
   PatchView patch;
+  /// Of the level that `patch` is of.
   Pinhole<double> host_camera;
+  /// Plane in the host frame.
   Vector3<double> theta = Vector3<double>::Zero();
 };
 
@@ -22258,6 +22373,7 @@ struct TextBatchItem {
 class TextBatch {
  public:
   TextBatch() = default;
+  /// As build().
   TextBatch(const TextBatchItem* items, int count) { build(items, count); }
 
   /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a negative
@@ -22281,6 +22397,7 @@ class TextBatch {
     return Status::ok;
   }
 
+  /// Objects that it was built of.
   int size() const noexcept { return static_cast<int>(valid_.size()); }
   /// Pixels of the largest object.
   int max_pixels() const noexcept { return most_; }
@@ -22292,6 +22409,7 @@ class TextBatch {
 
   /// For the kernels.
   bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }
+  /// Sets the kernels' pointers to what was built.
   void fill(simd::BatchArgs* args) const noexcept {
     args->groups = groups_.data();
     args->count = size();
@@ -22371,6 +22489,7 @@ class TextBatch {
 class TextBatchResult {
  public:
   TextBatchResult() = default;
+  /// With room for the results of `batch`.
   explicit TextBatchResult(const TextBatch& batch) { reserve(batch); }
 
   /// Makes room for the batch and nine parameters. The only member that allocates; never shrinks.
@@ -22382,6 +22501,7 @@ class TextBatchResult {
     const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
     if (scratch_.size() < scratch) scratch_ = std::vector<float>(scratch);
   }
+  /// Whether reserve() was called for a batch of this size.
   bool fits(const TextBatch& batch) const noexcept {
     const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
     return out_.size() >= groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
@@ -22391,9 +22511,13 @@ class TextBatchResult {
 
   /// Of object i of the batch, as reference::linearise_*() would say it; all zero, `visible` excepted, unless is_ok(status).
   Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
+  /// Robust cost of object i.
   double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
+  /// E of object i: sum of r^2 over its visible pixels, in [0, 4].
   double error(int i) const noexcept { return tail(i, simd::BatchEntry::error); }
+  /// ZNCC of object i, 0 unless its status is ok.
   double zncc(int i) const noexcept { return is_ok(status(i)) ? 1.0 - 0.5 * error(i) : 0.0; }
+  /// Visible pixels of object i.
   int visible(int i) const noexcept { return static_cast<int>(tail(i, simd::BatchEntry::visible)); }
 
   /// P: that of the call.
@@ -24034,6 +24158,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// How a warp went.
 struct WarpSummary {
   int inside = 0;  ///< Output pixels that lie inside the source.
+  /// Whether the warp was possible.
   Status status = Status::invalid_argument;
 };
 
@@ -24864,18 +24989,32 @@ constexpr int kMaxPatchHalf = 10;
 /// Samples are rounded to 1/32 grey level, and upright ones are taken on a grid of 1/64 px: (dx, dy), at most half of
 /// that, is how far the point is from its sample.
 struct PatchTemplate {
-  int left = 0, top = 0, columns = 0, rows = 0;
-  float dx = 0, dy = 0;             ///< px.
+  int left = 0;     ///< Samples to the left of the centre.
+  int top = 0;      ///< Samples above it.
+  int columns = 0;  ///< Samples in a row.
+  int rows = 0;     ///< Rows of samples.
+  float dx = 0;  ///< From the centre sample to the point, px.
+  float dy = 0;  ///< Likewise.
   float mean = 0;                   ///< Intensity.
   float s = 0;                      ///< ||T - mean||, intensity.
-  float hxx = 0, hxy = 0, hyy = 0;  ///< J~^T J~, 1/px^2.
+  float hxx = 0;  ///< J~^T J~, 1/px^2.
+  float hxy = 0;  ///< Likewise.
+  float hyy = 0;  ///< Likewise.
   float min_eigenvalue = 0;         ///< Of J~^T J~: the position variance of a unit residual is its inverse.
+  /// Of its making.
   Status status = Status::invalid_argument;
 
-  // In units of samples: means of T, gx and gy, ||T - mean||, and the share of T - mean in gx and gy.
-  double mean_v = 0, mean_x = 0, mean_y = 0, norm = 0, along_x = 0, along_y = 0;
+  // In units of samples.
+  double mean_v = 0;   ///< Mean of T.
+  double mean_x = 0;   ///< Mean of gx.
+  double mean_y = 0;   ///< Mean of gy.
+  double norm = 0;     ///< ||T - mean||.
+  double along_x = 0;  ///< Share of T - mean in gx.
+  double along_y = 0;  ///< Share of T - mean in gy.
+  /// Samples and gradients as the kernels want them.
   simd::KltPatch patch;
 
+  /// Samples in all.
   int count() const noexcept { return columns * rows; }
   /// Population standard deviation of the intensities.
   float contrast() const noexcept { return count() > 0 ? s / std::sqrt(static_cast<float>(count())) : 0.0F; }
@@ -24886,6 +25025,7 @@ struct PatchTemplate {
   double jx(int column, int row) const noexcept {
     return (patch.gx[index(column, row)] - mean_x - along_x * centred(column, row)) / norm;
   }
+  /// The same along y.
   double jy(int column, int row) const noexcept {
     return (patch.gy[index(column, row)] - mean_y - along_y * centred(column, row)) / norm;
   }
@@ -25039,6 +25179,7 @@ struct KltResult {
   Vector2<float> px = Vector2<float>::Zero();  ///< Level-0 px for track_klt(); the guess where no estimate exists.
   float zncc = 0;      ///< Correlation of the patch on the finest level, at px to within the last step; 0 if unknown.
   float fb_error = 0;  ///< Forward-backward error, px; 0 where no backward pass was run.
+  /// Why it ended.
   Status status = Status::invalid_argument;
 };
 
@@ -25843,7 +25984,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A corner at pixel (x, y) of the image it was found in. `score` is an integer in [threshold, 254]; 0 where the
 /// detector was asked not to suppress (as in OpenCV, which does not compute it then; see fast_score()).
 struct Corner {
-  float x = 0, y = 0;
+  float x = 0;  ///< px of the image.
+  float y = 0;  ///< Likewise.
+  /// The largest threshold, in intensity, at which it is still a corner.
   float score = 0;
 };
 
@@ -26172,6 +26315,7 @@ struct SelectOptions {
   int max_pixels = 300;     ///< On each level.
   int levels = 3;           ///< Pyramid levels of a patch.
   int fast_threshold = 20;  ///< Intensity; lowered stepwise until half of max_pixels are corners.
+  /// Intensity; where the lowering ends.
   int lowest_fast_threshold = 5;
   float min_gradient = 4.0F;  ///< Intensity per px: central difference that a topping-up pixel must reach.
 };
@@ -26597,6 +26741,7 @@ struct SolveOptions {
 
 /// Cost of a trial state on the residuals of the last linearisation.
 struct Evaluation {
+  /// In the problem's own unit.
   double cost = 0;
   double lost_fraction = 0;    ///< In [0, 1].
   Status status = Status::ok;  ///< Anything but an ok status rejects the trial.
@@ -26608,6 +26753,7 @@ struct Evaluation {
 /// `stall_tolerance`); rank_deficient (H of the initial state is singular); non_finite (NaN or infinity in H, b or the
 /// cost of the initial state); invalid_argument (options); or the status of the failed first linearisation.
 struct SolveSummary {
+  /// Why it ended.
   Status status = Status::invalid_argument;
   double initial_cost = 0;  ///< At the initial state, on its own residuals.
   double final_cost = 0;    ///< At the returned state, on its own residuals: comparable with initial_cost if the set
@@ -26752,7 +26898,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// As PyramidView, for embedders that keep float images: level l + 1 is half as wide and high as level l.
 struct PyramidViewF {
+  /// Finest first; each half the size of the one before.
   std::array<ImageViewF, kMaxPyramidLevels> level;
+  /// How many of them there are.
   int levels = 0;
 };
 
@@ -26848,6 +26996,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// A text object whose host pose and plane are held fixed. Its pixels come from `patch` (not owned).
 struct PoseTextTerm {
+  /// Its pixels in the host; not owned.
   const TextPatch* patch = nullptr;
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_w_h;                                       ///< Host camera to world.
@@ -26859,6 +27008,7 @@ struct PoseTextTerm {
 
 /// A known 3D point and where it was seen.
 struct PosePointTerm {
+  /// In the world.
   Vector3<double> p_w = Vector3<double>::Zero();
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
   double sigma = 1;                              ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep.
@@ -26866,18 +27016,22 @@ struct PosePointTerm {
 
 /// Settings of refine_pose() and align_pose().
 struct PoseOptions {
+  /// Of every pixel of the texts.
   PhotometricOptions photometric;
   /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's
   /// residual in units of 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the
   /// paper's E_text.
   Weighting weighting = Weighting::variance;
+  /// See `weighting`.
   double sigma_photo = 0.3;
+  /// px, of a point with sigma 1.
   double sigma_rep = 1;
   /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
   Robust point_robust{RobustKind::huber, 2.4477};
   SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
                            ///< the latest.
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
+  /// Where it ends; 0 is the image itself.
   int finest_level = 0;
   /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take forward.
   /// Whatever the policy, steps are judged by the cost.
@@ -27136,23 +27290,27 @@ struct PoseResult {
                                                                                   ///< sigma_rep^2. Its inverse is the
                                                                                   ///< covariance under
                                                                                   ///< Weighting::variance.
+  /// C(T_t_w) of the finest level.
   double cost = 0;
   double zncc = 0;         ///< Mean over the texts that took part.
   int texts = 0;           ///< Texts that took part.
   int visible_pixels = 0;  ///< Theirs.
   int inlier_points = 0;   ///< Points with |e|^2 <= 5.99 (sigma sigma_rep)^2.
   int iterations = 0;      ///< Trials over all levels.
+  /// Why it ended: see above.
   Status status = Status::invalid_argument;
 };
 
 /// Result of refine_pose(). T_t_w is the best pose seen, the initial one if nothing could be improved; finite whenever
 /// the initial one is.
 struct PoseFit : PoseResult {
+  /// World to target camera.
   SE3d T_t_w;
 };
 
 /// Result of align_pose().
 struct PoseAlignment : PoseResult {
+  /// Host to target.
   SE3d T_t_h;
 };
 
@@ -27302,7 +27460,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A target image and its pose relative to the host. View: PyramidView, or PyramidViewF for float images.
 template <class View>
 struct BasicPlaneTarget {
+  /// Pyramid of the undistorted image.
   View image;
+  /// Host to target.
   SE3d T_t_h;
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
   /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to refine_plane(), whose
@@ -27314,10 +27474,12 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
 
 /// Settings of refine_plane() and align_plane().
 struct PlaneOptions {
+  /// Of every pixel.
   PhotometricOptions photometric;
   SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
                            ///< the latest.
   int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
+  /// Where it ends; 0 is the image itself.
   int finest_level = 0;
 };
 
@@ -27339,11 +27501,14 @@ struct PlaneRefinement {
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
   double residual_variance = 0;  ///< Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and
                                  ///< norm costing two.
+  /// C(theta).
   double cost = 0;
   double zncc = 0;  ///< Mean over the targets used.
+  /// Targets that took part.
   int targets_used = 0;
   int visible_pixels = 0;  ///< Over the targets used.
   int iterations = 0;      ///< Trials over all levels.
+  /// Why it ended: see above.
   Status status = Status::invalid_argument;
 };
 
@@ -27588,6 +27753,7 @@ struct SearchOptions {
   double step = 1.0;  ///< Between shifts.
   double roll =
       0.1;  ///< Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
+  /// Of every pixel.
   PhotometricOptions photometric;
 };
 
@@ -27760,7 +27926,9 @@ struct WindowPoint {
 
 /// A point seen in a frame.
 struct WindowPointObservation {
+  /// Index into Window::frames: the one that sees it.
   int frame = -1;
+  /// Index into Window::points.
   int point = -1;
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
   double sigma = 1;  ///< Standard deviation, px (1.2^octave or 2^level for points from coarser levels).
@@ -27795,6 +27963,7 @@ struct WindowText {
 
 /// A text seen in a frame other than its host.
 struct WindowTextObservation {
+  /// Index into Window::texts.
   int text = -1;
   int frame = -1;       ///< Target frame, other than the host.
   double weight = 1;    ///< Of this observation, on top of lambda_w.
@@ -27810,19 +27979,27 @@ struct WindowTextObservation {
 
 /// The whole problem. One pinhole camera for all frames (level 0).
 struct Window {
+  /// Of all frames, level 0.
   Pinhole<double> camera;
+  /// Poses, the unknown ones and those held.
   std::vector<WindowFrame> frames;
+  /// Points in the world.
   std::vector<WindowPoint> points;
+  /// Who sees which point where.
   std::vector<WindowPointObservation> point_observations;
+  /// Text objects, by host and plane.
   std::vector<WindowText> texts;
+  /// Who sees which text.
   std::vector<WindowTextObservation> text_observations;
 };
 
 /// Settings of solve_window().
 struct WindowOptions {
+  /// Of every pixel of the texts.
   PhotometricOptions photometric;
   Robust point_robust{RobustKind::huber,
                       std::sqrt(5.99)};  ///< On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom.
+  /// How texts weigh against points: lambda_w.
   Weighting weighting = Weighting::variance;
   double sigma_rep = 1;      ///< px.
   double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
@@ -27843,6 +28020,7 @@ struct WindowOptions {
   /// just one frame is fixed; allowed with more (a known baseline). Ignored where both frames are fixed; -1: no such
   /// constraint.
   int scale_frame_a = -1;
+  /// Index into Window::frames of the other frame of that distance; -1: none.
   int scale_frame_b = -1;
 
   bool covariance = true;  ///< Compute WindowText::covariance and information, and the rank_deficient statuses.
@@ -27858,6 +28036,7 @@ struct WindowOptions {
 /// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state (the start,
 /// perhaps).
 struct WindowSummary {
+  /// Why it ended: see above.
   Status status = Status::too_few;
   double initial_cost = 0;  ///< E over what took part at the start.
   double final_cost =
@@ -27870,7 +28049,8 @@ struct WindowSummary {
   int gauge_freedom = 0;  ///< Degrees of freedom that no fixed frame or scale takes away: 7 a free-floating component,
                           ///< 1 a missing scale.
   int free_frames = 0;    ///< Frames adjusted.
-  int free_points = 0, free_texts = 0;
+  int free_points = 0;    ///< Points solved for.
+  int free_texts = 0;     ///< Texts solved for.
   int point_observations = 0;  ///< Took part.
   int text_observations = 0;   ///< Took part to the end.
   int undetermined = 0;        ///< Frames, points and texts with status rank_deficient.
@@ -28752,9 +28932,13 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Memory of solve_window(), to be reused from call to call: a call allocates only where its window exceeds every
 /// earlier one, and then in its set-up. Not to be shared by two threads at a time.
 struct WindowWorkspace {
-  detail::WindowState current, trial;
+  detail::WindowState current;  ///< The estimate.
+  detail::WindowState trial;    ///< The one that a step leads to.
+  /// Which unknowns there are and how they meet.
   detail::WindowStructure structure;
+  /// The linearised texts.
   detail::WindowTerms terms;
+  /// The normal equations.
   detail::WindowSchur system;
 };
 

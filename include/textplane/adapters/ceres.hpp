@@ -55,11 +55,15 @@ enum class TextRows { sums, pixels };
 
 /// Settings of a text observation: its term of the cost is weight lambda_w c, lambda_w = text_weight() of the visible pixels.
 struct TextCostOptions {
+  /// Of every pixel; its robust cost acts inside.
   PhotometricOptions photometric;
+  /// How an object weighs against points: lambda_w.
   Weighting weighting = Weighting::variance;
   double sigma_rep = 1;      ///< px.
   double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
+  /// On top of lambda_w.
   double weight = 1;
+  /// Sums of the kernel, or a residual a pixel.
   TextRows rows = TextRows::sums;
 };
 
@@ -69,10 +73,12 @@ class WorkspacePool {
  public:
   /// What one evaluation needs.
   struct Workspace {
+    /// Of the kernels.
     PhotometricWorkspace photometric;
     std::vector<double> rows;  ///< Of TextRows::pixels.
   };
 
+  /// A workspace that nobody else has until it is given back. On any thread.
   std::unique_ptr<Workspace> take() {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (idle_.empty()) return std::make_unique<Workspace>();
@@ -80,6 +86,7 @@ class WorkspacePool {
     idle_.pop_back();
     return out;
   }
+  /// What take() gave, for the next one.
   void give_back(std::unique_ptr<Workspace> workspace) {
     const std::lock_guard<std::mutex> lock(mutex_);
     idle_.push_back(std::move(workspace));
@@ -226,12 +233,14 @@ void write_plane(const Rows& rows, double* out) {
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class TextPoseCost : public detail::TextRowsCost<6> {
  public:
+  /// T_w_h: pose of the host, camera to world; theta in its frame. Without a pool it has one of its own.
   TextPoseCost(const PhotometricInput& input, const SE3d& T_w_h, const Vector3<double>& theta,
                const TextCostOptions& options = {}, std::shared_ptr<WorkspacePool> pool = nullptr)
       : TextRowsCost(input, options, std::move(pool)), T_w_h_(T_w_h), theta_(theta) {
     mutable_parameter_block_sizes()->push_back(kPoseSize);
   }
 
+  /// As ceres::CostFunction; false where the kernels have no result.
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const SE3d T_t_h = pose_from_block<Order>(blocks[0]).inverse() * T_w_h_;
     const bool wanted = jacobians && jacobians[0];
@@ -248,12 +257,14 @@ class TextPoseCost : public detail::TextRowsCost<6> {
 /// A text object whose plane is unknown, seen from a known pose: block theta. `input` as in TextPoseCost.
 class TextPlaneCost : public detail::TextRowsCost<3> {
  public:
+  /// T_t_h: host to target. Without a pool it has one of its own.
   TextPlaneCost(const PhotometricInput& input, const SE3d& T_t_h, const TextCostOptions& options = {},
                 std::shared_ptr<WorkspacePool> pool = nullptr)
       : TextRowsCost(input, options, std::move(pool)), T_t_h_(T_t_h) {
     mutable_parameter_block_sizes()->push_back(3);
   }
 
+  /// As ceres::CostFunction; false where the kernels have no result.
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const bool wanted = jacobians && jacobians[0];
     return evaluate(Eigen::Map<const Vector3<double>>(blocks[0]), T_t_h_, residuals, wanted,
@@ -268,12 +279,14 @@ class TextPlaneCost : public detail::TextRowsCost<3> {
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class TextCost : public detail::TextRowsCost<9> {
  public:
+  /// Without a pool it has one of its own.
   explicit TextCost(const PhotometricInput& input, const TextCostOptions& options = {},
                     std::shared_ptr<WorkspacePool> pool = nullptr)
       : detail::TextRowsCost<9>(input, options, std::move(pool)) {
     *mutable_parameter_block_sizes() = {kPoseSize, kPoseSize, 3};
   }
 
+  /// As ceres::CostFunction; false where the kernels have no result.
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const SE3d T_t_h = pose_from_block<Order>(blocks[1]).inverse() * pose_from_block<Order>(blocks[0]);
     const bool wanted = jacobians && (jacobians[0] || jacobians[1] || jacobians[2]);
@@ -291,9 +304,11 @@ class TextCost : public detail::TextRowsCost<9> {
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class PointCost : public ceres::SizedCostFunction<2, kPoseSize, 3> {
  public:
+  /// px: undistorted, level 0; sigma: its standard deviation in px; min_depth in the unit of the world.
   PointCost(const Pinhole<double>& camera, const Vector2<double>& px, double sigma = 1, double min_depth = 1e-6)
       : camera_(camera), px_(px), scale_(1 / sigma), min_depth_(min_depth) {}
 
+  /// As ceres::CostFunction; false behind min_depth.
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const SE3d T = pose_from_block<Order>(blocks[0]);
     const Vector3<double> p = T.R.transpose() * (Eigen::Map<const Vector3<double>>(blocks[1]) - T.t);

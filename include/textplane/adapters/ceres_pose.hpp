@@ -109,13 +109,17 @@ class PoseManifold : public ceres::Manifold {
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class PoseManifold : public ceres::LocalParameterization {
  public:
+  /// Seven.
   int GlobalSize() const override { return kPoseSize; }
+  /// Six.
   int LocalSize() const override { return 6; }
+  /// T Exp(delta).
   bool Plus(const double* x, const double* delta, double* out) const override {
     const Vector6<double> xi = Eigen::Map<const Vector6<double>>(delta);
     pose_to_block<Order>(pose_from_block<Order>(x) * se3_exp(xi), out);
     return true;
   }
+  /// d block / d delta at 0, 7 x 6, row-major.
   bool ComputeJacobian(const double* x, double* jacobian) const override {
     Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>>{jacobian} = block_by_perturbation<Order>(x);
     return true;

@@ -41,6 +41,7 @@ namespace adapters {
 /// A Window as a ceres::Problem: see the head of this file. Window, patches and images must outlive it.
 class WindowProblem {
  public:
+  /// The window's images and patches must outlive the problem.
   WindowProblem(Window& window, const WindowOptions& options, TextRows rows = TextRows::sums)
       : window_(window), options_(options), problem_(ownership()) {
     text_.photometric = options.photometric;
@@ -65,6 +66,7 @@ class WindowProblem {
 
   /// ok, or that of solve_window() for a window or options that cannot be: the problem is then empty.
   Status status() const noexcept { return status_; }
+  /// To add costs of one's own to.
   ceres::Problem& problem() noexcept { return problem_; }
   /// The block of a frame's pose.
   double* pose(int frame) noexcept { return poses_[static_cast<std::size_t>(frame)].data(); }

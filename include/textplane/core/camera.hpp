@@ -18,9 +18,13 @@ template <class S>
 struct Pinhole {
   static_assert(!std::is_integral<S>::value, "textplane: a camera of integers; write Pinhole<double>(500, ...)");
 
-  S fx = S(1), fy = S(1), cx = S(0), cy = S(0);
+  S fx = S(1);  ///< Focal length along x, px.
+  S fy = S(1);  ///< Focal length along y, px.
+  S cx = S(0);  ///< Principal point, px.
+  S cy = S(0);  ///< Likewise.
 
   Pinhole() = default;
+  /// Focal lengths and principal point, px.
   Pinhole(S fx_, S fy_, S cx_, S cy_) noexcept : fx(fx_), fy(fy_), cx(cx_), cy(cy_) {}
 
   /// Finite, with positive focal lengths.
@@ -47,6 +51,7 @@ struct Pinhole {
     return {fx * k, fy * k, (cx + S(0.5)) * k - S(0.5), (cy + S(0.5)) * k - S(0.5)};
   }
 
+  /// The same of another scalar.
   template <class U>
   Pinhole<U> cast() const noexcept {
     return {U(fx), U(fy), U(cx), U(cy)};
@@ -57,8 +62,13 @@ struct Pinhole {
 /// m_d = m (1 + k1 r^2 + k2 r^4 + k3 r^6) + (2 p1 x y + p2 (r^2 + 2 x^2), p1 (r^2 + 2 y^2) + 2 p2 x y).
 template <class S>
 struct RadialTangential {
-  S k1 = S(0), k2 = S(0), p1 = S(0), p2 = S(0), k3 = S(0);
+  S k1 = S(0);  ///< Radial, of r^2.
+  S k2 = S(0);  ///< Radial, of r^4.
+  S p1 = S(0);  ///< Tangential.
+  S p2 = S(0);  ///< Tangential.
+  S k3 = S(0);  ///< Radial, of r^6.
 
+  /// Whether it distorts nothing.
   bool is_zero() const noexcept { return k1 == S(0) && k2 == S(0) && p1 == S(0) && p2 == S(0) && k3 == S(0); }
 
   /// Distorted normalised point of m. If J is given it receives d m_d / d m (2 x 2).
@@ -98,6 +108,7 @@ struct RadialTangential {
     return Status::degenerate;
   }
 
+  /// The same of another scalar.
   template <class U>
   RadialTangential<U> cast() const noexcept {
     return {U(k1), U(k2), U(p1), U(p2), U(k3)};

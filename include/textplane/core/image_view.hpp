@@ -18,7 +18,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 template <class T>
 class ImageView {
  public:
+  /// Type of a pixel, const where the view may not write.
   using Pixel = T;
+  /// A byte of the same constness: strides count these.
   using Byte = std::conditional_t<std::is_const<T>::value, const unsigned char, unsigned char>;
 
   constexpr ImageView() noexcept = default;
@@ -33,9 +35,13 @@ class ImageView {
   ImageView(const ImageView<U>& other) noexcept
       : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
 
+  /// The top-left pixel.
   T* data() const noexcept { return data_; }
+  /// In px.
   int width() const noexcept { return width_; }
+  /// In px.
   int height() const noexcept { return height_; }
+  /// Bytes from a row to the next.
   std::ptrdiff_t stride() const noexcept { return stride_; }
 
   /// Not null, not empty, and no row overlaps the next.
@@ -44,9 +50,11 @@ class ImageView {
            stride_ >= static_cast<std::ptrdiff_t>(width_) * static_cast<std::ptrdiff_t>(sizeof(T));
   }
 
+  /// The first pixel of row y, not checked.
   T* row(int y) const noexcept {
     return reinterpret_cast<T*>(reinterpret_cast<Byte*>(data_) + static_cast<std::ptrdiff_t>(y) * stride_);
   }
+  /// The pixel at column x, row y, not checked.
   T& operator()(int x, int y) const noexcept { return row(y)[x]; }
 
   /// (x, y) has a pixel on each side to interpolate between: inside [0, width - 1] x [0, height - 1]. False for NaN.
@@ -67,25 +75,38 @@ template <class T>
 class Image {
  public:
   Image() = default;
+  /// An image of width x height px, filled with `value`.
   Image(int width, int height, T value = T()) { resize(width, height, value); }
 
+  /// Makes it width x height px, filled with `value`; what it held is gone.
   void resize(int width, int height, T value = T()) {
     width_ = width > 0 ? width : 0;
     height_ = height > 0 ? height : 0;
     pixels_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), value);
   }
 
+  /// In px.
   int width() const noexcept { return width_; }
+  /// In px.
   int height() const noexcept { return height_; }
+  /// Whether it has no pixels.
   bool empty() const noexcept { return pixels_.empty(); }
+  /// The top-left pixel; rows follow without gaps.
   T* data() noexcept { return pixels_.data(); }
+  /// The top-left pixel; rows follow without gaps.
   const T* data() const noexcept { return pixels_.data(); }
+  /// The pixel at column x, row y, not checked.
   T& operator()(int x, int y) noexcept { return pixels_[index(x, y)]; }
+  /// The pixel at column x, row y, not checked.
   const T& operator()(int x, int y) const noexcept { return pixels_[index(x, y)]; }
+  /// The first pixel of row y, not checked.
   T* row(int y) noexcept { return pixels_.data() + index(0, y); }
+  /// The first pixel of row y, not checked.
   const T* row(int y) const noexcept { return pixels_.data() + index(0, y); }
 
+  /// A view of all of it, valid until the image is resized or gone.
   ImageView<T> view() noexcept { return {pixels_.data(), width_, height_}; }
+  /// A view of all of it, valid until the image is resized or gone.
   ImageView<const T> view() const noexcept { return {pixels_.data(), width_, height_}; }
 
  private:

@@ -90,9 +90,12 @@ bool all_finite(const Eigen::DenseBase<Derived>& m) noexcept {
 template <class S, int N>
 class Ldlt {
  public:
+  /// The matrix of the system.
   using Matrix = Eigen::Matrix<S, N, N>;
+  /// Right side and solution.
   using Vector = Eigen::Matrix<S, N, 1>;
 
+  /// Factorises `a`, of which the lower triangle is read; a pivot below tolerance times its diagonal entry counts as zero.
   explicit Ldlt(const Matrix& a, S tolerance = S(16) * std::numeric_limits<S>::epsilon()) noexcept : l_(a) {
     for (int j = 0; j < N; ++j) {
       S d = l_(j, j);
@@ -108,8 +111,10 @@ class Ldlt {
     ok_ = true;
   }
 
+  /// Whether every pivot was usable.
   bool ok() const noexcept { return ok_; }
 
+  /// a^-1 b; of use where ok().
   Vector solve(const Vector& b) const noexcept {
     Vector x = b;
     for (int i = 0; i < N; ++i)
@@ -120,6 +125,7 @@ class Ldlt {
     return x;
   }
 
+  /// a^-1; of use where ok().
   Matrix inverse() const noexcept {
     Matrix inv;
     for (int c = 0; c < N; ++c) {
@@ -140,7 +146,9 @@ class Ldlt {
 /// Eigenvalues (ascending) and eigenvectors (columns) of a symmetric N x N matrix by cyclic Jacobi rotations.
 template <class S, int N>
 struct SymmetricEigen {
+  /// Eigenvalues.
   Eigen::Matrix<S, N, 1> values;
+  /// Eigenvectors of unit length, a column each, in the order of the values.
   Eigen::Matrix<S, N, N> vectors;
 };
 

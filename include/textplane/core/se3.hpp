@@ -26,13 +26,19 @@ template <class S>
 struct SE3 {
   static_assert(!std::is_integral<S>::value, "textplane: a pose of integers; its scalar is float, double or a dual number");
 
+  /// Rotation: source to destination frame.
   Matrix3<S> R = Matrix3<S>::Identity();
+  /// Translation: the source's origin in the destination frame.
   Vector3<S> t = Vector3<S>::Zero();
 
+  /// A point of the source frame in the destination frame.
   Vector3<S> operator*(const Vector3<S>& p) const noexcept { return product(R, p) + t; }
+  /// First `b`, then this: T_a_b T_b_c = T_a_c.
   SE3 operator*(const SE3& b) const noexcept { return {product(R, b.R), product(R, b.t) + t}; }
+  /// Destination to source.
   SE3 inverse() const noexcept { return {R.transpose(), -(R.transpose() * t)}; }
 
+  /// The same of another scalar.
   template <class U>
   SE3<U> cast() const noexcept {
     return {R.template cast<U>(), t.template cast<U>()};

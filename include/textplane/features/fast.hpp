@@ -21,7 +21,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A corner at pixel (x, y) of the image it was found in. `score` is an integer in [threshold, 254]; 0 where the
 /// detector was asked not to suppress (as in OpenCV, which does not compute it then; see fast_score()).
 struct Corner {
-  float x = 0, y = 0;
+  float x = 0;  ///< px of the image.
+  float y = 0;  ///< Likewise.
+  /// The largest threshold, in intensity, at which it is still a corner.
   float score = 0;
 };
 

@@ -30,18 +30,32 @@ constexpr int kMaxPatchHalf = 10;
 /// Samples are rounded to 1/32 grey level, and upright ones are taken on a grid of 1/64 px: (dx, dy), at most half of
 /// that, is how far the point is from its sample.
 struct PatchTemplate {
-  int left = 0, top = 0, columns = 0, rows = 0;
-  float dx = 0, dy = 0;             ///< px.
+  int left = 0;     ///< Samples to the left of the centre.
+  int top = 0;      ///< Samples above it.
+  int columns = 0;  ///< Samples in a row.
+  int rows = 0;     ///< Rows of samples.
+  float dx = 0;  ///< From the centre sample to the point, px.
+  float dy = 0;  ///< Likewise.
   float mean = 0;                   ///< Intensity.
   float s = 0;                      ///< ||T - mean||, intensity.
-  float hxx = 0, hxy = 0, hyy = 0;  ///< J~^T J~, 1/px^2.
+  float hxx = 0;  ///< J~^T J~, 1/px^2.
+  float hxy = 0;  ///< Likewise.
+  float hyy = 0;  ///< Likewise.
   float min_eigenvalue = 0;         ///< Of J~^T J~: the position variance of a unit residual is its inverse.
+  /// Of its making.
   Status status = Status::invalid_argument;
 
-  // In units of samples: means of T, gx and gy, ||T - mean||, and the share of T - mean in gx and gy.
-  double mean_v = 0, mean_x = 0, mean_y = 0, norm = 0, along_x = 0, along_y = 0;
+  // In units of samples.
+  double mean_v = 0;   ///< Mean of T.
+  double mean_x = 0;   ///< Mean of gx.
+  double mean_y = 0;   ///< Mean of gy.
+  double norm = 0;     ///< ||T - mean||.
+  double along_x = 0;  ///< Share of T - mean in gx.
+  double along_y = 0;  ///< Share of T - mean in gy.
+  /// Samples and gradients as the kernels want them.
   simd::KltPatch patch;
 
+  /// Samples in all.
   int count() const noexcept { return columns * rows; }
   /// Population standard deviation of the intensities.
   float contrast() const noexcept { return count() > 0 ? s / std::sqrt(static_cast<float>(count())) : 0.0F; }
@@ -52,6 +66,7 @@ struct PatchTemplate {
   double jx(int column, int row) const noexcept {
     return (patch.gx[index(column, row)] - mean_x - along_x * centred(column, row)) / norm;
   }
+  /// The same along y.
   double jy(int column, int row) const noexcept {
     return (patch.gy[index(column, row)] - mean_y - along_y * centred(column, row)) / norm;
   }

@@ -24,6 +24,7 @@ struct SelectOptions {
   int max_pixels = 300;     ///< On each level.
   int levels = 3;           ///< Pyramid levels of a patch.
   int fast_threshold = 20;  ///< Intensity; lowered stepwise until half of max_pixels are corners.
+  /// Intensity; where the lowering ends.
   int lowest_fast_threshold = 5;
   float min_gradient = 4.0F;  ///< Intensity per px: central difference that a topping-up pixel must reach.
 };

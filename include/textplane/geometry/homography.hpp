@@ -103,7 +103,8 @@ enum class PerturbationSide {
 /// d xi / d xi_h and d xi / d xi_t, xi the left perturbation of T_t_h.
 template <class S>
 struct RelativePoseJacobians {
-  Eigen::Matrix<S, 6, 6> host, target;
+  Eigen::Matrix<S, 6, 6> host;    ///< d xi(T_t_h) / d xi of the host's pose.
+  Eigen::Matrix<S, 6, 6> target;  ///< d xi(T_t_h) / d xi of the target's pose.
 };
 
 /// How perturbations of the world poses move T_t_h = T_w_t^-1 T_w_h, exactly and not to first order only:

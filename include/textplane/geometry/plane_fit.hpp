@@ -20,6 +20,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// zero.
 template <class S>
 struct PlaneFit {
+  /// Of the numbers.
   using Scalar = S;
   Vector3<S> value = Vector3<S>::Zero();  ///< theta in the host frame.
   /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative
@@ -28,6 +29,7 @@ struct PlaneFit {
   int rank = 0;                                 ///< Of the weighted design matrix (0 to 3).
   S condition = std::numeric_limits<S>::max();  ///< Its largest over smallest singular value; max() unless rank is 3.
   S sigma = S(0);                               ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
+  /// Whether `value` can be used.
   Status status = Status::too_few;
 };
 

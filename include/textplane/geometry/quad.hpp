@@ -22,8 +22,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Four corners, clockwise from the text's top left.
 template <class S>
 struct Quad {
+  /// Clockwise from the text's top left, px or normalised.
   std::array<Vector2<S>, 4> corner{Vector2<S>::Zero(), Vector2<S>::Zero(), Vector2<S>::Zero(), Vector2<S>::Zero()};
 
+  /// The same of another scalar.
   template <class U>
   Quad<U> cast() const noexcept {
     Quad<U> q;
@@ -43,11 +45,16 @@ bool all_finite(const Quad<S>& quad) noexcept {
 template <class S>
 class ConvexPolygon {
  public:
+  /// Most vertices that it holds.
   static constexpr int kCapacity = 16;
 
+  /// Number of vertices.
   int size() const noexcept { return size_; }
+  /// Whether it has no vertices.
   bool empty() const noexcept { return size_ == 0; }
+  /// Vertex i, not checked.
   const Vector2<S>& operator[](int i) const noexcept { return vertex_[static_cast<std::size_t>(i)]; }
+  /// Takes all vertices out.
   void clear() noexcept { size_ = 0; }
   /// Appends a vertex; one that finds the polygon full is dropped.
   void push(const Vector2<S>& p) noexcept {
@@ -62,7 +69,8 @@ class ConvexPolygon {
 /// Axis-aligned bounding box.
 template <class S>
 struct Bounds {
-  Vector2<S> min = Vector2<S>::Zero(), max = Vector2<S>::Zero();
+  Vector2<S> min = Vector2<S>::Zero();  ///< Least x and least y, in the unit of the quad.
+  Vector2<S> max = Vector2<S>::Zero();  ///< Greatest x and greatest y.
 };
 
 namespace detail {

@@ -24,7 +24,9 @@ using Matrix2d = Eigen::Matrix<double, 2, 2>;
 
 /// Covariances, px^2 of each image, of the Gaussian filters that bring host and target to one blur on the plane.
 struct BlurMatch {
+  /// Covariance of the host's filter, px^2 of the host.
   Matrix2d host = Matrix2d::Zero();
+  /// Covariance of the target's filter, px^2 of the target.
   Matrix2d target = Matrix2d::Zero();
 };
 
@@ -69,9 +71,12 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
 /// above along the principal axes; what is not finite counts as 0). Weights are means over a pixel and sum to 1. No allocation.
 class BlurKernel {
  public:
+  /// px, of the widest kernel.
   static constexpr int kMaxRadius = 8;
+  /// px^2, of the widest kernel.
   static constexpr double kMaxVariance = 9.0;
 
+  /// The kernel of a covariance in px^2.
   explicit BlurKernel(const Matrix2d& covariance) noexcept {
     const SymmetricEigen<double, 2> axes =
         symmetric_eigen<double, 2>(all_finite(covariance) ? covariance : Matrix2d::Zero());
@@ -87,7 +92,9 @@ class BlurKernel {
     for (int i = 0; i < width() * width(); ++i) weights_[i] = static_cast<float>(raw[i] / sum);
   }
 
+  /// px: weights beyond it are zero.
   int radius() const noexcept { return radius_; }
+  /// px: weights in a row.
   int width() const noexcept { return 2 * radius_ + 1; }
   /// |x|, |y| <= radius().
   float at(int x, int y) const noexcept { return weights_[index(x, y)]; }

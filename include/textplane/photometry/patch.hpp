@@ -19,21 +19,33 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// and optionally a byte each that is zero for pixels to be left out (null: all count). gx, gy: the host image's gradient
 /// there, in intensity units a px, which template_jacobian and esm need (null: these policies are not possible).
 struct PatchView {
+  /// Columns, px of the level.
   const float* x = nullptr;
+  /// Rows, px of the level.
   const float* y = nullptr;
+  /// Grey levels of the host there.
   const float* intensity = nullptr;
+  /// Zero: the pixel is left out; null: none is.
   const std::uint8_t* mask = nullptr;
+  /// Number of pixels.
   int n = 0;
+  /// Gradient along x, grey levels a px; null: not known.
   const float* gx = nullptr;
+  /// Gradient along y, likewise.
   const float* gy = nullptr;
   simd::PointBounds bounds = {};  ///< Of x and y, where known: saves the kernels a look at them.
 };
 
 /// The host pixels of one pyramid level. x, y and intensity have one length, gx and gy that length too or none.
 struct PatchLevel {
-  std::vector<float> x, y, intensity, gx, gy;
+  std::vector<float> x;          ///< Columns, px of the level.
+  std::vector<float> y;          ///< Rows, px of the level.
+  std::vector<float> intensity;  ///< Grey levels of the host there.
+  std::vector<float> gx;         ///< Its gradient along x, grey levels a px.
+  std::vector<float> gy;         ///< Likewise along y.
   simd::PointBounds bounds;  ///< Of x and y. Whoever changes these in place calls find_bounds(), or clears it.
 
+  /// Sets `bounds` by the positions.
   void find_bounds() noexcept { bounds = simd::point_bounds(x.data(), y.data(), static_cast<int>(x.size())); }
 
   /// Valid until the vectors change.
@@ -71,6 +83,7 @@ struct TextPatch {
   Pinhole<double> camera;                    ///< Of the host, level 0.
   Status status = Status::invalid_argument;  ///< Of its making.
 
+  /// Pyramid levels that it has pixels of.
   int level_count() const noexcept { return static_cast<int>(levels.size()); }
   /// Pixels of the level that has most.
   int max_pixels() const noexcept {

@@ -18,15 +18,19 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Pairs that somebody else owns; `stride` counts pairs. Empty where width is 0.
 struct PairView {
+  /// Rows of pairs.
   const std::uint16_t* data = nullptr;
+  /// Pairs from a row to the next.
   std::ptrdiff_t stride = 0;
-  int width = 0, height = 0;  ///< Of the image they were made of.
+  int width = 0;   ///< px, of the image they were made of.
+  int height = 0;  ///< Likewise.
 };
 
 /// Owns the pairs of one image after the other.
 class PreparedTarget {
  public:
   PreparedTarget() = default;
+  /// As prepare().
   explicit PreparedTarget(const ImageView8& image) { prepare(image); }
 
   /// Fills the pairs of `image`. invalid_argument, and none afterwards, for an image that is not valid() or that the kernels

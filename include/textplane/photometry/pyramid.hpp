@@ -21,7 +21,9 @@ constexpr int kMaxPyramidLevels = 8;
 
 /// The levels of a pyramid that somebody else owns, finest first. Levels from `levels` on are empty views.
 struct PyramidView {
+  /// Finest first; each half the size of the one before.
   std::array<ImageView8, kMaxPyramidLevels> level;
+  /// How many of them there are.
   int levels = 0;
 };
 
@@ -73,6 +75,7 @@ class Pyramid {
     return Status::ok;
   }
 
+  /// How many levels it has; 0 before it is built.
   int levels() const noexcept { return count_; }
 
   /// Level l, an empty view for l outside [0, levels()). It lives as long as the pyramid is neither built anew nor moved.
@@ -82,12 +85,14 @@ class Pyramid {
     return {pixels_.data() + offset_[i], width_[i], height_[i]};
   }
 
+  /// All levels; they live as long as those of level().
   PyramidView view() const noexcept {
     PyramidView v;
     for (int l = 0; l < count_; ++l) v.level[static_cast<std::size_t>(l)] = level(l);
     v.levels = count_;
     return v;
   }
+  /// As view().
   operator PyramidView() const noexcept { return view(); }
 
  private:

@@ -28,6 +28,7 @@ enum class Normalisation : std::uint8_t {
 
 /// Settings of the photometric residual.
 struct PhotometricOptions {
+  /// Of the derivatives.
   Normalisation normalisation = Normalisation::exact;
   /// Acts on r sqrt(N), that is, delta is in units of 1/sqrt(N): on the difference of two patches of unit variance. The
   /// default 0.5 is 1.345 sigma (95 % efficiency) for the residuals of a match with ZNCC 0.93, since E = sigma^2 and
@@ -37,6 +38,7 @@ struct PhotometricOptions {
   double min_contrast = 1.0;  ///< Least population standard deviation of either side, in intensity units.
   bool precise = false;       ///< All in double, by the reference, whatever the input: slow.
 
+  /// Whether the numbers make sense.
   bool valid() const noexcept { return robust.valid() && is_finite(min_contrast); }
 };
 
@@ -47,8 +49,11 @@ struct BasicPhotometricInput {
   static_assert(std::is_same<T, std::uint8_t>::value || std::is_same<T, float>::value,
                 "textplane: target images are 8-bit or float; T is the pixel's type without const");
 
+  /// Host pixels of one level.
   PatchView patch;
-  Pinhole<double> host_camera, target_camera;
+  Pinhole<double> host_camera;    ///< Of the level that `patch` is of.
+  Pinhole<double> target_camera;  ///< Of the level that `target` is.
+  /// Image of one level.
   ImageView<const T> target;
   PairView pairs = {};  ///< Of an 8-bit target, optional: PreparedTarget. Must be of the same image.
 };
@@ -101,7 +106,9 @@ inline int scale_shift(double host_area, double target_area, int limit = 1) noex
 /// the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless is_ok(status).
 template <int P>
 struct NormalEquations {
+  /// J^T W J.
   Eigen::Matrix<double, P, P> H;
+  /// J^T W r.
   Eigen::Matrix<double, P, 1> b;
   double cost = 0.0;   ///< Sum of rho(N r^2) / N.
   double error = 0.0;  ///< E = sum of r^2, in [0, 4].
@@ -109,6 +116,7 @@ struct NormalEquations {
   int visible = 0;     ///< N.
   double mean = 0.0;   ///< Of the target intensities of the visible pixels.
   double s = 0.0;      ///< ||I - mean|| of the same.
+  /// Whether the sums can be used.
   Status status = Status::invalid_argument;
 
   NormalEquations() noexcept { clear(); }
@@ -128,6 +136,7 @@ struct PhotometricCost {
   double zncc = 0.0;   ///< 1 - E / 2.
   int visible = 0;     ///< N.
   int lost = 0;        ///< Pixels of the given set that are not visible now.
+  /// Whether the cost can be used.
   Status status = Status::invalid_argument;
 };
 
@@ -136,6 +145,7 @@ struct ResidualSummary {
   int visible = 0;    ///< N.
   double mean = 0.0;  ///< Of the target intensities of the visible pixels.
   double s = 0.0;     ///< ||I - mean|| of the same.
+  /// Whether the residuals can be used.
   Status status = Status::invalid_argument;
 };
 
@@ -143,6 +153,7 @@ struct ResidualSummary {
 class PhotometricWorkspace {
  public:
   PhotometricWorkspace() = default;
+  /// With room for n pixels.
   explicit PhotometricWorkspace(int n) { reserve(n); }
 
   /// Makes room for patches of n pixels: 89 bytes a pixel and some. The only member that allocates; never shrinks.
@@ -163,9 +174,13 @@ class PhotometricWorkspace {
 
   /// Buffers of the double reference, and that of the float kernels, which lies in the same memory.
   std::uint8_t* visible_flags() noexcept { return visible_.data(); }
+  /// Room for a number a pixel: the host's intensities.
   double* host() noexcept { return reinterpret_cast<double*>(aligned()); }
+  /// Room for a number a pixel: the target's intensities.
   double* target() noexcept { return host() + visible_.size(); }
+  /// Room for the derivatives, a row a pixel.
   double* rows() noexcept { return target() + visible_.size(); }
+  /// The same memory, as the float kernels use it.
   float* scratch() noexcept { return reinterpret_cast<float*>(aligned()); }
   /// 2 (capacity() + 16) floats more, for the kernels of linearise_by().
   float* more_scratch() noexcept { return scratch() + simd::residual_scratch(capacity()); }

@@ -19,7 +19,9 @@ enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
 ///   cauchy  rho = d^2 log(1 + r2 / d^2)                        weight = 1 / (1 + r2 / d^2)
 ///   tukey   rho = d^2 / 3 (1 - (1 - r2 / d^2)^3), else d^2/3   weight = (1 - r2 / d^2)^2, 0 for |r| > d
 struct Robust {
+  /// Which cost.
   RobustKind kind = RobustKind::huber;
+  /// Where it leaves the quadratic, in the unit of |r|.
   double delta = 1.0;
 
   /// A known kind with a finite positive delta (l2 ignores it).
@@ -29,6 +31,7 @@ struct Robust {
            delta > 0.0;
   }
 
+  /// The cost of the squared residual r2.
   double rho(double r2) const noexcept {
     const double d2 = delta * delta;
     switch (kind) {

@@ -20,8 +20,11 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// One object of a batch: host pixels of one level, the host's camera of that level, and the plane in the host frame.
 struct TextBatchItem {
+  /// Host pixels of one level.
   PatchView patch;
+  /// Of the level that `patch` is of.
   Pinhole<double> host_camera;
+  /// Plane in the host frame.
   Vector3<double> theta = Vector3<double>::Zero();
 };
 
@@ -29,6 +32,7 @@ struct TextBatchItem {
 class TextBatch {
  public:
   TextBatch() = default;
+  /// As build().
   TextBatch(const TextBatchItem* items, int count) { build(items, count); }
 
   /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a negative
@@ -52,6 +56,7 @@ class TextBatch {
     return Status::ok;
   }
 
+  /// Objects that it was built of.
   int size() const noexcept { return static_cast<int>(valid_.size()); }
   /// Pixels of the largest object.
   int max_pixels() const noexcept { return most_; }
@@ -63,6 +68,7 @@ class TextBatch {
 
   /// For the kernels.
   bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }
+  /// Sets the kernels' pointers to what was built.
   void fill(simd::BatchArgs* args) const noexcept {
     args->groups = groups_.data();
     args->count = size();
@@ -142,6 +148,7 @@ class TextBatch {
 class TextBatchResult {
  public:
   TextBatchResult() = default;
+  /// With room for the results of `batch`.
   explicit TextBatchResult(const TextBatch& batch) { reserve(batch); }
 
   /// Makes room for the batch and nine parameters. The only member that allocates; never shrinks.
@@ -153,6 +160,7 @@ class TextBatchResult {
     const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
     if (scratch_.size() < scratch) scratch_ = std::vector<float>(scratch);
   }
+  /// Whether reserve() was called for a batch of this size.
   bool fits(const TextBatch& batch) const noexcept {
     const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
     return out_.size() >= groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
@@ -162,9 +170,13 @@ class TextBatchResult {
 
   /// Of object i of the batch, as reference::linearise_*() would say it; all zero, `visible` excepted, unless is_ok(status).
   Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
+  /// Robust cost of object i.
   double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
+  /// E of object i: sum of r^2 over its visible pixels, in [0, 4].
   double error(int i) const noexcept { return tail(i, simd::BatchEntry::error); }
+  /// ZNCC of object i, 0 unless its status is ok.
   double zncc(int i) const noexcept { return is_ok(status(i)) ? 1.0 - 0.5 * error(i) : 0.0; }
+  /// Visible pixels of object i.
   int visible(int i) const noexcept { return static_cast<int>(tail(i, simd::BatchEntry::visible)); }
 
   /// P: that of the call.

@@ -29,6 +29,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// How a warp went.
 struct WarpSummary {
   int inside = 0;  ///< Output pixels that lie inside the source.
+  /// Whether the warp was possible.
   Status status = Status::invalid_argument;
 };
 

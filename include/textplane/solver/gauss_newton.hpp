@@ -46,6 +46,7 @@ struct SolveOptions {
 
 /// Cost of a trial state on the residuals of the last linearisation.
 struct Evaluation {
+  /// In the problem's own unit.
   double cost = 0;
   double lost_fraction = 0;    ///< In [0, 1].
   Status status = Status::ok;  ///< Anything but an ok status rejects the trial.
@@ -57,6 +58,7 @@ struct Evaluation {
 /// `stall_tolerance`); rank_deficient (H of the initial state is singular); non_finite (NaN or infinity in H, b or the
 /// cost of the initial state); invalid_argument (options); or the status of the failed first linearisation.
 struct SolveSummary {
+  /// Why it ended.
   Status status = Status::invalid_argument;
   double initial_cost = 0;  ///< At the initial state, on its own residuals.
   double final_cost = 0;    ///< At the returned state, on its own residuals: comparable with initial_cost if the set

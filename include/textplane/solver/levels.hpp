@@ -12,7 +12,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// As PyramidView, for embedders that keep float images: level l + 1 is half as wide and high as level l.
 struct PyramidViewF {
+  /// Finest first; each half the size of the one before.
   std::array<ImageViewF, kMaxPyramidLevels> level;
+  /// How many of them there are.
   int levels = 0;
 };
 

@@ -22,7 +22,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A target image and its pose relative to the host. View: PyramidView, or PyramidViewF for float images.
 template <class View>
 struct BasicPlaneTarget {
+  /// Pyramid of the undistorted image.
   View image;
+  /// Host to target.
   SE3d T_t_h;
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
   /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to refine_plane(), whose
@@ -34,10 +36,12 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
 
 /// Settings of refine_plane() and align_plane().
 struct PlaneOptions {
+  /// Of every pixel.
   PhotometricOptions photometric;
   SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
                            ///< the latest.
   int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
+  /// Where it ends; 0 is the image itself.
   int finest_level = 0;
 };
 
@@ -59,11 +63,14 @@ struct PlaneRefinement {
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
   double residual_variance = 0;  ///< Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and
                                  ///< norm costing two.
+  /// C(theta).
   double cost = 0;
   double zncc = 0;  ///< Mean over the targets used.
+  /// Targets that took part.
   int targets_used = 0;
   int visible_pixels = 0;  ///< Over the targets used.
   int iterations = 0;      ///< Trials over all levels.
+  /// Why it ended: see above.
   Status status = Status::invalid_argument;
 };
 

@@ -19,6 +19,7 @@ struct SearchOptions {
   double step = 1.0;  ///< Between shifts.
   double roll =
       0.1;  ///< Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
+  /// Of every pixel.
   PhotometricOptions photometric;
 };
 

@@ -31,9 +31,13 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Memory of solve_window(), to be reused from call to call: a call allocates only where its window exceeds every
 /// earlier one, and then in its set-up. Not to be shared by two threads at a time.
 struct WindowWorkspace {
-  detail::WindowState current, trial;
+  detail::WindowState current;  ///< The estimate.
+  detail::WindowState trial;    ///< The one that a step leads to.
+  /// Which unknowns there are and how they meet.
   detail::WindowStructure structure;
+  /// The linearised texts.
   detail::WindowTerms terms;
+  /// The normal equations.
   detail::WindowSchur system;
 };
 

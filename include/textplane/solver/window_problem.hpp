@@ -51,7 +51,9 @@ struct WindowPoint {
 
 /// A point seen in a frame.
 struct WindowPointObservation {
+  /// Index into Window::frames: the one that sees it.
   int frame = -1;
+  /// Index into Window::points.
   int point = -1;
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
   double sigma = 1;  ///< Standard deviation, px (1.2^octave or 2^level for points from coarser levels).
@@ -86,6 +88,7 @@ struct WindowText {
 
 /// A text seen in a frame other than its host.
 struct WindowTextObservation {
+  /// Index into Window::texts.
   int text = -1;
   int frame = -1;       ///< Target frame, other than the host.
   double weight = 1;    ///< Of this observation, on top of lambda_w.
@@ -101,19 +104,27 @@ struct WindowTextObservation {
 
 /// The whole problem. One pinhole camera for all frames (level 0).
 struct Window {
+  /// Of all frames, level 0.
   Pinhole<double> camera;
+  /// Poses, the unknown ones and those held.
   std::vector<WindowFrame> frames;
+  /// Points in the world.
   std::vector<WindowPoint> points;
+  /// Who sees which point where.
   std::vector<WindowPointObservation> point_observations;
+  /// Text objects, by host and plane.
   std::vector<WindowText> texts;
+  /// Who sees which text.
   std::vector<WindowTextObservation> text_observations;
 };
 
 /// Settings of solve_window().
 struct WindowOptions {
+  /// Of every pixel of the texts.
   PhotometricOptions photometric;
   Robust point_robust{RobustKind::huber,
                       std::sqrt(5.99)};  ///< On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom.
+  /// How texts weigh against points: lambda_w.
   Weighting weighting = Weighting::variance;
   double sigma_rep = 1;      ///< px.
   double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
@@ -134,6 +145,7 @@ struct WindowOptions {
   /// just one frame is fixed; allowed with more (a known baseline). Ignored where both frames are fixed; -1: no such
   /// constraint.
   int scale_frame_a = -1;
+  /// Index into Window::frames of the other frame of that distance; -1: none.
   int scale_frame_b = -1;
 
   bool covariance = true;  ///< Compute WindowText::covariance and information, and the rank_deficient statuses.
@@ -149,6 +161,7 @@ struct WindowOptions {
 /// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state (the start,
 /// perhaps).
 struct WindowSummary {
+  /// Why it ended: see above.
   Status status = Status::too_few;
   double initial_cost = 0;  ///< E over what took part at the start.
   double final_cost =
@@ -161,7 +174,8 @@ struct WindowSummary {
   int gauge_freedom = 0;  ///< Degrees of freedom that no fixed frame or scale takes away: 7 a free-floating component,
                           ///< 1 a missing scale.
   int free_frames = 0;    ///< Frames adjusted.
-  int free_points = 0, free_texts = 0;
+  int free_points = 0;    ///< Points solved for.
+  int free_texts = 0;     ///< Texts solved for.
   int point_observations = 0;  ///< Took part.
   int text_observations = 0;   ///< Took part to the end.
   int undetermined = 0;        ///< Frames, points and texts with status rank_deficient.
