@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 67d248d148618e20
+// Hash of these files: 7f7b28f7f5050dab
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 67d248d148618e20"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 7f7b28f7f5050dab"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -6276,7 +6276,7 @@ struct PatchLevel {
   std::vector<float> intensity;  ///< Grey levels of the host there.
   std::vector<float> gx;         ///< Its gradient along x, grey levels a px.
   std::vector<float> gy;         ///< Likewise along y.
-  simd::PointBounds bounds;  ///< Of x and y. Whoever changes these in place calls find_bounds(), or clears it.
+  simd::PointBounds bounds;      ///< Of x and y. Whoever changes these in place calls find_bounds(), or clears it.
 
   /// Sets `bounds` by the positions.
   void find_bounds() noexcept { bounds = simd::point_bounds(x.data(), y.data(), static_cast<int>(x.size())); }
@@ -24989,18 +24989,18 @@ constexpr int kMaxPatchHalf = 10;
 /// Samples are rounded to 1/32 grey level, and upright ones are taken on a grid of 1/64 px: (dx, dy), at most half of
 /// that, is how far the point is from its sample.
 struct PatchTemplate {
-  int left = 0;     ///< Samples to the left of the centre.
-  int top = 0;      ///< Samples above it.
-  int columns = 0;  ///< Samples in a row.
-  int rows = 0;     ///< Rows of samples.
-  float dx = 0;  ///< From the centre sample to the point, px.
-  float dy = 0;  ///< Likewise.
-  float mean = 0;                   ///< Intensity.
-  float s = 0;                      ///< ||T - mean||, intensity.
-  float hxx = 0;  ///< J~^T J~, 1/px^2.
-  float hxy = 0;  ///< Likewise.
-  float hyy = 0;  ///< Likewise.
-  float min_eigenvalue = 0;         ///< Of J~^T J~: the position variance of a unit residual is its inverse.
+  int left = 0;              ///< Samples to the left of the centre.
+  int top = 0;               ///< Samples above it.
+  int columns = 0;           ///< Samples in a row.
+  int rows = 0;              ///< Rows of samples.
+  float dx = 0;              ///< From the centre sample to the point, px.
+  float dy = 0;              ///< Likewise.
+  float mean = 0;            ///< Intensity.
+  float s = 0;               ///< ||T - mean||, intensity.
+  float hxx = 0;             ///< J~^T J~, 1/px^2.
+  float hxy = 0;             ///< Likewise.
+  float hyy = 0;             ///< Likewise.
+  float min_eigenvalue = 0;  ///< Of J~^T J~: the position variance of a unit residual is its inverse.
   /// Of its making.
   Status status = Status::invalid_argument;
 

@@ -30,18 +30,18 @@ constexpr int kMaxPatchHalf = 10;
 /// Samples are rounded to 1/32 grey level, and upright ones are taken on a grid of 1/64 px: (dx, dy), at most half of
 /// that, is how far the point is from its sample.
 struct PatchTemplate {
-  int left = 0;     ///< Samples to the left of the centre.
-  int top = 0;      ///< Samples above it.
-  int columns = 0;  ///< Samples in a row.
-  int rows = 0;     ///< Rows of samples.
-  float dx = 0;  ///< From the centre sample to the point, px.
-  float dy = 0;  ///< Likewise.
-  float mean = 0;                   ///< Intensity.
-  float s = 0;                      ///< ||T - mean||, intensity.
-  float hxx = 0;  ///< J~^T J~, 1/px^2.
-  float hxy = 0;  ///< Likewise.
-  float hyy = 0;  ///< Likewise.
-  float min_eigenvalue = 0;         ///< Of J~^T J~: the position variance of a unit residual is its inverse.
+  int left = 0;              ///< Samples to the left of the centre.
+  int top = 0;               ///< Samples above it.
+  int columns = 0;           ///< Samples in a row.
+  int rows = 0;              ///< Rows of samples.
+  float dx = 0;              ///< From the centre sample to the point, px.
+  float dy = 0;              ///< Likewise.
+  float mean = 0;            ///< Intensity.
+  float s = 0;               ///< ||T - mean||, intensity.
+  float hxx = 0;             ///< J~^T J~, 1/px^2.
+  float hxy = 0;             ///< Likewise.
+  float hyy = 0;             ///< Likewise.
+  float min_eigenvalue = 0;  ///< Of J~^T J~: the position variance of a unit residual is its inverse.
   /// Of its making.
   Status status = Status::invalid_argument;
 

@@ -43,7 +43,7 @@ struct PatchLevel {
   std::vector<float> intensity;  ///< Grey levels of the host there.
   std::vector<float> gx;         ///< Its gradient along x, grey levels a px.
   std::vector<float> gy;         ///< Likewise along y.
-  simd::PointBounds bounds;  ///< Of x and y. Whoever changes these in place calls find_bounds(), or clears it.
+  simd::PointBounds bounds;      ///< Of x and y. Whoever changes these in place calls find_bounds(), or clears it.
 
   /// Sets `bounds` by the positions.
   void find_bounds() noexcept { bounds = simd::point_bounds(x.data(), y.data(), static_cast<int>(x.size())); }
