@@ -77,6 +77,9 @@ all_stages() {
     checked coverage-of-include coverage
   fi
   checked mutants "$root/tests/mutants/run"
-  if needs fuzz clang++; then checked fuzz "$root/tests/fuzz/run" --seconds 1800; fi
+  if needs fuzz clang++; then
+    checked fuzz-fast "$root/tests/fuzz/run" --fast --seconds 900
+    checked fuzz "$root/tests/fuzz/run" --seconds 900
+  fi
   checked soak "$root/tests/soak/run" --build "$root/build/release"
 }

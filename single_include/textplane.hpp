@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 7f7b28f7f5050dab
+// Hash of these files: c004a56c5ea56577
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 7f7b28f7f5050dab"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 c004a56c5ea56577"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -920,7 +920,8 @@ Vector3<S> plane_point(const Vector3<S>& theta, const Vector3<S>& m) noexcept {
 ///
 /// J_theta (3 x 3): d theta' / d theta = (I - theta' t^T) R / k. J_pose (3 x 6): d theta' / d xi for the left
 /// perturbation T_t_h <- Exp(xi) T_t_h, xi = (v, omega): [-theta' theta'^T, -[theta']x]. behind_camera where k <= 0
-/// (the target centre lies on the plane or beyond it), non_finite for NaN; outputs untouched.
+/// (the target centre lies on the plane or beyond it), non_finite for NaN and
+/// for overflow, of the derivatives too where they are asked for; outputs untouched.
 template <class S>
 Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* out, Matrix3<S>* J_theta = nullptr,
                       Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {
@@ -930,11 +931,19 @@ Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* 
   // k is the plane's distance from the target over its distance from the host: a rounding error of zero counts as zero.
   if (!(k > S(8) * std::numeric_limits<S>::epsilon())) return Status::behind_camera;
   const Vector3<S> result = a / k;
-  if (J_theta) *J_theta = (Matrix3<S>::Identity() - result * T_t_h.t.transpose()) * T_t_h.R / k;
+  if (!all_finite(result)) return Status::non_finite;
+  Matrix3<S> by_theta, outer;
+  if (J_theta) {
+    by_theta = (Matrix3<S>::Identity() - result * T_t_h.t.transpose()) * T_t_h.R / k;
+    if (!all_finite(by_theta)) return Status::non_finite;
+  }
   if (J_pose) {
-    J_pose->template leftCols<3>() = -(result * result.transpose());
+    outer = result * result.transpose();
+    if (!all_finite(outer)) return Status::non_finite;
+    J_pose->template leftCols<3>() = -outer;
     J_pose->template rightCols<3>() = -hat(result);
   }
+  if (J_theta) *J_theta = by_theta;
   *out = result;
   return Status::ok;
 }
@@ -973,7 +982,9 @@ Status plane_homography_inverse(const Vector3<S>& theta, const SE3<S>& T_t_h, Ma
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) back(i, j) = T_t_h.R(j, i);
   const Matrix3<S> shear = Matrix3<S>::Identity() - T_t_h.t * theta_t.transpose();
-  *H_h_t = product(back, shear);
+  const Matrix3<S> inverse = product(back, shear);
+  if (!all_finite(inverse)) return Status::non_finite;
+  *H_h_t = inverse;
   return status;
 }
 
@@ -1007,8 +1018,8 @@ struct WarpJacobians {
   Eigen::Matrix<S, 2, 3> theta;  ///< By theta.
 };
 
-/// m' of m~ through the plane, both depths checked: rho > 0 and q_z > 0, else behind_camera; non_finite for NaN.
-/// Outputs are untouched on failure.
+/// m' of m~ through the plane, both depths checked: rho > 0 and q_z > 0, else behind_camera; non_finite for NaN and
+/// for overflow, of the derivatives too where they are asked for. Outputs are untouched on failure.
 ///
 /// dq = omega x q + rho v + t (m~ . dtheta) and dm' = P dq, P = (1/q_z) [I | -m'], so
 /// pose = P [rho I, -[q]x] and theta = (P t) m~^T.
@@ -1025,10 +1036,13 @@ Status warp_point(const Vector3<S>& theta, const SE3<S>& T_t_h, const Vector3<S>
   if (J) {
     Eigen::Matrix<S, 2, 3> P;
     P << iz, S(0), -warped[0] * iz, S(0), iz, -warped[1] * iz;
-    J->pose.template leftCols<3>() = rho * P;
-    J->pose.template rightCols<3>() = -(P * hat(q));
+    WarpJacobians<S> derivatives;
+    derivatives.pose.template leftCols<3>() = rho * P;
+    derivatives.pose.template rightCols<3>() = -(P * hat(q));
     const Vector2<S> Pt = P * T_t_h.t;
-    J->theta = Pt * m.transpose();
+    derivatives.theta = Pt * m.transpose();
+    if (!all_finite(derivatives.pose) || !all_finite(derivatives.theta)) return Status::non_finite;
+    *J = derivatives;
   }
   *out = warped;
   return Status::ok;

@@ -92,6 +92,7 @@ TEST_F(KeyframeCullingTest, WhatGoesLeavesNoTrace) {
   add_text(TextState::mapped, 20, 30);
   keep_others(0, 2, 1);  // is left with one observation
   Track track;
+  track.px = {5, 4};
   track.observations = {{1, {3, 4}}, {2, {4, 4}}, {3, {5, 4}}};
   std::vector<Track> tracks = {track};
   cull_keyframe(map, 2, tracks);

@@ -132,6 +132,30 @@ tp::Vector2<S> warped(const tp::Vector3<S>& theta, const tp::SE3<S>& T, const tp
   return out;
 }
 
+TEST(Homography, AnInverseThatOverflowsIsNoSuccess) {
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Constant(7);
+  const tp::SE3d T{Eigen::Matrix3d::Identity(), Vector3d(1e150, 0, 0)};
+  EXPECT_EQ(tp::plane_homography_inverse(Vector3d(0, 0, 1e200), T, &inverse), tp::Status::non_finite);
+  EXPECT_EQ(inverse, Eigen::Matrix3d::Constant(7)) << "untouched";
+}
+
+// A depth so small that the point is still a number and its derivatives are none.
+TEST(WarpJacobian, OverflowIsNoSuccess) {
+  const tp::SE3d T{Eigen::Matrix3d::Identity(), Vector3d(1e200, 0, 0)};
+  const Vector3d m(0, 0, 1e-150), theta(0, 0, 1);
+  Vector2d out;
+  ASSERT_EQ(tp::warp_point(theta, T, m, &out), tp::Status::ok) << "without derivatives";
+  EXPECT_NEAR(out[0] / 1e200, 1, 1e-12);
+  out = {7, 7};
+  tp::WarpJacobians<double> J;
+  J.pose.setConstant(7);
+  J.theta.setConstant(7);
+  EXPECT_EQ(tp::warp_point(theta, T, m, &out, &J), tp::Status::non_finite);
+  EXPECT_EQ(out, Vector2d(7, 7)) << "untouched";
+  EXPECT_EQ(J.pose, decltype(J.pose)::Constant(7));
+  EXPECT_EQ(J.theta, decltype(J.theta)::Constant(7));
+}
+
 TEST(WarpJacobian, RelativePoseAndTheta) {
   Random random(4);
   for (int i = 0; i < 50; ++i) {

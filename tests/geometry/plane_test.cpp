@@ -124,6 +124,22 @@ TYPED_TEST(Plane, ReanchoringRoundTrips) {
   }
 }
 
+TEST(PlaneTest, DerivativesThatOverflowAreNoSuccess) {
+  const Vector3d theta(0, 0, 1e200);
+  const tp::SE3d T{Eigen::Matrix3d::Identity(), Vector3d(1e150, 0, 0)};
+  Vector3d out;
+  ASSERT_EQ(tp::reanchor_plane(theta, T, &out), tp::Status::ok) << "without derivatives";
+  EXPECT_EQ(out, theta);
+  out.setConstant(7);
+  Eigen::Matrix3d J_theta = Eigen::Matrix3d::Constant(7);
+  Eigen::Matrix<double, 3, 6> J_pose = Eigen::Matrix<double, 3, 6>::Constant(7);
+  EXPECT_EQ(tp::reanchor_plane(theta, T, &out, &J_theta), tp::Status::non_finite);
+  EXPECT_EQ(tp::reanchor_plane<double>(theta, T, &out, nullptr, &J_pose), tp::Status::non_finite);
+  EXPECT_EQ(out, Vector3d::Constant(7)) << "untouched";
+  EXPECT_EQ(J_theta, Eigen::Matrix3d::Constant(7));
+  EXPECT_EQ(J_pose, decltype(J_pose)::Constant(7));
+}
+
 TEST(PlaneTest, ReanchorJacobians) {
   Random random(4);
   for (int i = 0; i < 20; ++i) {

@@ -33,7 +33,9 @@ Status plane_homography_inverse(const Vector3<S>& theta, const SE3<S>& T_t_h, Ma
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) back(i, j) = T_t_h.R(j, i);
   const Matrix3<S> shear = Matrix3<S>::Identity() - T_t_h.t * theta_t.transpose();
-  *H_h_t = product(back, shear);
+  const Matrix3<S> inverse = product(back, shear);
+  if (!all_finite(inverse)) return Status::non_finite;
+  *H_h_t = inverse;
   return status;
 }
 
@@ -67,8 +69,8 @@ struct WarpJacobians {
   Eigen::Matrix<S, 2, 3> theta;  ///< By theta.
 };
 
-/// m' of m~ through the plane, both depths checked: rho > 0 and q_z > 0, else behind_camera; non_finite for NaN.
-/// Outputs are untouched on failure.
+/// m' of m~ through the plane, both depths checked: rho > 0 and q_z > 0, else behind_camera; non_finite for NaN and
+/// for overflow, of the derivatives too where they are asked for. Outputs are untouched on failure.
 ///
 /// dq = omega x q + rho v + t (m~ . dtheta) and dm' = P dq, P = (1/q_z) [I | -m'], so
 /// pose = P [rho I, -[q]x] and theta = (P t) m~^T.
@@ -85,10 +87,13 @@ Status warp_point(const Vector3<S>& theta, const SE3<S>& T_t_h, const Vector3<S>
   if (J) {
     Eigen::Matrix<S, 2, 3> P;
     P << iz, S(0), -warped[0] * iz, S(0), iz, -warped[1] * iz;
-    J->pose.template leftCols<3>() = rho * P;
-    J->pose.template rightCols<3>() = -(P * hat(q));
+    WarpJacobians<S> derivatives;
+    derivatives.pose.template leftCols<3>() = rho * P;
+    derivatives.pose.template rightCols<3>() = -(P * hat(q));
     const Vector2<S> Pt = P * T_t_h.t;
-    J->theta = Pt * m.transpose();
+    derivatives.theta = Pt * m.transpose();
+    if (!all_finite(derivatives.pose) || !all_finite(derivatives.theta)) return Status::non_finite;
+    *J = derivatives;
   }
   *out = warped;
   return Status::ok;

@@ -75,7 +75,8 @@ Vector3<S> plane_point(const Vector3<S>& theta, const Vector3<S>& m) noexcept {
 ///
 /// J_theta (3 x 3): d theta' / d theta = (I - theta' t^T) R / k. J_pose (3 x 6): d theta' / d xi for the left
 /// perturbation T_t_h <- Exp(xi) T_t_h, xi = (v, omega): [-theta' theta'^T, -[theta']x]. behind_camera where k <= 0
-/// (the target centre lies on the plane or beyond it), non_finite for NaN; outputs untouched.
+/// (the target centre lies on the plane or beyond it), non_finite for NaN and
+/// for overflow, of the derivatives too where they are asked for; outputs untouched.
 template <class S>
 Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* out, Matrix3<S>* J_theta = nullptr,
                       Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {
@@ -85,11 +86,19 @@ Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* 
   // k is the plane's distance from the target over its distance from the host: a rounding error of zero counts as zero.
   if (!(k > S(8) * std::numeric_limits<S>::epsilon())) return Status::behind_camera;
   const Vector3<S> result = a / k;
-  if (J_theta) *J_theta = (Matrix3<S>::Identity() - result * T_t_h.t.transpose()) * T_t_h.R / k;
+  if (!all_finite(result)) return Status::non_finite;
+  Matrix3<S> by_theta, outer;
+  if (J_theta) {
+    by_theta = (Matrix3<S>::Identity() - result * T_t_h.t.transpose()) * T_t_h.R / k;
+    if (!all_finite(by_theta)) return Status::non_finite;
+  }
   if (J_pose) {
-    J_pose->template leftCols<3>() = -(result * result.transpose());
+    outer = result * result.transpose();
+    if (!all_finite(outer)) return Status::non_finite;
+    J_pose->template leftCols<3>() = -outer;
     J_pose->template rightCols<3>() = -hat(result);
   }
+  if (J_theta) *J_theta = by_theta;
   *out = result;
   return Status::ok;
 }
