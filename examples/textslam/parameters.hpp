@@ -49,7 +49,7 @@ struct Parameters {
   int keyframe_min_gap = 3;         ///< Frames.
   double keyframe_flow = 25;        ///< px: median motion of the points since the last key frame.
   double keyframe_min_share = 0.7;  ///< Of the last key frame's points still tracked.
-  int redundant_views = 12;         ///< Of a point or text in other key frames; one whose points
+  int redundant_views = 20;         ///< Of a point or text in other key frames; one whose points
   double redundant_share = 0.9;     ///< have as many, this share of them, is culled.
 
   // Points
