@@ -16,6 +16,10 @@ class Initialiser {
   /// Takes the next frame. True when `map` now holds two key frames (the reference and this frame) and their points, and
   /// `tracks` the corners in this frame. The map's median depth is 1.
   bool add(const Frame& frame, Map& map, std::vector<Track>* tracks);
+  /// Of a frame added before: they matter if it is the reference.
+  void add_detections(int frame, const std::vector<Detection>& detections) {
+    if (reference_.index == frame) reference_.detections = detections;
+  }
   /// The next frame begins anew.
   void forget() { tracks_.clear(); }
 

@@ -13,7 +13,7 @@ enum class Mode {
 
 struct Parameters {
   Mode mode = Mode::text;
-  bool real_time = false;  ///< Local adjustment on a thread of its own; what comes out depends on its timing.
+  bool real_time = false;  ///< Adjustment and detector on threads of their own; what comes out depends on their timing.
 
   // Images
   int pyramid_levels = 4;

@@ -9,6 +9,7 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "io/output_file.hpp"
+#include "textslam/detection_thread.hpp"
 #include "textslam/frame_line.hpp"
 #include "textslam/progress.hpp"
 #include "textslam/report.hpp"
@@ -18,7 +19,9 @@
 namespace textslam {
 namespace {
 
-// Loads, detects and undistorts; frame indices count from the run's first frame.
+using RawImage = DetectionThread::RawImage;
+
+// Loads, detects and undistorts; frame indices count from the run's first frame. detect() may be called by another thread.
 class FrameSource {
  public:
   FrameSource(const Sequence& sequence, const RunOptions& options)
@@ -28,26 +31,25 @@ class FrameSource {
         undistort_(sequence.camera),
         detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)) {}
 
-  Frame load(int index, double* detect_ms) {
-    const std::size_t at = first_ + static_cast<std::size_t>(index);
-    const Image<std::uint8_t> raw = load_frame(sequence_, at);
+  RawImage load(int index) const {
+    return std::make_shared<const Image<std::uint8_t>>(load_frame(sequence_, at(index)));
+  }
+  std::vector<Detection> detect(int index, const Image<std::uint8_t>& raw) {
+    return undistort_(detector_->detect(sequence_.frames[at(index)], raw.view()));
+  }
+  Frame frame(int index, const Image<std::uint8_t>& raw) const {
     Frame frame;
     frame.index = index;
-    frame.timestamp = sequence_.frames[at].timestamp;
-    const double start = now_ms();
-    if (parameters_.mode != Mode::points)
-      frame.detections = undistort_(detector_->detect(sequence_.frames[at], raw.view()));
-    if (detect_ms) *detect_ms = now_ms() - start;
+    frame.timestamp = sequence_.frames[at(index)].timestamp;
     frame.image = pyramid(raw);
     return frame;
   }
 
-  std::shared_ptr<const Pyramid> image(int index) {
-    return pyramid(load_frame(sequence_, first_ + static_cast<std::size_t>(index)));
-  }
+  std::shared_ptr<const Pyramid> image(int index) { return pyramid(load_frame(sequence_, at(index))); }
 
  private:
-  std::shared_ptr<const Pyramid> pyramid(const Image<std::uint8_t>& raw) {
+  std::size_t at(int index) const { return first_ + static_cast<std::size_t>(index); }
+  std::shared_ptr<const Pyramid> pyramid(const Image<std::uint8_t>& raw) const {
     const Image<std::uint8_t> image = undistort_(raw);
     return std::make_shared<const Pyramid>(image.view(), parameters_.pyramid_levels);
   }
@@ -87,6 +89,50 @@ class Clock {
   std::vector<double> latency_ms_;
 };
 
+// Detection in step with the frames, or, in real time, beside them: files are read in no time, and stay in step.
+class Detections {
+ public:
+  Detections(FrameSource& source, const RunOptions& options) : source_(source) {
+    const Parameters& parameters = options.parameters;
+    if (parameters.mode == Mode::points) return;
+    const bool in_no_time = !options.own_detector && options.detector.name == "files";
+    if (!parameters.real_time || in_no_time) {
+      in_step_ = true;
+    } else {
+      thread_ = std::make_unique<DetectionThread>(
+          [&source](int index, const Image<std::uint8_t>& raw) { return source.detect(index, raw); });
+    }
+  }
+
+  /// Before the frame is processed. Returns the ms it took.
+  double before(Frame& frame, const Image<std::uint8_t>& raw, System& system) {
+    of_frames_.emplace_back();
+    if (thread_)
+      for (DetectionThread::Result& result : thread_->collect()) {
+        of_frames_[static_cast<std::size_t>(result.frame)] = result.detections;
+        system.add_detections(result.frame, std::move(result.detections), result.ms);
+      }
+    if (!in_step_) return 0;
+    const double start = now_ms();
+    frame.detections = of_frames_.back() = source_.detect(frame.index, raw);
+    return now_ms() - start;
+  }
+  void after(int index, const RawImage& raw, const Map& map) {
+    if (!thread_) return;
+    const bool keyframe = !map.keyframes.empty() && map.keyframes.back().frame.index == index;
+    thread_->offer(index, raw, keyframe);
+  }
+  void end() { thread_.reset(); }
+  /// By the index of the frame.
+  const std::vector<std::vector<Detection>>& of_frames() const { return of_frames_; }
+
+ private:
+  FrameSource& source_;
+  bool in_step_ = false;
+  std::vector<std::vector<Detection>> of_frames_;
+  std::unique_ptr<DetectionThread> thread_;
+};
+
 // Broken input ends a step but not the run: what was computed is written. The first message is the one reported.
 template <class Step>
 void keep_going(RunResult& result, Step step) {
@@ -114,16 +160,17 @@ RunResult run(const RunOptions& options) {
   const int total = last - options.first + 1;
   System system(sequence.camera.pinhole, sequence.camera.width, sequence.camera.height, options.parameters);
   Clock clock(options.parameters.real_time);
-  std::vector<std::vector<Detection>> detections;
+  Detections detections(source, options);
   keep_going(result, [&] {
     Progress progress("tracking");
     for (int index = 0; index < total && !result.interrupted; ++index) {
-      double detect_ms = 0;
       clock.wait_for(sequence.frames[static_cast<std::size_t>(options.first + index)].timestamp);
-      const Frame frame = source.load(index, &detect_ms);
+      const RawImage raw = source.load(index);
+      Frame frame = source.frame(index, *raw);
+      const double detect_ms = detections.before(frame, *raw, system);
       const FrameRecord& record = system.process(frame, detect_ms);
       clock.done();
-      detections.push_back(frame.detections);
+      detections.after(index, raw, system.map());
       progress.show(static_cast<std::size_t>(index + 1), static_cast<std::size_t>(total),
                     std::string(to_string(record.state)) + ", " + std::to_string(record.points) + " points, " +
                         std::to_string(record.texts) + " texts");
@@ -133,8 +180,9 @@ RunResult run(const RunOptions& options) {
       result.error = "interrupted after frame " + std::to_string(index) + "; what was computed is in " + options.output;
     }
   });
+  detections.end();
   system.finish();
-  keep_going(result, [&] { system.fill_in([&](int index) { return source.load(index, nullptr); }); });
+  keep_going(result, [&] { system.fill_in([&](int index) { return source.frame(index, *source.load(index)); }); });
   RunSummary& summary = result.summary;
   summary = summarise(system, sequence, static_cast<std::size_t>(total));
   summary.latency_ms = clock.latency_ms();
@@ -158,7 +206,7 @@ RunResult run(const RunOptions& options) {
                               sequence,
                               summary,
                               signs,
-                              detections,
+                              detections.of_frames(),
                               [&](int index) { return source.image(index); },
                               options.command,
                               options.first};

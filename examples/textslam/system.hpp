@@ -2,6 +2,7 @@
 //
 // Frame -> (initialiser | tracker | recovery) -> key frame? -> points, text, local adjustment. Without random draws, and
 // single-threaded but for the local adjustment in real time (adjuster.hpp): without that the same frames give the same bytes.
+// Detections may come with their frame or after it (add_detections()).
 //
 // Redundant key frames are culled (keyframe_culling.hpp): what it knows grows with the ground seen, not with time.
 //
@@ -64,6 +65,11 @@ class System {
   /// `detect_ms` is what the detector took, for the record.
   const FrameRecord& process(const Frame& frame, double detect_ms = 0);
 
+  /// What a detector on a thread of its own found in a frame that was taken before, by its index. In a key frame of the map
+  /// new texts begin with it; in another frame tracked in the map it counts for the texts that are known. Frames of another
+  /// map, and of a key frame that was culled, are past. Only between two calls of process(), and before finish().
+  void add_detections(int frame, std::vector<Detection> detections, double detect_ms);
+
   /// Gives poses to frames before the map began or was found again, by tracking them backwards from the frame after them.
   /// `load` returns the frame of an index again.
   void fill_in(const std::function<Frame(int)>& load);
@@ -95,6 +101,9 @@ class System {
   void join_stored(const Frame& frame, FrameRecord& record);
   void join(std::size_t stored, const MapLink& link);
   void keep_largest();
+
+  // system_detections.cpp
+  void host_late(int id);
 
   // system_loops.cpp
   void close_loops(FrameRecord& record);

@@ -15,7 +15,8 @@ namespace textslam {
 class TextDetector {
  public:
   virtual ~TextDetector() = default;
-  /// Quads in raw image pixels, clockwise from the text's top left. May throw InputError. Called by one thread at a time.
+  /// Quads in raw image pixels, clockwise from the text's top left. May throw InputError. Called by one thread at a time, not always
+  /// the one that made it.
   virtual std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) = 0;
 };
 
