@@ -1,9 +1,11 @@
-// textslam-detect: runs a text detector alone, and writes what it finds in the format that `--detector files` reads.
+// textslam-detect: runs a text detector alone, writes what it finds in the format that `--detector files` reads, and counts
+// how much of it is right.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
+#include "io/evaluate_detections.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
@@ -29,37 +31,45 @@ int execute(int argc, char** argv) {
   std::vector<std::string> inputs;
   std::string output;
   std::size_t every = 1;
+  bool evaluate = false;
   textslam::SequenceOptions input_options;
   input_options.needs_camera = false;
   textslam::DetectorOptions detector;
   detector.name = "classical";
   CLI::App app{"Finds text in images: OUTPUT/<image stem>.txt, x1,y1,x2,y2,x3,y3,x4,y4,text a line (ICDAR)."};
   app.add_option("INPUT", inputs, "Images, folders with sequences or of images, and videos")->required();
-  app.add_option("--output", output, "Folder for the detections")->required();
+  const CLI::Option* const writes = app.add_option("--output", output, "Folder for the detections");
+  app.add_flag("--evaluate", evaluate,
+               "Compare with the truth, of a rendered sequence or ICDAR's gt_<stem>.txt, at an overlap (IoU) of 0.5");
   app.add_option("--every", every, "Of a sequence: one frame of so many")->check(CLI::PositiveNumber);
   app.add_option("--detections", input_options.detections,
                  "Of --detector files: their folder, if not the sequence's own");
   textslam::add_detector_options(app, detector);
   try {
     app.parse(argc, argv);
+    if (writes->empty() && !evaluate) throw CLI::RequiredError("--output or --evaluate");
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "textslam-detect: %s (see textslam-detect --help)\n", error.what());
     return kInputError;
   }
+  textslam::DetectionCounts counts;
   for (const std::string& input : inputs) {
     const textslam::Sequence sequence = read_input(input, input_options);
     const auto detect = textslam::make_detector(detector, sequence);
-    textslam::create_output_folder(output);
+    if (!output.empty()) textslam::create_output_folder(output);
     textslam::Progress progress("detecting");
     for (std::size_t i = 0; i < sequence.frames.size(); i += every) {
       const textslam::FrameRef& frame = sequence.frames[i];
       const textslam::Image<std::uint8_t> image = textslam::load_image(sequence, i);
-      textslam::write_detections(output + "/" + frame.stem + ".txt", detect->detect(frame, image.view()));
+      const std::vector<textslam::Detection> found = detect->detect(frame, image.view());
+      if (!output.empty()) textslam::write_detections(output + "/" + frame.stem + ".txt", found);
+      if (evaluate) textslam::count_detections(textslam::read_true_texts(sequence, frame), found, &counts);
       progress.show(i + 1, sequence.frames.size(), frame.stem);
     }
   }
+  if (evaluate) std::printf("%s\n", textslam::format_counts(counts).c_str());
   return 0;
 }
 
