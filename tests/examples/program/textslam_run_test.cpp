@@ -335,6 +335,17 @@ TEST_F(TextslamRun, RealTime) {
   EXPECT_FALSE(json_of(output("timing.json")).at("stages").contains("latency")) << "of a run that was not in real time";
 }
 
+// Detections come late then, and signs are mapped all the same; the sequence's own are not looked at.
+TEST_F(TextslamRun, RealTimeWithADetectorBesideIt) {
+  expect_success(run(room(), "beside", {"--real-time", "--detector", "classical"}));
+  expect_all_outputs(folder_->path("beside"));
+  const Json metrics = json_of(folder_->path("beside/metrics.json"));
+  EXPECT_GE(metrics.at("coverage").get<double>(), 0.9);
+  const Json& trajectory = metrics.at("trajectory");
+  EXPECT_LE(trajectory.at("ate_rmse").get<double>(), 0.01 * trajectory.at("path_length").get<double>());
+  EXPECT_GE(metrics.at("text").at("signs_mapped").get<int>(), 1);
+}
+
 // In real time the run takes longer than it is given; what came before the signal is written.
 TEST_F(TextslamRun, AnInterruptKeepsWhatIsComputed) {
   for (const char* signal : {"INT", "TERM"}) {
