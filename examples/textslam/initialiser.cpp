@@ -4,6 +4,7 @@
 
 #include "textslam/adjustment.hpp"
 #include "textslam/feature_tracks.hpp"
+#include "textslam/late_corners.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/rotation_prior.hpp"
 #include "textslam/two_view.hpp"
@@ -18,6 +19,22 @@ void Initialiser::restart(const Frame& frame) {
     for (const Detection& detection : frame.detections) quads.push_back(detection.quad);
   add_corners(frame, 0, quads, parameters_, tracks_);
   frames_ = ambiguous_ = 0;
+}
+
+void Initialiser::add_detections(int frame, std::vector<Detection> detections) {
+  if (tracks_.empty() || reference_.index != frame) return;
+  reference_.detections = std::move(detections);
+  if (parameters_.mode != Mode::text) return;
+  std::vector<Quad<double>> quads;
+  for (const Detection& detection : reference_.detections) quads.push_back(detection.quad);
+  std::vector<Track> then = tracks_;
+  std::vector<Vec2f> now;
+  for (Track& track : then) {
+    now.push_back(track.px);
+    track.px = track.observations.front().px.cast<float>();
+  }
+  const std::vector<Track> corners = late_corners(reference_, 0, quads, then, now, last_, parameters_);
+  tracks_.insert(tracks_.end(), corners.begin(), corners.end());
 }
 
 bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) {

@@ -17,9 +17,7 @@ class Initialiser {
   /// `tracks` the corners in this frame. The map's median depth is 1.
   bool add(const Frame& frame, Map& map, std::vector<Track>* tracks);
   /// Of a frame added before: they matter if it is the reference.
-  void add_detections(int frame, const std::vector<Detection>& detections) {
-    if (reference_.index == frame) reference_.detections = detections;
-  }
+  void add_detections(int frame, std::vector<Detection> detections);
   /// The next frame begins anew.
   void forget() { tracks_.clear(); }
 

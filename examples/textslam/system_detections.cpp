@@ -1,7 +1,7 @@
 // System, the part that takes detections which come after their frame was tracked.
 #include <algorithm>
 
-#include "textslam/feature_tracks.hpp"
+#include "textslam/late_corners.hpp"
 #include "textslam/system.hpp"
 
 namespace textslam {
@@ -37,26 +37,13 @@ std::vector<Track> tracks_in_keyframe(const Map& map, int id, const std::vector<
   return in_keyframe;
 }
 
-// Where a corner of the key frame is now: moved as the corner nearest to it that was followed.
-Vec2f guess(const Vec2f& px, const std::vector<Track>& then, const std::vector<Vec2f>& now) {
-  Vec2f moved = px;
-  float nearest = -1;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const float distance = (then[i].px - px).squaredNorm();
-    if (nearest >= 0 && distance >= nearest) continue;
-    nearest = distance;
-    moved = px + now[i] - then[i].px;
-  }
-  return moved;
-}
-
 }  // namespace
 
 void System::add_detections(int frame, std::vector<Detection> detections, double detect_ms) {
   FrameRecord& record = records_[static_cast<std::size_t>(frame)];
   record.detect_ms = detect_ms;
   if (parameters_.mode == Mode::points) return;
-  if (map_.keyframes.empty()) return initialiser_.add_detections(frame, detections);
+  if (map_.keyframes.empty()) return initialiser_.add_detections(frame, std::move(detections));
   if (record.state != FrameState::tracked || record.map != map_.number) return;
 
   const auto newest_first = std::find_if(map_.keyframes.rbegin(), map_.keyframes.rend(),
@@ -89,12 +76,7 @@ void System::host_late(int id) {
 
   std::vector<Quad<double>> quads;
   for (const Detection& detection : fresh) quads.push_back(detection.quad);
-  std::vector<Track> corners = then;
-  add_corners(host.frame, id, quads, parameters_, corners);
-  corners.erase(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(then.size()));
-  std::vector<Vec2f> guesses;
-  for (const Track& corner : corners) guesses.push_back(guess(corner.px, then, now));
-  advance_tracks(host.frame, tracker_->frame(), guesses, parameters_, corners);
+  const std::vector<Track> corners = late_corners(host.frame, id, quads, then, now, tracker_->frame(), parameters_);
 
   std::vector<Track>& tracks = tracker_->tracks();
   for (const Detection& detection : fresh) {

@@ -16,7 +16,7 @@ namespace late_detections_test {
 
 class LateDetections : public testing::Test {
  protected:
-  static constexpr int kFrames = 64;
+  static constexpr int kFrames = 90;
 
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
