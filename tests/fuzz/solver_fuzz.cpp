@@ -65,7 +65,9 @@ void pose(Input& in) {
     if (!tp::is_ok(fit.status)) return;
     TEXTPLANE_FUZZ_REQUIRE(finite(fit.T_t_w) && tp::is_finite(fit.cost) && fit.cost >= 0 &&
                            std::abs(fit.zncc) <= 1.0001);
-    if (text_count > 0 || options.coarsest_level > 0) return;  // the visible pixels may differ
+    if (text_count > 0 || options.coarsest_level > 0) return;  // the visible pixels may differ,
+    for (const float c : chi2)
+      if (c < 0) return;  // and a point behind the camera may come before it
     const tp::PoseFit again = tp::refine_pose(nullptr, 0, points.data(), point_count, world.target.view(), world.camera,
                                               fit.T_t_w, options, workspace);
     TEXTPLANE_FUZZ_REQUIRE(!tp::is_ok(again.status) || again.cost <= fit.cost * (1 + 1e-9) + 1e-12);
