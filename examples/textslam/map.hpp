@@ -110,7 +110,7 @@ struct Map {
 
 /// A corner followed from frame to frame.
 struct Track {
-  Vec2f px;
+  Vec2f px = Vec2f::Zero();
   int point = -1;                              ///< Id of its map point, -1 while it has none.
   std::vector<PointObservation> observations;  ///< In key frames, while it has no point.
   bool inlier = true;                          ///< Of the last pose.
