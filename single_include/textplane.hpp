@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: c004a56c5ea56577
+// Hash of these files: acbad03d2f790198
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 c004a56c5ea56577"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 acbad03d2f790198"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -1651,8 +1651,11 @@ ConvexPolygon<S> clip_to_image(const Quad<S>& quad, int width, int height) noexc
 template <class S>
 S iou(const Quad<S>& a, const Quad<S>& b) noexcept {
   const ConvexPolygon<S> ha = convex_hull(a), hb = convex_hull(b);
-  const S common = area(intersection(ha, hb));
-  return common > S(0) ? common / (area(ha) + area(hb) - common) : S(0);
+  const S area_a = area(ha), area_b = area(hb), smaller = area_b < area_a ? area_b : area_a;
+  S common = area(intersection(ha, hb));
+  if (!(common > S(0))) return S(0);
+  if (common > smaller) common = smaller;  // by rounding, where they are slivers
+  return common / (area_a + area_b - common);
 }
 
 /// Pixel of level 0 in the pixels of pyramid level l: (x + 0.5) / 2^l - 0.5.

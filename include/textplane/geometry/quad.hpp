@@ -250,8 +250,11 @@ ConvexPolygon<S> clip_to_image(const Quad<S>& quad, int width, int height) noexc
 template <class S>
 S iou(const Quad<S>& a, const Quad<S>& b) noexcept {
   const ConvexPolygon<S> ha = convex_hull(a), hb = convex_hull(b);
-  const S common = area(intersection(ha, hb));
-  return common > S(0) ? common / (area(ha) + area(hb) - common) : S(0);
+  const S area_a = area(ha), area_b = area(hb), smaller = area_b < area_a ? area_b : area_a;
+  S common = area(intersection(ha, hb));
+  if (!(common > S(0))) return S(0);
+  if (common > smaller) common = smaller;  // by rounding, where they are slivers
+  return common / (area_a + area_b - common);
 }
 
 /// Pixel of level 0 in the pixels of pyramid level l: (x + 0.5) / 2^l - 0.5.
