@@ -344,7 +344,7 @@ TEST_F(LayoutTest, Video) {
   EXPECT_EQ(frame_name(sequence, 3), "a film.y4m#000003");
   EXPECT_FALSE(sequence.has_detections);
   EXPECT_TRUE(read_detections(sequence, sequence.frames[0]).empty());
-  for (const std::size_t i : {0, 1, 4, 3, 0, 2, 2, 4, 1}) {
+  for (const std::size_t i : std::vector<std::size_t>{0, 1, 4, 3, 0, 2, 2, 4, 1}) {
     EXPECT_EQ(load_frame(sequence, i)(7, 5), 40 + 10 * i);
     EXPECT_DOUBLE_EQ(sequence.frames[i].timestamp, static_cast<double>(i) / 25);
   }
