@@ -31,6 +31,17 @@ struct Best {
   bool good(int distance, double ratio) const { return key >= 0 && first <= distance && first <= ratio * second; }
 };
 
+// The pairs that are each other's best.
+Matches mutual(const std::vector<Best>& from_a, const std::vector<Best>& from_b, double ratio) {
+  Matches out;
+  for (std::size_t i = 0; i < from_a.size(); ++i) {
+    if (!from_a[i].good(50, ratio)) continue;
+    const auto k = static_cast<std::size_t>(from_a[i].key);
+    if (from_b[k].key == static_cast<int>(i)) out.emplace_back(i, k);
+  }
+  return out;
+}
+
 }  // namespace
 
 void extract(const Camera& camera, Frame& frame) {
@@ -110,13 +121,7 @@ Matches match_by_descriptor(const Frame& a, const Frame& b, bool with_points, do
       from_b[k].offer(d, i);
     }
   }
-  Matches out;
-  for (std::size_t i = 0; i < a.keys.size(); ++i) {
-    if (!from_a[i].good(50, ratio)) continue;
-    const auto k = static_cast<std::size_t>(from_a[i].key);
-    if (from_b[k].key == static_cast<int>(i)) out.emplace_back(i, k);
-  }
-  return out;
+  return mutual(from_a, from_b, ratio);
 }
 
 Matches match_along_lines(const Camera& camera, const Frame& a, const Frame& b) {
@@ -140,13 +145,7 @@ Matches match_along_lines(const Camera& camera, const Frame& a, const Frame& b) 
       from_b[k].offer(d, i);
     }
   }
-  Matches out;
-  for (std::size_t i = 0; i < a.keys.size(); ++i) {
-    if (!from_a[i].good(50, 0.8)) continue;
-    const auto k = static_cast<std::size_t>(from_a[i].key);
-    if (from_b[k].key == static_cast<int>(i)) out.emplace_back(i, k);
-  }
-  return out;
+  return mutual(from_a, from_b, 0.8);
 }
 
 std::vector<Frame*> covisible(const Map& map, const Frame& frame, std::size_t most) {

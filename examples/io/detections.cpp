@@ -72,10 +72,8 @@ std::vector<Detection> read_pair(const std::string& boxes, const std::string& wo
   return detections;
 }
 
-const std::string kTruthPrefix = "gt_";
-
 std::vector<fs::path> icdar_files(const fs::path& folder, const std::string& stem) {
-  return {folder / (stem + ".txt"), folder / ("res_" + stem + ".txt"), folder / (kTruthPrefix + stem + ".txt")};
+  return {folder / (stem + ".txt"), folder / ("res_" + stem + ".txt"), folder / truth_name(stem)};
 }
 
 // Without <stem>.txt: beside images that could be anything.
@@ -88,13 +86,19 @@ std::vector<fs::path> files_beside(const FrameRef& frame) {
 
 std::vector<Detection> read_named(const fs::path& file, const std::string& stem) {
   std::vector<Detection> detections = read_icdar(file.string());
-  if (file.filename() != kTruthPrefix + stem + ".txt") return detections;
+  if (file.filename() != truth_name(stem)) return detections;
   const auto ignored = [](const Detection& detection) { return detection.text == kUnreadText; };
   detections.erase(std::remove_if(detections.begin(), detections.end(), ignored), detections.end());
   return detections;
 }
 
 }  // namespace
+
+std::vector<Quad<double>> quads_of(const std::vector<Detection>& detections) {
+  std::vector<Quad<double>> quads;
+  for (const Detection& detection : detections) quads.push_back(detection.quad);
+  return quads;
+}
 
 std::vector<Detection> read_icdar(const std::string& path) {
   std::vector<Detection> detections;

@@ -31,6 +31,12 @@ struct Detection {
   double score = 1;                ///< of the recognition; the ICDAR format has none
 };
 
+/// Name of the ICDAR file that holds the truth of an image.
+inline std::string truth_name(const std::string& stem) { return "gt_" + stem + ".txt"; }
+
+/// Their quads, in their order.
+std::vector<Quad<double>> quads_of(const std::vector<Detection>& detections);
+
 /// The detections of one frame. Throws InputError with file and line for a bad number, too few columns, or a pair whose
 /// files do not have the same number of entries.
 std::vector<Detection> read_detections(const Sequence& sequence, const FrameRef& frame);

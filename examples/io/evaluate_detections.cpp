@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "io/input_error.hpp"
+#include "io/paths.hpp"
 #include "io/text_file.hpp"
 
 namespace textslam {
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 std::vector<TrueText> read_true_texts(const Sequence& sequence, const FrameRef& frame) {
   std::vector<TrueText> truth;
   const fs::path rendered = fs::path(sequence.folder) / "truth" / "quads" / (frame.stem + ".txt");
-  if (!sequence.folder.empty() && fs::exists(rendered)) {
+  if (!sequence.folder.empty() && is_there(rendered)) {
     for (const Detection& sign : read_icdar(rendered.string())) {
       // Its text is `word,sign,visible`.
       double visible = 0;
@@ -27,8 +28,8 @@ std::vector<TrueText> read_true_texts(const Sequence& sequence, const FrameRef& 
     }
     return truth;
   }
-  const fs::path icdar = fs::path(frame.path).parent_path() / ("gt_" + frame.stem + ".txt");
-  if (!fs::exists(icdar))
+  const fs::path icdar = fs::path(frame.path).parent_path() / truth_name(frame.stem);
+  if (!is_there(icdar))
     throw InputError(frame.path, 0, "has no truth: neither truth/quads/" + frame.stem + ".txt nor " + icdar.string());
   for (const Detection& word : read_icdar(icdar.string())) truth.push_back({word.quad, is_read(word.text)});
   return truth;

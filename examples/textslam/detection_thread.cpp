@@ -1,7 +1,8 @@
 #include "textslam/detection_thread.hpp"
 
-#include <chrono>
 #include <utility>
+
+#include "textslam/tracker.hpp"
 
 namespace textslam {
 
@@ -41,9 +42,9 @@ void DetectionThread::work() {
     Result result;
     std::exception_ptr failure;
     try {
-      const auto start = std::chrono::steady_clock::now();
+      const double start = now_ms();
       result = {job.frame, detect_(job.frame, *job.image), 0};
-      result.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+      result.ms = now_ms() - start;
     } catch (...) {
       failure = std::current_exception();
     }

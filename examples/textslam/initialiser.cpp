@@ -15,8 +15,7 @@ void Initialiser::restart(const Frame& frame) {
   reference_ = last_ = frame;
   tracks_.clear();
   std::vector<Quad<double>> quads;
-  if (parameters_.mode == Mode::text)
-    for (const Detection& detection : frame.detections) quads.push_back(detection.quad);
+  if (parameters_.mode == Mode::text) quads = quads_of(frame.detections);
   add_corners(frame, 0, quads, parameters_, tracks_);
   frames_ = ambiguous_ = 0;
 }
@@ -25,8 +24,7 @@ void Initialiser::add_detections(int frame, std::vector<Detection> detections) {
   if (tracks_.empty() || reference_.index != frame) return;
   reference_.detections = std::move(detections);
   if (parameters_.mode != Mode::text) return;
-  std::vector<Quad<double>> quads;
-  for (const Detection& detection : reference_.detections) quads.push_back(detection.quad);
+  const std::vector<Quad<double>> quads = quads_of(reference_.detections);
   std::vector<Track> then = tracks_;
   std::vector<Vec2f> now;
   for (Track& track : then) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "textslam/point_mapper.hpp"
+#include "textslam/tracker.hpp"
 
 namespace textslam {
 namespace {
@@ -40,16 +41,7 @@ int find_redundant_keyframe(const Map& map, const Parameters& parameters, const 
 }
 
 std::vector<SeenPoint> seen_by_keyframe(const Map& map, int id, std::size_t most) {
-  std::vector<Track> tracks;
-  for (const int point : map.keyframe(id).points)
-    for (const PointObservation& o : map.point(point).observations)
-      if (o.keyframe == id) {
-        Track track;
-        track.point = point;
-        track.px = o.px.cast<float>();
-        tracks.push_back(track);
-      }
-  return seen_points(tracks, most);
+  return seen_points(tracks_of_keyframe(map, id), most);
 }
 
 int keyframe_before(const Map& map, int id) {

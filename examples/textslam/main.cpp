@@ -51,8 +51,7 @@ int execute(int argc, char** argv) {
   textslam::add_detector_options(app, options.detector);
   app.add_flag("--real-time", options.parameters.real_time,
                "Frames come at the times of their stamps; local adjustment and the detector have threads of their own; "
-               "without it, all "
-               "is done in step and the same input gives the same bytes");
+               "without it, all is done in step and the same input gives the same bytes");
   app.add_flag("!--no-loop-closure", options.parameters.loop_closure,
                "Leave drift as it is where the camera comes back to a place");
   app.add_option("--first", options.first, "Index of the first frame")

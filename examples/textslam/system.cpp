@@ -80,8 +80,7 @@ void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecor
     text_mapper_.update(1, tracks);
     const std::vector<Detection> fresh = text_mapper_.new_detections(frame, T_c_w, tracks);
     text_mapper_.add_candidates(1, fresh);
-    if (parameters_.mode == Mode::text)
-      for (const Detection& detection : fresh) quads.push_back(detection.quad);
+    if (parameters_.mode == Mode::text) quads = quads_of(fresh);
   }
   last_keyframe_points_ = static_cast<int>(tracks.size());
   add_corners(frame, 1, quads, parameters_, tracks);
@@ -163,8 +162,7 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
     text_mapper_.update(last_keyframe_, tracks);
     const std::vector<Detection> fresh = text_mapper_.new_detections(frame, T_c_w, tracks);
     text_mapper_.add_candidates(last_keyframe_, fresh);
-    if (parameters_.mode == Mode::text)
-      for (const Detection& detection : fresh) quads.push_back(detection.quad);
+    if (parameters_.mode == Mode::text) quads = quads_of(fresh);
   }
   cull_keyframes();
   last_keyframe_points_ = 0;

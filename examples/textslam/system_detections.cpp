@@ -74,9 +74,8 @@ void System::host_late(int id) {
   const std::vector<Detection> fresh = text_mapper_.new_detections(host.frame, T_c_w, then);
   if (parameters_.mode == Mode::loose) return text_mapper_.add_candidates(id, fresh);
 
-  std::vector<Quad<double>> quads;
-  for (const Detection& detection : fresh) quads.push_back(detection.quad);
-  const std::vector<Track> corners = late_corners(host.frame, id, quads, then, now, tracker_->frame(), parameters_);
+  const std::vector<Track> corners =
+      late_corners(host.frame, id, quads_of(fresh), then, now, tracker_->frame(), parameters_);
 
   std::vector<Track>& tracks = tracker_->tracks();
   for (const Detection& detection : fresh) {

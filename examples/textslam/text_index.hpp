@@ -2,9 +2,9 @@
 //
 //   {"texts": [{"id", "text", "score", "readings": {word: votes}, "position", "normal", "image", "quad", "timestamp"}]}
 //
-// Position is the centre of the text's quad, both in the world frame. `image` is the one among the key frames that observe the text
-// which shows it largest, slant counted: its file in the sequence's folder, and there the quad in undistorted px. `score` is the share of the votes that the
-// text's own word has; each reading votes with its score.
+// Position is the centre of the text's quad, both in the world frame. `image` is the one among the key frames that
+// observe the text which shows it largest, slant counted: its file in the sequence's folder, and there the quad in
+// undistorted px. `score` is the share of the votes that the text's own word has; each reading votes with its score.
 #ifndef TEXTSLAM_TEXT_INDEX_HPP
 #define TEXTSLAM_TEXT_INDEX_HPP
 

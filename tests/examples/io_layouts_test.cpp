@@ -29,12 +29,6 @@ const char* const kSensor =
     "distortion_model: radial-tangential\n"
     "distortion_coefficients: [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05]\n";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
 class LayoutTest : public testing::Test {
  protected:
   std::string image(const std::string& name, std::uint8_t value = 100, int width = 8, int height = 6) {

@@ -19,12 +19,6 @@ const char* const kCamera =
     "Camera.p1: 1e-3\n"
     "Camera.p2: -2e-4\n";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
 class SequenceTest : public testing::Test {
  protected:
   SequenceTest() {

@@ -1,4 +1,4 @@
-// What the tests of examples/io share: a folder that vanishes, and the check of an InputError.
+// What the tests of examples/io share: a folder that vanishes, a text with a change, and the check of an InputError.
 #ifndef TESTS_EXAMPLES_IO_SUPPORT_HPP
 #define TESTS_EXAMPLES_IO_SUPPORT_HPP
 
@@ -41,6 +41,13 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// The text with the first `from`, which must be there, replaced.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
 
 /// Runs `action` and expects an InputError at this file and line whose message contains `part`.
 template <class Action>
