@@ -1,6 +1,7 @@
 // Vectors of eight lanes in AVX2 and FMA. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 8;
+constexpr bool kManyRegisters = false;
 using vf = __m256;
 using vi = __m256i;
 using vm = __m256;  // all bits of a lane
@@ -13,6 +14,10 @@ TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm256_setr_ps(0.0f, 1.0f, 2.0
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 TEXTPLANE_SIMD_INLINE __m256i first_n_bits(int n) noexcept { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), ioti()); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm256_loadu_ps(p); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
+  __asm__("" : "+x"(v));
+  return v;
+}
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm256_storeu_ps(p, v); }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept {
   return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));

@@ -4,6 +4,7 @@
 // g++ 11 and 12 warn; with all lanes kept they are the same instructions.
 
 constexpr int kLanes = 16;
+constexpr bool kManyRegisters = true;  // 32
 using vf = __m512;
 using vi = __m512i;
 using vm = __mmask16;
@@ -24,6 +25,10 @@ TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept {
   return n >= 16 ? kAllLanes : static_cast<vm>((1u << (n < 0 ? 0 : n)) - 1u);
 }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm512_loadu_ps(p); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
+  __asm__("" : "+v"(v));
+  return v;
+}
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm512_storeu_ps(p, v); }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return _mm512_loadu_si512(p); }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm512_storeu_si512(p, v); }

@@ -1,6 +1,7 @@
 // Vectors of four lanes in NEON of AArch64. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 4;
+constexpr bool kManyRegisters = true;  // 32
 using vf = float32x4_t;
 using vi = int32x4_t;
 using vm = uint32x4_t;  // all bits of a lane
@@ -12,6 +13,7 @@ TEXTPLANE_SIMD_INLINE vf zero() noexcept { return vdupq_n_f32(0.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return vi{0, 1, 2, 3}; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return vf{0.0f, 1.0f, 2.0f, 3.0f}; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return vld1q_f32(p); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { vst1q_f32(p, v); }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return vld1q_s32(p); }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { vst1q_s32(p, v); }

@@ -4,6 +4,7 @@
 // elements and no more; 0 <= n <= kLanes. Memory need not be aligned.
 
 constexpr int kLanes = 1;
+constexpr bool kManyRegisters = false;
 using vf = float;  // kLanes floats
 using vi = int;    // kLanes int32
 using vm = bool;   // kLanes truth values
@@ -15,6 +16,7 @@ TEXTPLANE_SIMD_INLINE vf zero() noexcept { return 0.0f; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { *p = v; }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return *p; }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { *p = v; }

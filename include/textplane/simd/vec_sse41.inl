@@ -1,6 +1,7 @@
 // Vectors of four lanes in SSE4.1. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 4;
+constexpr bool kManyRegisters = false;
 using vf = __m128;
 using vi = __m128i;
 using vm = __m128;  // all bits of a lane
@@ -12,6 +13,10 @@ TEXTPLANE_SIMD_INLINE vf zero() noexcept { return _mm_setzero_ps(); }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm_setr_ps(0.0f, 1.0f, 2.0f, 3.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm_setr_epi32(0, 1, 2, 3); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm_loadu_ps(p); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
+  __asm__("" : "+x"(v));
+  return v;
+}
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm_storeu_ps(p, v); }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }

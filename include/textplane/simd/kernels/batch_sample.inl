@@ -190,16 +190,10 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
 TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
   const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
   int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < m * kLanes; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 

@@ -22,10 +22,11 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
   SampleFrame frame;
   if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
   if (!a.inside) result->inside = a.n;
+  const WarpVectors vectors = spread(warp);
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
     vf x, y, divisor;
-    warp_vector(warp, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
+    warp_vector(vectors, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
     if (a.inside) {
       const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
       result->inside += count(in);
@@ -57,14 +58,16 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
   SampleFrame frame;
   if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
   const bool paired = frame.pairs != nullptr;
+  const WarpVectors vectors = spread(warp);
+  const CellVectors cells = spread(frame);
   SampleStrip strip;
   for (int begin = 0; begin < a.n; begin += kStrip) {
     const int n = a.n - begin < kStrip ? a.n - begin : kStrip;
     float x[kStrip], y[kStrip], value[kStrip], gx[kStrip], gy[kStrip];
     for (int i = 0; i < n; i += kLanes) {
       vf tx, ty, divisor;
-      warp_vector(warp, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
-      cell_vector(frame, tx, ty, &strip, i);
+      warp_vector(vectors, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
+      cell_vector(cells, tx, ty, &strip, i);
       const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
       const unsigned b = bits(in);
       result->inside += count(in);

@@ -38,6 +38,7 @@ TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
 // Closes up the visible pixels into hx, hy, h; counts; flags.
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
                                    simd::ResidualInfo* info) noexcept {
+  const WarpVectors warp = spread(f.warp);
   int candidates = 0, front = 0, visible = 0;
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
@@ -48,7 +49,7 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
       for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.on_set[i + k] == 0) << k);
     const vf px = load_part(a.x + i, left), py = load_part(a.y + i, left), h = load_part(a.intensity + i, left);
     vf x, y, divisor;
-    warp_vector(f.warp, px, py, &x, &y, &divisor);
+    warp_vector(warp, px, py, &x, &y, &divisor);
     const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));

@@ -11,6 +11,17 @@ struct RowStrip {
   float row[6][kStrip];
 };
 
+// The unweighted sums of the homography's rows where registers hold many of them: three loops, each with rows of its own, take
+// less time than loops over rows that pass through memory. The sums are those of add_strip_products() and add_strip_sums(), each
+// in the same order.
+TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
+                                               const float* p, const float* q, int n, float* acc, float* ones,
+                                               float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, acc, ones);
+  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, first, second);
+}
+
 // Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too.
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
@@ -112,13 +123,20 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
   vf si = zero(), sii = zero(), sh = zero(), shh = zero();
-  const vf kappa = set1(o.kappa);
-  for (int k = 0; k < n; k += kLanes) {
-    vf i = sub(load(target + k), set1(o.target)), h = sub(load_part(host + k, n - k), set1(o.host));
-    if (n - k < kLanes) {
-      i = keep(first_n(n - k), i);
-      h = keep(first_n(n - k), h);
-    }
+  const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
+  int k = 0;
+  for (; k + kLanes <= n; k += kLanes) {
+    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
+    store(target + k, i);
+    store(difference + k, sub(mul(kappa, h), i));
+    si = add(si, i);
+    sh = add(sh, h);
+    sii = madd(i, i, sii);
+    shh = madd(h, h, shh);
+  }
+  if (k < n) {
+    const vm counted = first_n(n - k);
+    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
     store(target + k, i);
     store(difference + k, sub(mul(kappa, h), i));
     si = add(si, i);
@@ -240,9 +258,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
     const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
     const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
-    vf weight = div(min_(size, limit), max_(size, set1(1e-30F)));  // w; 1 - w below
-    weight =
-        complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F))) : select(gt(size, limit), weight, one);
+    const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
+    vf weight = div(complement ? sub(size, inner) : inner, least);
+    if (!complement) weight = select(gt(size, limit), weight, one);
     if (n - j < kLanes) weight = keep(first_n(n - j), weight);
     const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
     const vf q = mul(p, nn), r = mul(p, rr);
@@ -323,8 +341,12 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     float *i = s.i + begin, *d = s.d + begin;
     if (begin == 0) offsets = first_offsets(i, host.h, count);
     centre_strip(i, host.h + begin, d, count, offsets, &sides);
-    add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-    add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    if (kManyRegisters && form == 8) {
+      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+    } else {
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    }
     terms += kStrip / kLanes;
     if (terms >= kFoldTerms || begin + kStrip >= n) {
       fold(acc, all, total);

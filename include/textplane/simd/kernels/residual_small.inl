@@ -84,7 +84,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
   if (!exact) {
     for (int k = 0; k < n; k += kLanes) {
-      const vf w = load(p.root + k);
+      const vf w = hold(load(p.root + k));
       store(r0 + k, mul(w, load(r0 + k)));
       store(r1 + k, mul(w, load(r1 + k)));
       store(r2 + k, mul(w, load(r2 + k)));
@@ -93,7 +93,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   }
   vf s0 = zero(), s1 = zero(), s2 = zero(), t0 = zero(), t1 = zero(), t2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), a = load(r0 + k), b = load(r1 + k), c = load(r2 + k);
+    const vf i = hold(load(p.i + k)), a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -112,7 +112,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   t1 = mul(set1(sum[5]), along);
   t2 = mul(set1(sum[6]), along);
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), w = load(p.root + k);
+    const vf i = hold(load(p.i + k)), w = hold(load(p.root + k));
     store(r0 + k, mul(w, nmadd(i, t0, sub(load(r0 + k), s0))));
     store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));
     store(r2 + k, mul(w, nmadd(i, t2, sub(load(r2 + k), s2))));
@@ -125,7 +125,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(),
      b2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), r = load(e + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), r = hold(load(e + k));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -148,7 +148,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
      s8 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), x = load(q0 + k), y = load(q1 + k), z = load(q2 + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)), y = hold(load(q1 + k)), z = hold(load(q2 + k));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);

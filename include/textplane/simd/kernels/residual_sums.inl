@@ -6,7 +6,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -29,7 +29,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -58,7 +58,7 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(q0 + i), y = load(q1 + i), z = load(q2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -86,7 +86,7 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -108,7 +108,7 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), d = load(r3 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -136,7 +136,7 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf A = load(a + i), Ax = load(ax + i), B = load(b + i), Bx = load(bx + i), By = load(by + i);
+    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
     s1 = madd(A, Bx, s1);
     s2 = madd(A, By, s2);
@@ -163,7 +163,7 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf Cx = load(cx + i), Cy = load(cy + i), Ax = load(ax + i), Bx = load(bx + i);
+    const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
     s1 = madd(Ax, Cy, s1);
     s2 = madd(load(ay + i), Cy, s2);
@@ -183,4 +183,154 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
+}
+
+// What follows is for targets with 32 registers (kManyRegisters): more sums a loop, of rows that never leave the registers.
+
+// The products of (A, Ax, Ay), those of (B, Bx, By), and the mixed ones, in the order of add_squares3() and add_mixed(); and the
+// sums of the six rows.
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
+                                      float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
+  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
+  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
+    s0 = madd(A, A, s0);
+    s1 = madd(A, Ax, s1);
+    s2 = madd(A, Ay, s2);
+    s3 = madd(Ax, Ax, s3);
+    s4 = madd(Ax, Ay, s4);
+    s5 = madd(Ay, Ay, s5);
+    s6 = madd(B, B, s6);
+    s7 = madd(B, Bx, s7);
+    s8 = madd(B, By, s8);
+    s9 = madd(Bx, Bx, s9);
+    s10 = madd(Bx, By, s10);
+    s11 = madd(By, By, s11);
+    s12 = madd(A, B, s12);
+    s13 = madd(A, Bx, s13);
+    s14 = madd(A, By, s14);
+    s15 = madd(Ax, Bx, s15);
+    s16 = madd(Ax, By, s16);
+    s17 = madd(Ay, By, s17);
+    t0 = add(t0, A);
+    t1 = add(t1, Ax);
+    t2 = add(t2, Ay);
+    t3 = add(t3, B);
+    t4 = add(t4, Bx);
+    t5 = add(t5, By);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(acc + 9 * kLanes, s9);
+  store(acc + 10 * kLanes, s10);
+  store(acc + 11 * kLanes, s11);
+  store(acc + 12 * kLanes, s12);
+  store(acc + 13 * kLanes, s13);
+  store(acc + 14 * kLanes, s14);
+  store(acc + 15 * kLanes, s15);
+  store(acc + 16 * kLanes, s16);
+  store(acc + 17 * kLanes, s17);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+  store(sums + 2 * kLanes, t2);
+  store(sums + 3 * kLanes, t3);
+  store(sums + 4 * kLanes, t4);
+  store(sums + 5 * kLanes, t5);
+}
+
+// The products of add_cubic(), and the sums of Cx, Cy.
+TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(Ay, Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(By, Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+    t0 = add(t0, Cx);
+    t1 = add(t1, Cy);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+
+// The eight rows times p to `acc`, times q to `acc2`.
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        const float* q, int n, float* acc, float* acc2) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
+  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
+  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(A, f, s0);
+    s1 = madd(Ax, f, s1);
+    s2 = madd(Ay, f, s2);
+    s3 = madd(B, f, s3);
+    s4 = madd(Bx, f, s4);
+    s5 = madd(By, f, s5);
+    s6 = madd(Cx, f, s6);
+    s7 = madd(Cy, f, s7);
+    t0 = madd(A, g, t0);
+    t1 = madd(Ax, g, t1);
+    t2 = madd(Ay, g, t2);
+    t3 = madd(B, g, t3);
+    t4 = madd(Bx, g, t4);
+    t5 = madd(By, g, t5);
+    t6 = madd(Cx, g, t6);
+    t7 = madd(Cy, g, t7);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc2, t0);
+  store(acc2 + kLanes, t1);
+  store(acc2 + 2 * kLanes, t2);
+  store(acc2 + 3 * kLanes, t3);
+  store(acc2 + 4 * kLanes, t4);
+  store(acc2 + 5 * kLanes, t5);
+  store(acc2 + 6 * kLanes, t6);
+  store(acc2 + 7 * kLanes, t7);
 }

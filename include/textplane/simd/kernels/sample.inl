@@ -98,13 +98,22 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
 
+// The numbers of a warp in all lanes, to be made before a loop: g++ repeats their making inside.
+struct WarpVectors {
+  vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
+};
+TEXTPLANE_SIMD_INLINE WarpVectors spread(const simd::Warp8& w) noexcept {
+  return WarpVectors{set1(w.hx),   set1(w.hy),   set1(w.g[0]), set1(w.g[1]), set1(w.g[2]), set1(w.g[3]),
+                     set1(w.g[4]), set1(w.g[5]), set1(w.g[6]), set1(w.g[7]), set1(w.g[8])};
+}
+
 // Target coordinates, relative to the origin, and divisors of kLanes host pixels.
-TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
-  const vf u = sub(px, set1(w.hx)), v = sub(py, set1(w.hy));
-  *divisor = madd(set1(w.g[6]), u, madd(set1(w.g[7]), v, set1(w.g[8])));
+TEXTPLANE_SIMD_INLINE void warp_vector(const WarpVectors& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
+  const vf u = sub(px, w.hx), v = sub(py, w.hy);
+  *divisor = madd(w.g6, u, madd(w.g7, v, w.g8));
   const vf inverse = div(set1(1.0F), *divisor);
-  *x = mul(madd(set1(w.g[0]), u, madd(set1(w.g[1]), v, set1(w.g[2]))), inverse);
-  *y = mul(madd(set1(w.g[3]), u, madd(set1(w.g[4]), v, set1(w.g[5]))), inverse);
+  *x = mul(madd(w.g0, u, madd(w.g1, v, w.g2)), inverse);
+  *y = mul(madd(w.g3, u, madd(w.g4, v, w.g5)), inverse);
 }
 
 // In front, and inside [0, width - 1] x [0, height - 1].
@@ -114,13 +123,22 @@ TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divi
   return and_(gt(divisor, zero()), and_(across, down));
 }
 
+// Bounds of the cells and the stride in all lanes.
+struct CellVectors {
+  vf x_low, y_low, x_high, y_high;
+  vi stride;
+};
+TEXTPLANE_SIMD_INLINE CellVectors spread(const SampleFrame& f) noexcept {
+  return CellVectors{set1(f.x_low), set1(f.y_low), set1(f.x_high), set1(f.y_high), seti(static_cast<int>(f.stride))};
+}
+
 // Cell of kLanes target points, clamped to the image (a NaN too): its offset and the position in it.
-TEXTPLANE_SIMD_INLINE void cell_vector(const SampleFrame& f, vf x, vf y, SampleStrip* s, int i) noexcept {
-  const vf cx = min_(max_(floor_(x), set1(f.x_low)), set1(f.x_high));
-  const vf cy = min_(max_(floor_(y), set1(f.y_low)), set1(f.y_high));
+TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleStrip* s, int i) noexcept {
+  const vf cx = min_(max_(floor_(x), c.x_low), c.x_high);
+  const vf cy = min_(max_(floor_(y), c.y_low), c.y_high);
   store(s->fx + i, sub(x, cx));
   store(s->fy + i, sub(y, cy));
-  storei(s->offset + i, addi(muli(to_int(cy), seti(static_cast<int>(f.stride))), to_int(cx)));
+  storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
 }
 
 // Warp of the n <= kStrip host pixels px, py: target coordinates to x and y, cells to the strip.
@@ -128,33 +146,32 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
                                       int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  for (int i = 0; i < n; i += kLanes) {
-    vf tx, ty, divisor;
-    warp_vector(w, load_part(px + i, n - i), load_part(py + i, n - i), &tx, &ty, &divisor);
-    cell_vector(f, tx, ty, s, i);
+  const WarpVectors warp = spread(w);
+  const CellVectors cells = spread(f);
+  vf tx, ty, divisor;
+  int i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
+    cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
+  if (i == n) return;
+  warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
+  cell_vector(cells, tx, ty, s, i);
+  store(x + i, tx);
+  store(y + i, ty);
 }
 
 // The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs the
-// middle two are exchanged. Through general registers: faster than gathers, and it reads these pixels only.
-TEXTPLANE_SIMD_INLINE std::uint32_t two_bytes(const std::uint8_t* p) noexcept {
-  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8;  // one 16-bit load
-}
+// middle two are exchanged. Faster than gathers, and it reads these pixels only.
 TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < n; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
