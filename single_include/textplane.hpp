@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: acbad03d2f790198
+// Hash of these files: 012fd1a2dab0589c
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 acbad03d2f790198"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 012fd1a2dab0589c"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -3400,12 +3400,39 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
 
+// Four words of taps, of two bytes of the upper row and, above them, two of the lower.
+#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o0)), 1);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o1)), 2);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o1)), 3);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o2)), 4);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o2)), 5);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+}
+#else
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
+  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
+  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
+  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
+}
+#endif
+
 // Vectors of one lane, in plain C++: the definition of every operation.
 //
 // Lanes are counted from 0. `_n` loads leave the lanes from n on at zero and touch no memory beyond n; `_n` stores write n
 // elements and no more; 0 <= n <= kLanes. Memory need not be aligned.
 
 constexpr int kLanes = 1;
+constexpr bool kManyRegisters = false;
 using vf = float;  // kLanes floats
 using vi = int;    // kLanes int32
 using vm = bool;   // kLanes truth values
@@ -3417,6 +3444,8 @@ TEXTPLANE_SIMD_INLINE vf zero() noexcept { return 0.0f; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
+// The same value, in a register from here on: g++ loads from memory several times what is used several times.
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { *p = v; }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return *p; }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { *p = v; }
@@ -3460,6 +3489,10 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return a < b ? a : b; }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return a > b ? a : b; }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return TEXTPLANE_SIMD_SQRT(a); }
+// 1 / sqrt(a) within 3e-7 of itself, for positive numbers that are not subnormal.
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  return 1.0f / sqrt_(a);
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return TEXTPLANE_SIMD_ABS(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return TEXTPLANE_SIMD_FLOOR(a); }
@@ -3605,9 +3638,34 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
+#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o0)), 1);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o1)), 2);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o1)), 3);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o2)), 4);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o2)), 5);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+}
+#else
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
+  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
+  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
+  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
+}
+#endif
 // Vectors of four lanes in SSE4.1. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 4;
+constexpr bool kManyRegisters = false;
 using vf = __m128;
 using vi = __m128i;
 using vm = __m128;  // all bits of a lane
@@ -3619,6 +3677,10 @@ TEXTPLANE_SIMD_INLINE vf zero() noexcept { return _mm_setzero_ps(); }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm_setr_ps(0.0f, 1.0f, 2.0f, 3.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm_setr_epi32(0, 1, 2, 3); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm_loadu_ps(p); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
+  __asm__("" : "+x"(v));
+  return v;
+}
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm_storeu_ps(p, v); }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }
@@ -3682,6 +3744,10 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm_max_ps(a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm_sqrt_ps(a); }
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  const vf y = _mm_rsqrt_ps(a);
+  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm_xor_ps(_mm_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm_floor_ps(a); }
@@ -3838,9 +3904,34 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
+#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o0)), 1);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o1)), 2);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o1)), 3);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o2)), 4);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o2)), 5);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+}
+#else
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
+  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
+  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
+  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
+}
+#endif
 // Vectors of eight lanes in AVX2 and FMA. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 8;
+constexpr bool kManyRegisters = false;
 using vf = __m256;
 using vi = __m256i;
 using vm = __m256;  // all bits of a lane
@@ -3853,6 +3944,10 @@ TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm256_setr_ps(0.0f, 1.0f, 2.0
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 TEXTPLANE_SIMD_INLINE __m256i first_n_bits(int n) noexcept { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), ioti()); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm256_loadu_ps(p); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
+  __asm__("" : "+x"(v));
+  return v;
+}
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm256_storeu_ps(p, v); }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept {
   return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
@@ -3917,6 +4012,10 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm256_min_ps(a, b);
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm256_max_ps(a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm256_sqrt_ps(a); }
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  const vf y = _mm256_rsqrt_ps(a);
+  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm256_xor_ps(_mm256_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm256_floor_ps(a); }
@@ -4079,12 +4178,37 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
+#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o0)), 1);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o1)), 2);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o1)), 3);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o2)), 4);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o2)), 5);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+}
+#else
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
+  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
+  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
+  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
+}
+#endif
 // Vectors of sixteen lanes in AVX-512 (F, BW, DQ, VL, VNNI). vec_scalar.inl defines the operations.
 //
 // The zero-masking forms stand where the plain ones start from an undefined register in the compiler's header, about which
 // g++ 11 and 12 warn; with all lanes kept they are the same instructions.
 
 constexpr int kLanes = 16;
+constexpr bool kManyRegisters = true;  // 32
 using vf = __m512;
 using vi = __m512i;
 using vm = __mmask16;
@@ -4105,6 +4229,12 @@ TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept {
   return n >= 16 ? kAllLanes : static_cast<vm>((1u << (n < 0 ? 0 : n)) - 1u);
 }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm512_loadu_ps(p); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
+#if !defined(TEXTPLANE_EMULATED_AVX512)
+  __asm__("" : "+v"(v));
+#endif
+  return v;
+}
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm512_storeu_ps(p, v); }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return _mm512_loadu_si512(p); }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm512_storeu_si512(p, v); }
@@ -4143,6 +4273,10 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAllLanes, a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAllLanes, a); }
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  const vf y = _mm512_maskz_rsqrt14_ps(kAllLanes, a);
+  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm512_maskz_xor_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept {
@@ -4288,9 +4422,34 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
+#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o0)), 1);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o1)), 2);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o1)), 3);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o2)), 4);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o2)), 5);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
+  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+}
+#else
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
+  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
+  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
+  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
+}
+#endif
 // Vectors of four lanes in NEON of AArch64. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 4;
+constexpr bool kManyRegisters = true;  // 32
 using vf = float32x4_t;
 using vi = int32x4_t;
 using vm = uint32x4_t;  // all bits of a lane
@@ -4302,6 +4461,7 @@ TEXTPLANE_SIMD_INLINE vf zero() noexcept { return vdupq_n_f32(0.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return vi{0, 1, 2, 3}; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return vf{0.0f, 1.0f, 2.0f, 3.0f}; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return vld1q_f32(p); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { vst1q_f32(p, v); }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return vld1q_s32(p); }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { vst1q_s32(p, v); }
@@ -4373,6 +4533,11 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return vbslq_f32(vcltq_f32(
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return vbslq_f32(vcgtq_f32(a, b), a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return vsqrtq_f32(a); }
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  vf y = vrsqrteq_f32(a);
+  y = mul(y, vrsqrtsq_f32(mul(a, y), y));
+  return mul(y, vrsqrtsq_f32(mul(a, y), y));
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return vabsq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return vnegq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return vrndmq_f32(a); }
@@ -4705,13 +4870,22 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
 
+// The numbers of a warp in all lanes, to be made before a loop: g++ repeats their making inside.
+struct WarpVectors {
+  vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
+};
+TEXTPLANE_SIMD_INLINE WarpVectors spread(const simd::Warp8& w) noexcept {
+  return WarpVectors{set1(w.hx),   set1(w.hy),   set1(w.g[0]), set1(w.g[1]), set1(w.g[2]), set1(w.g[3]),
+                     set1(w.g[4]), set1(w.g[5]), set1(w.g[6]), set1(w.g[7]), set1(w.g[8])};
+}
+
 // Target coordinates, relative to the origin, and divisors of kLanes host pixels.
-TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
-  const vf u = sub(px, set1(w.hx)), v = sub(py, set1(w.hy));
-  *divisor = madd(set1(w.g[6]), u, madd(set1(w.g[7]), v, set1(w.g[8])));
+TEXTPLANE_SIMD_INLINE void warp_vector(const WarpVectors& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
+  const vf u = sub(px, w.hx), v = sub(py, w.hy);
+  *divisor = madd(w.g6, u, madd(w.g7, v, w.g8));
   const vf inverse = div(set1(1.0F), *divisor);
-  *x = mul(madd(set1(w.g[0]), u, madd(set1(w.g[1]), v, set1(w.g[2]))), inverse);
-  *y = mul(madd(set1(w.g[3]), u, madd(set1(w.g[4]), v, set1(w.g[5]))), inverse);
+  *x = mul(madd(w.g0, u, madd(w.g1, v, w.g2)), inverse);
+  *y = mul(madd(w.g3, u, madd(w.g4, v, w.g5)), inverse);
 }
 
 // In front, and inside [0, width - 1] x [0, height - 1].
@@ -4721,13 +4895,22 @@ TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divi
   return and_(gt(divisor, zero()), and_(across, down));
 }
 
+// Bounds of the cells and the stride in all lanes.
+struct CellVectors {
+  vf x_low, y_low, x_high, y_high;
+  vi stride;
+};
+TEXTPLANE_SIMD_INLINE CellVectors spread(const SampleFrame& f) noexcept {
+  return CellVectors{set1(f.x_low), set1(f.y_low), set1(f.x_high), set1(f.y_high), seti(static_cast<int>(f.stride))};
+}
+
 // Cell of kLanes target points, clamped to the image (a NaN too): its offset and the position in it.
-TEXTPLANE_SIMD_INLINE void cell_vector(const SampleFrame& f, vf x, vf y, SampleStrip* s, int i) noexcept {
-  const vf cx = min_(max_(floor_(x), set1(f.x_low)), set1(f.x_high));
-  const vf cy = min_(max_(floor_(y), set1(f.y_low)), set1(f.y_high));
+TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleStrip* s, int i) noexcept {
+  const vf cx = min_(max_(floor_(x), c.x_low), c.x_high);
+  const vf cy = min_(max_(floor_(y), c.y_low), c.y_high);
   store(s->fx + i, sub(x, cx));
   store(s->fy + i, sub(y, cy));
-  storei(s->offset + i, addi(muli(to_int(cy), seti(static_cast<int>(f.stride))), to_int(cx)));
+  storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
 }
 
 // Warp of the n <= kStrip host pixels px, py: target coordinates to x and y, cells to the strip.
@@ -4735,33 +4918,32 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
                                       int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  for (int i = 0; i < n; i += kLanes) {
-    vf tx, ty, divisor;
-    warp_vector(w, load_part(px + i, n - i), load_part(py + i, n - i), &tx, &ty, &divisor);
-    cell_vector(f, tx, ty, s, i);
+  const WarpVectors warp = spread(w);
+  const CellVectors cells = spread(f);
+  vf tx, ty, divisor;
+  int i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
+    cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
+  if (i == n) return;
+  warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
+  cell_vector(cells, tx, ty, s, i);
+  store(x + i, tx);
+  store(y + i, ty);
 }
 
 // The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs the
-// middle two are exchanged. Through general registers: faster than gathers, and it reads these pixels only.
-TEXTPLANE_SIMD_INLINE std::uint32_t two_bytes(const std::uint8_t* p) noexcept {
-  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8;  // one 16-bit load
-}
+// middle two are exchanged. Faster than gathers, and it reads these pixels only.
 TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < n; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -4913,53 +5095,66 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->x_last = static_cast<float>(image.width - 1 - warp.ox);
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
-TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
-  const vf u = sub(px, set1(w.hx)), v = sub(py, set1(w.hy));
-  *divisor = madd(set1(w.g[6]), u, madd(set1(w.g[7]), v, set1(w.g[8])));
+struct WarpVectors {
+  vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
+};
+TEXTPLANE_SIMD_INLINE WarpVectors spread(const simd::Warp8& w) noexcept {
+  return WarpVectors{set1(w.hx),   set1(w.hy),   set1(w.g[0]), set1(w.g[1]), set1(w.g[2]), set1(w.g[3]),
+                     set1(w.g[4]), set1(w.g[5]), set1(w.g[6]), set1(w.g[7]), set1(w.g[8])};
+}
+TEXTPLANE_SIMD_INLINE void warp_vector(const WarpVectors& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
+  const vf u = sub(px, w.hx), v = sub(py, w.hy);
+  *divisor = madd(w.g6, u, madd(w.g7, v, w.g8));
   const vf inverse = div(set1(1.0F), *divisor);
-  *x = mul(madd(set1(w.g[0]), u, madd(set1(w.g[1]), v, set1(w.g[2]))), inverse);
-  *y = mul(madd(set1(w.g[3]), u, madd(set1(w.g[4]), v, set1(w.g[5]))), inverse);
+  *x = mul(madd(w.g0, u, madd(w.g1, v, w.g2)), inverse);
+  *y = mul(madd(w.g3, u, madd(w.g4, v, w.g5)), inverse);
 }
 TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divisor) noexcept {
   const vm across = and_(ge(x, set1(f.x_low)), le(x, set1(f.x_last)));
   const vm down = and_(ge(y, set1(f.y_low)), le(y, set1(f.y_last)));
   return and_(gt(divisor, zero()), and_(across, down));
 }
-TEXTPLANE_SIMD_INLINE void cell_vector(const SampleFrame& f, vf x, vf y, SampleStrip* s, int i) noexcept {
-  const vf cx = min_(max_(floor_(x), set1(f.x_low)), set1(f.x_high));
-  const vf cy = min_(max_(floor_(y), set1(f.y_low)), set1(f.y_high));
+struct CellVectors {
+  vf x_low, y_low, x_high, y_high;
+  vi stride;
+};
+TEXTPLANE_SIMD_INLINE CellVectors spread(const SampleFrame& f) noexcept {
+  return CellVectors{set1(f.x_low), set1(f.y_low), set1(f.x_high), set1(f.y_high), seti(static_cast<int>(f.stride))};
+}
+TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleStrip* s, int i) noexcept {
+  const vf cx = min_(max_(floor_(x), c.x_low), c.x_high);
+  const vf cy = min_(max_(floor_(y), c.y_low), c.y_high);
   store(s->fx + i, sub(x, cx));
   store(s->fy + i, sub(y, cy));
-  storei(s->offset + i, addi(muli(to_int(cy), seti(static_cast<int>(f.stride))), to_int(cx)));
+  storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
 }
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
                                       int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  for (int i = 0; i < n; i += kLanes) {
-    vf tx, ty, divisor;
-    warp_vector(w, load_part(px + i, n - i), load_part(py + i, n - i), &tx, &ty, &divisor);
-    cell_vector(f, tx, ty, s, i);
+  const WarpVectors warp = spread(w);
+  const CellVectors cells = spread(f);
+  vf tx, ty, divisor;
+  int i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
+    cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-}
-TEXTPLANE_SIMD_INLINE std::uint32_t two_bytes(const std::uint8_t* p) noexcept {
-  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8;
+  if (i == n) return;
+  warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
+  cell_vector(cells, tx, ty, s, i);
+  store(x + i, tx);
+  store(y + i, ty);
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < n; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -5112,53 +5307,66 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->x_last = static_cast<float>(image.width - 1 - warp.ox);
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
-TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
-  const vf u = sub(px, set1(w.hx)), v = sub(py, set1(w.hy));
-  *divisor = madd(set1(w.g[6]), u, madd(set1(w.g[7]), v, set1(w.g[8])));
+struct WarpVectors {
+  vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
+};
+TEXTPLANE_SIMD_INLINE WarpVectors spread(const simd::Warp8& w) noexcept {
+  return WarpVectors{set1(w.hx),   set1(w.hy),   set1(w.g[0]), set1(w.g[1]), set1(w.g[2]), set1(w.g[3]),
+                     set1(w.g[4]), set1(w.g[5]), set1(w.g[6]), set1(w.g[7]), set1(w.g[8])};
+}
+TEXTPLANE_SIMD_INLINE void warp_vector(const WarpVectors& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
+  const vf u = sub(px, w.hx), v = sub(py, w.hy);
+  *divisor = madd(w.g6, u, madd(w.g7, v, w.g8));
   const vf inverse = div(set1(1.0F), *divisor);
-  *x = mul(madd(set1(w.g[0]), u, madd(set1(w.g[1]), v, set1(w.g[2]))), inverse);
-  *y = mul(madd(set1(w.g[3]), u, madd(set1(w.g[4]), v, set1(w.g[5]))), inverse);
+  *x = mul(madd(w.g0, u, madd(w.g1, v, w.g2)), inverse);
+  *y = mul(madd(w.g3, u, madd(w.g4, v, w.g5)), inverse);
 }
 TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divisor) noexcept {
   const vm across = and_(ge(x, set1(f.x_low)), le(x, set1(f.x_last)));
   const vm down = and_(ge(y, set1(f.y_low)), le(y, set1(f.y_last)));
   return and_(gt(divisor, zero()), and_(across, down));
 }
-TEXTPLANE_SIMD_INLINE void cell_vector(const SampleFrame& f, vf x, vf y, SampleStrip* s, int i) noexcept {
-  const vf cx = min_(max_(floor_(x), set1(f.x_low)), set1(f.x_high));
-  const vf cy = min_(max_(floor_(y), set1(f.y_low)), set1(f.y_high));
+struct CellVectors {
+  vf x_low, y_low, x_high, y_high;
+  vi stride;
+};
+TEXTPLANE_SIMD_INLINE CellVectors spread(const SampleFrame& f) noexcept {
+  return CellVectors{set1(f.x_low), set1(f.y_low), set1(f.x_high), set1(f.y_high), seti(static_cast<int>(f.stride))};
+}
+TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleStrip* s, int i) noexcept {
+  const vf cx = min_(max_(floor_(x), c.x_low), c.x_high);
+  const vf cy = min_(max_(floor_(y), c.y_low), c.y_high);
   store(s->fx + i, sub(x, cx));
   store(s->fy + i, sub(y, cy));
-  storei(s->offset + i, addi(muli(to_int(cy), seti(static_cast<int>(f.stride))), to_int(cx)));
+  storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
 }
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
                                       int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  for (int i = 0; i < n; i += kLanes) {
-    vf tx, ty, divisor;
-    warp_vector(w, load_part(px + i, n - i), load_part(py + i, n - i), &tx, &ty, &divisor);
-    cell_vector(f, tx, ty, s, i);
+  const WarpVectors warp = spread(w);
+  const CellVectors cells = spread(f);
+  vf tx, ty, divisor;
+  int i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
+    cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-}
-TEXTPLANE_SIMD_INLINE std::uint32_t two_bytes(const std::uint8_t* p) noexcept {
-  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8;
+  if (i == n) return;
+  warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
+  cell_vector(cells, tx, ty, s, i);
+  store(x + i, tx);
+  store(y + i, ty);
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < n; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -5318,53 +5526,66 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->x_last = static_cast<float>(image.width - 1 - warp.ox);
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
-TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
-  const vf u = sub(px, set1(w.hx)), v = sub(py, set1(w.hy));
-  *divisor = madd(set1(w.g[6]), u, madd(set1(w.g[7]), v, set1(w.g[8])));
+struct WarpVectors {
+  vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
+};
+TEXTPLANE_SIMD_INLINE WarpVectors spread(const simd::Warp8& w) noexcept {
+  return WarpVectors{set1(w.hx),   set1(w.hy),   set1(w.g[0]), set1(w.g[1]), set1(w.g[2]), set1(w.g[3]),
+                     set1(w.g[4]), set1(w.g[5]), set1(w.g[6]), set1(w.g[7]), set1(w.g[8])};
+}
+TEXTPLANE_SIMD_INLINE void warp_vector(const WarpVectors& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
+  const vf u = sub(px, w.hx), v = sub(py, w.hy);
+  *divisor = madd(w.g6, u, madd(w.g7, v, w.g8));
   const vf inverse = div(set1(1.0F), *divisor);
-  *x = mul(madd(set1(w.g[0]), u, madd(set1(w.g[1]), v, set1(w.g[2]))), inverse);
-  *y = mul(madd(set1(w.g[3]), u, madd(set1(w.g[4]), v, set1(w.g[5]))), inverse);
+  *x = mul(madd(w.g0, u, madd(w.g1, v, w.g2)), inverse);
+  *y = mul(madd(w.g3, u, madd(w.g4, v, w.g5)), inverse);
 }
 TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divisor) noexcept {
   const vm across = and_(ge(x, set1(f.x_low)), le(x, set1(f.x_last)));
   const vm down = and_(ge(y, set1(f.y_low)), le(y, set1(f.y_last)));
   return and_(gt(divisor, zero()), and_(across, down));
 }
-TEXTPLANE_SIMD_INLINE void cell_vector(const SampleFrame& f, vf x, vf y, SampleStrip* s, int i) noexcept {
-  const vf cx = min_(max_(floor_(x), set1(f.x_low)), set1(f.x_high));
-  const vf cy = min_(max_(floor_(y), set1(f.y_low)), set1(f.y_high));
+struct CellVectors {
+  vf x_low, y_low, x_high, y_high;
+  vi stride;
+};
+TEXTPLANE_SIMD_INLINE CellVectors spread(const SampleFrame& f) noexcept {
+  return CellVectors{set1(f.x_low), set1(f.y_low), set1(f.x_high), set1(f.y_high), seti(static_cast<int>(f.stride))};
+}
+TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleStrip* s, int i) noexcept {
+  const vf cx = min_(max_(floor_(x), c.x_low), c.x_high);
+  const vf cy = min_(max_(floor_(y), c.y_low), c.y_high);
   store(s->fx + i, sub(x, cx));
   store(s->fy + i, sub(y, cy));
-  storei(s->offset + i, addi(muli(to_int(cy), seti(static_cast<int>(f.stride))), to_int(cx)));
+  storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
 }
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
                                       int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  for (int i = 0; i < n; i += kLanes) {
-    vf tx, ty, divisor;
-    warp_vector(w, load_part(px + i, n - i), load_part(py + i, n - i), &tx, &ty, &divisor);
-    cell_vector(f, tx, ty, s, i);
+  const WarpVectors warp = spread(w);
+  const CellVectors cells = spread(f);
+  vf tx, ty, divisor;
+  int i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
+    cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-}
-TEXTPLANE_SIMD_INLINE std::uint32_t two_bytes(const std::uint8_t* p) noexcept {
-  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8;
+  if (i == n) return;
+  warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
+  cell_vector(cells, tx, ty, s, i);
+  store(x + i, tx);
+  store(y + i, ty);
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < n; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -5511,53 +5732,66 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->x_last = static_cast<float>(image.width - 1 - warp.ox);
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
-TEXTPLANE_SIMD_INLINE void warp_vector(const simd::Warp8& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
-  const vf u = sub(px, set1(w.hx)), v = sub(py, set1(w.hy));
-  *divisor = madd(set1(w.g[6]), u, madd(set1(w.g[7]), v, set1(w.g[8])));
+struct WarpVectors {
+  vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
+};
+TEXTPLANE_SIMD_INLINE WarpVectors spread(const simd::Warp8& w) noexcept {
+  return WarpVectors{set1(w.hx),   set1(w.hy),   set1(w.g[0]), set1(w.g[1]), set1(w.g[2]), set1(w.g[3]),
+                     set1(w.g[4]), set1(w.g[5]), set1(w.g[6]), set1(w.g[7]), set1(w.g[8])};
+}
+TEXTPLANE_SIMD_INLINE void warp_vector(const WarpVectors& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
+  const vf u = sub(px, w.hx), v = sub(py, w.hy);
+  *divisor = madd(w.g6, u, madd(w.g7, v, w.g8));
   const vf inverse = div(set1(1.0F), *divisor);
-  *x = mul(madd(set1(w.g[0]), u, madd(set1(w.g[1]), v, set1(w.g[2]))), inverse);
-  *y = mul(madd(set1(w.g[3]), u, madd(set1(w.g[4]), v, set1(w.g[5]))), inverse);
+  *x = mul(madd(w.g0, u, madd(w.g1, v, w.g2)), inverse);
+  *y = mul(madd(w.g3, u, madd(w.g4, v, w.g5)), inverse);
 }
 TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divisor) noexcept {
   const vm across = and_(ge(x, set1(f.x_low)), le(x, set1(f.x_last)));
   const vm down = and_(ge(y, set1(f.y_low)), le(y, set1(f.y_last)));
   return and_(gt(divisor, zero()), and_(across, down));
 }
-TEXTPLANE_SIMD_INLINE void cell_vector(const SampleFrame& f, vf x, vf y, SampleStrip* s, int i) noexcept {
-  const vf cx = min_(max_(floor_(x), set1(f.x_low)), set1(f.x_high));
-  const vf cy = min_(max_(floor_(y), set1(f.y_low)), set1(f.y_high));
+struct CellVectors {
+  vf x_low, y_low, x_high, y_high;
+  vi stride;
+};
+TEXTPLANE_SIMD_INLINE CellVectors spread(const SampleFrame& f) noexcept {
+  return CellVectors{set1(f.x_low), set1(f.y_low), set1(f.x_high), set1(f.y_high), seti(static_cast<int>(f.stride))};
+}
+TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleStrip* s, int i) noexcept {
+  const vf cx = min_(max_(floor_(x), c.x_low), c.x_high);
+  const vf cy = min_(max_(floor_(y), c.y_low), c.y_high);
   store(s->fx + i, sub(x, cx));
   store(s->fy + i, sub(y, cy));
-  storei(s->offset + i, addi(muli(to_int(cy), seti(static_cast<int>(f.stride))), to_int(cx)));
+  storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
 }
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
                                       int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  for (int i = 0; i < n; i += kLanes) {
-    vf tx, ty, divisor;
-    warp_vector(w, load_part(px + i, n - i), load_part(py + i, n - i), &tx, &ty, &divisor);
-    cell_vector(f, tx, ty, s, i);
+  const WarpVectors warp = spread(w);
+  const CellVectors cells = spread(f);
+  vf tx, ty, divisor;
+  int i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
+    cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-}
-TEXTPLANE_SIMD_INLINE std::uint32_t two_bytes(const std::uint8_t* p) noexcept {
-  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8;
+  if (i == n) return;
+  warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
+  cell_vector(cells, tx, ty, s, i);
+  store(x + i, tx);
+  store(y + i, ty);
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < n; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -5666,10 +5900,11 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
   SampleFrame frame;
   if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
   if (!a.inside) result->inside = a.n;
+  const WarpVectors vectors = spread(warp);
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
     vf x, y, divisor;
-    warp_vector(warp, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
+    warp_vector(vectors, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
     if (a.inside) {
       const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
       result->inside += count(in);
@@ -5701,14 +5936,16 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
   SampleFrame frame;
   if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
   const bool paired = frame.pairs != nullptr;
+  const WarpVectors vectors = spread(warp);
+  const CellVectors cells = spread(frame);
   SampleStrip strip;
   for (int begin = 0; begin < a.n; begin += kStrip) {
     const int n = a.n - begin < kStrip ? a.n - begin : kStrip;
     float x[kStrip], y[kStrip], value[kStrip], gx[kStrip], gy[kStrip];
     for (int i = 0; i < n; i += kLanes) {
       vf tx, ty, divisor;
-      warp_vector(warp, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
-      cell_vector(frame, tx, ty, &strip, i);
+      warp_vector(vectors, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
+      cell_vector(cells, tx, ty, &strip, i);
       const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
       const unsigned b = bits(in);
       result->inside += count(in);
@@ -5779,10 +6016,11 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
   SampleFrame frame;
   if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
   if (!a.inside) result->inside = a.n;
+  const WarpVectors vectors = spread(warp);
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
     vf x, y, divisor;
-    warp_vector(warp, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
+    warp_vector(vectors, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
     if (a.inside) {
       const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
       result->inside += count(in);
@@ -5811,14 +6049,16 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
   SampleFrame frame;
   if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
   const bool paired = frame.pairs != nullptr;
+  const WarpVectors vectors = spread(warp);
+  const CellVectors cells = spread(frame);
   SampleStrip strip;
   for (int begin = 0; begin < a.n; begin += kStrip) {
     const int n = a.n - begin < kStrip ? a.n - begin : kStrip;
     float x[kStrip], y[kStrip], value[kStrip], gx[kStrip], gy[kStrip];
     for (int i = 0; i < n; i += kLanes) {
       vf tx, ty, divisor;
-      warp_vector(warp, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
-      cell_vector(frame, tx, ty, &strip, i);
+      warp_vector(vectors, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
+      cell_vector(cells, tx, ty, &strip, i);
       const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
       const unsigned b = bits(in);
       result->inside += count(in);
@@ -5894,10 +6134,11 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
   SampleFrame frame;
   if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
   if (!a.inside) result->inside = a.n;
+  const WarpVectors vectors = spread(warp);
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
     vf x, y, divisor;
-    warp_vector(warp, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
+    warp_vector(vectors, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
     if (a.inside) {
       const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
       result->inside += count(in);
@@ -5926,14 +6167,16 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
   SampleFrame frame;
   if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
   const bool paired = frame.pairs != nullptr;
+  const WarpVectors vectors = spread(warp);
+  const CellVectors cells = spread(frame);
   SampleStrip strip;
   for (int begin = 0; begin < a.n; begin += kStrip) {
     const int n = a.n - begin < kStrip ? a.n - begin : kStrip;
     float x[kStrip], y[kStrip], value[kStrip], gx[kStrip], gy[kStrip];
     for (int i = 0; i < n; i += kLanes) {
       vf tx, ty, divisor;
-      warp_vector(warp, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
-      cell_vector(frame, tx, ty, &strip, i);
+      warp_vector(vectors, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
+      cell_vector(cells, tx, ty, &strip, i);
       const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
       const unsigned b = bits(in);
       result->inside += count(in);
@@ -6016,10 +6259,11 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
   SampleFrame frame;
   if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
   if (!a.inside) result->inside = a.n;
+  const WarpVectors vectors = spread(warp);
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
     vf x, y, divisor;
-    warp_vector(warp, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
+    warp_vector(vectors, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
     if (a.inside) {
       const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
       result->inside += count(in);
@@ -6048,14 +6292,16 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
   SampleFrame frame;
   if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
   const bool paired = frame.pairs != nullptr;
+  const WarpVectors vectors = spread(warp);
+  const CellVectors cells = spread(frame);
   SampleStrip strip;
   for (int begin = 0; begin < a.n; begin += kStrip) {
     const int n = a.n - begin < kStrip ? a.n - begin : kStrip;
     float x[kStrip], y[kStrip], value[kStrip], gx[kStrip], gy[kStrip];
     for (int i = 0; i < n; i += kLanes) {
       vf tx, ty, divisor;
-      warp_vector(warp, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
-      cell_vector(frame, tx, ty, &strip, i);
+      warp_vector(vectors, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
+      cell_vector(cells, tx, ty, &strip, i);
       const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
       const unsigned b = bits(in);
       result->inside += count(in);
@@ -6125,10 +6371,11 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
   SampleFrame frame;
   if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
   if (!a.inside) result->inside = a.n;
+  const WarpVectors vectors = spread(warp);
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
     vf x, y, divisor;
-    warp_vector(warp, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
+    warp_vector(vectors, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
     if (a.inside) {
       const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
       result->inside += count(in);
@@ -6157,14 +6404,16 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
   SampleFrame frame;
   if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
   const bool paired = frame.pairs != nullptr;
+  const WarpVectors vectors = spread(warp);
+  const CellVectors cells = spread(frame);
   SampleStrip strip;
   for (int begin = 0; begin < a.n; begin += kStrip) {
     const int n = a.n - begin < kStrip ? a.n - begin : kStrip;
     float x[kStrip], y[kStrip], value[kStrip], gx[kStrip], gy[kStrip];
     for (int i = 0; i < n; i += kLanes) {
       vf tx, ty, divisor;
-      warp_vector(warp, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
-      cell_vector(frame, tx, ty, &strip, i);
+      warp_vector(vectors, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
+      cell_vector(cells, tx, ty, &strip, i);
       const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
       const unsigned b = bits(in);
       result->inside += count(in);
@@ -7413,6 +7662,7 @@ TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
 // Closes up the visible pixels into hx, hy, h; counts; flags.
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
                                    simd::ResidualInfo* info) noexcept {
+  const WarpVectors warp = spread(f.warp);
   int candidates = 0, front = 0, visible = 0;
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
@@ -7423,7 +7673,7 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
       for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.on_set[i + k] == 0) << k);
     const vf px = load_part(a.x + i, left), py = load_part(a.y + i, left), h = load_part(a.intensity + i, left);
     vf x, y, divisor;
-    warp_vector(f.warp, px, py, &x, &y, &divisor);
+    warp_vector(warp, px, py, &x, &y, &divisor);
     const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
@@ -7552,6 +7802,7 @@ TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
 }
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
                                    simd::ResidualInfo* info) noexcept {
+  const WarpVectors warp = spread(f.warp);
   int candidates = 0, front = 0, visible = 0;
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
@@ -7562,7 +7813,7 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
       for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.on_set[i + k] == 0) << k);
     const vf px = load_part(a.x + i, left), py = load_part(a.y + i, left), h = load_part(a.intensity + i, left);
     vf x, y, divisor;
-    warp_vector(f.warp, px, py, &x, &y, &divisor);
+    warp_vector(warp, px, py, &x, &y, &divisor);
     const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
@@ -7691,6 +7942,7 @@ TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
 }
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
                                    simd::ResidualInfo* info) noexcept {
+  const WarpVectors warp = spread(f.warp);
   int candidates = 0, front = 0, visible = 0;
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
@@ -7701,7 +7953,7 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
       for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.on_set[i + k] == 0) << k);
     const vf px = load_part(a.x + i, left), py = load_part(a.y + i, left), h = load_part(a.intensity + i, left);
     vf x, y, divisor;
-    warp_vector(f.warp, px, py, &x, &y, &divisor);
+    warp_vector(warp, px, py, &x, &y, &divisor);
     const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
@@ -7837,6 +8089,7 @@ TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
 }
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
                                    simd::ResidualInfo* info) noexcept {
+  const WarpVectors warp = spread(f.warp);
   int candidates = 0, front = 0, visible = 0;
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
@@ -7847,7 +8100,7 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
       for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.on_set[i + k] == 0) << k);
     const vf px = load_part(a.x + i, left), py = load_part(a.y + i, left), h = load_part(a.intensity + i, left);
     vf x, y, divisor;
-    warp_vector(f.warp, px, py, &x, &y, &divisor);
+    warp_vector(warp, px, py, &x, &y, &divisor);
     const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
@@ -7970,6 +8223,7 @@ TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
 }
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
                                    simd::ResidualInfo* info) noexcept {
+  const WarpVectors warp = spread(f.warp);
   int candidates = 0, front = 0, visible = 0;
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
@@ -7980,7 +8234,7 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
       for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.on_set[i + k] == 0) << k);
     const vf px = load_part(a.x + i, left), py = load_part(a.y + i, left), h = load_part(a.intensity + i, left);
     vf x, y, divisor;
-    warp_vector(f.warp, px, py, &x, &y, &divisor);
+    warp_vector(warp, px, py, &x, &y, &divisor);
     const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
@@ -8098,7 +8352,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8121,7 +8375,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8150,7 +8404,7 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(q0 + i), y = load(q1 + i), z = load(q2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -8178,7 +8432,7 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8200,7 +8454,7 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), d = load(r3 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8228,7 +8482,7 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf A = load(a + i), Ax = load(ax + i), B = load(b + i), Bx = load(bx + i), By = load(by + i);
+    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
     s1 = madd(A, Bx, s1);
     s2 = madd(A, By, s2);
@@ -8255,7 +8509,7 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf Cx = load(cx + i), Cy = load(cy + i), Ax = load(ax + i), Bx = load(bx + i);
+    const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
     s1 = madd(Ax, Cy, s1);
     s2 = madd(load(ay + i), Cy, s2);
@@ -8276,6 +8530,156 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
 }
+
+// What follows is for targets with 32 registers (kManyRegisters): more sums a loop, of rows that never leave the registers.
+
+// The products of (A, Ax, Ay), those of (B, Bx, By), and the mixed ones, in the order of add_squares3() and add_mixed(); and the
+// sums of the six rows.
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
+                                      float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
+  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
+  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
+    s0 = madd(A, A, s0);
+    s1 = madd(A, Ax, s1);
+    s2 = madd(A, Ay, s2);
+    s3 = madd(Ax, Ax, s3);
+    s4 = madd(Ax, Ay, s4);
+    s5 = madd(Ay, Ay, s5);
+    s6 = madd(B, B, s6);
+    s7 = madd(B, Bx, s7);
+    s8 = madd(B, By, s8);
+    s9 = madd(Bx, Bx, s9);
+    s10 = madd(Bx, By, s10);
+    s11 = madd(By, By, s11);
+    s12 = madd(A, B, s12);
+    s13 = madd(A, Bx, s13);
+    s14 = madd(A, By, s14);
+    s15 = madd(Ax, Bx, s15);
+    s16 = madd(Ax, By, s16);
+    s17 = madd(Ay, By, s17);
+    t0 = add(t0, A);
+    t1 = add(t1, Ax);
+    t2 = add(t2, Ay);
+    t3 = add(t3, B);
+    t4 = add(t4, Bx);
+    t5 = add(t5, By);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(acc + 9 * kLanes, s9);
+  store(acc + 10 * kLanes, s10);
+  store(acc + 11 * kLanes, s11);
+  store(acc + 12 * kLanes, s12);
+  store(acc + 13 * kLanes, s13);
+  store(acc + 14 * kLanes, s14);
+  store(acc + 15 * kLanes, s15);
+  store(acc + 16 * kLanes, s16);
+  store(acc + 17 * kLanes, s17);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+  store(sums + 2 * kLanes, t2);
+  store(sums + 3 * kLanes, t3);
+  store(sums + 4 * kLanes, t4);
+  store(sums + 5 * kLanes, t5);
+}
+
+// The products of add_cubic(), and the sums of Cx, Cy.
+TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(Ay, Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(By, Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+    t0 = add(t0, Cx);
+    t1 = add(t1, Cy);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+
+// The eight rows times p to `acc`, times q to `acc2`.
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        const float* q, int n, float* acc, float* acc2) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
+  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
+  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(A, f, s0);
+    s1 = madd(Ax, f, s1);
+    s2 = madd(Ay, f, s2);
+    s3 = madd(B, f, s3);
+    s4 = madd(Bx, f, s4);
+    s5 = madd(By, f, s5);
+    s6 = madd(Cx, f, s6);
+    s7 = madd(Cy, f, s7);
+    t0 = madd(A, g, t0);
+    t1 = madd(Ax, g, t1);
+    t2 = madd(Ay, g, t2);
+    t3 = madd(B, g, t3);
+    t4 = madd(Bx, g, t4);
+    t5 = madd(By, g, t5);
+    t6 = madd(Cx, g, t6);
+    t7 = madd(Cy, g, t7);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc2, t0);
+  store(acc2 + kLanes, t1);
+  store(acc2 + 2 * kLanes, t2);
+  store(acc2 + 3 * kLanes, t3);
+  store(acc2 + 4 * kLanes, t4);
+  store(acc2 + 5 * kLanes, t5);
+  store(acc2 + 6 * kLanes, t6);
+  store(acc2 + 7 * kLanes, t7);
+}
 }
 }
 TEXTPLANE_END_NAMESPACE
@@ -8295,7 +8699,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8316,7 +8720,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8343,7 +8747,7 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(q0 + i), y = load(q1 + i), z = load(q2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -8369,7 +8773,7 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8389,7 +8793,7 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), d = load(r3 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8415,7 +8819,7 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf A = load(a + i), Ax = load(ax + i), B = load(b + i), Bx = load(bx + i), By = load(by + i);
+    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
     s1 = madd(A, Bx, s1);
     s2 = madd(A, By, s2);
@@ -8440,7 +8844,7 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf Cx = load(cx + i), Cy = load(cy + i), Ax = load(ax + i), Bx = load(bx + i);
+    const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
     s1 = madd(Ax, Cy, s1);
     s2 = madd(load(ay + i), Cy, s2);
@@ -8460,6 +8864,147 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
+}
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
+                                      float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
+  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
+  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
+    s0 = madd(A, A, s0);
+    s1 = madd(A, Ax, s1);
+    s2 = madd(A, Ay, s2);
+    s3 = madd(Ax, Ax, s3);
+    s4 = madd(Ax, Ay, s4);
+    s5 = madd(Ay, Ay, s5);
+    s6 = madd(B, B, s6);
+    s7 = madd(B, Bx, s7);
+    s8 = madd(B, By, s8);
+    s9 = madd(Bx, Bx, s9);
+    s10 = madd(Bx, By, s10);
+    s11 = madd(By, By, s11);
+    s12 = madd(A, B, s12);
+    s13 = madd(A, Bx, s13);
+    s14 = madd(A, By, s14);
+    s15 = madd(Ax, Bx, s15);
+    s16 = madd(Ax, By, s16);
+    s17 = madd(Ay, By, s17);
+    t0 = add(t0, A);
+    t1 = add(t1, Ax);
+    t2 = add(t2, Ay);
+    t3 = add(t3, B);
+    t4 = add(t4, Bx);
+    t5 = add(t5, By);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(acc + 9 * kLanes, s9);
+  store(acc + 10 * kLanes, s10);
+  store(acc + 11 * kLanes, s11);
+  store(acc + 12 * kLanes, s12);
+  store(acc + 13 * kLanes, s13);
+  store(acc + 14 * kLanes, s14);
+  store(acc + 15 * kLanes, s15);
+  store(acc + 16 * kLanes, s16);
+  store(acc + 17 * kLanes, s17);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+  store(sums + 2 * kLanes, t2);
+  store(sums + 3 * kLanes, t3);
+  store(sums + 4 * kLanes, t4);
+  store(sums + 5 * kLanes, t5);
+}
+TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(Ay, Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(By, Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+    t0 = add(t0, Cx);
+    t1 = add(t1, Cy);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        const float* q, int n, float* acc, float* acc2) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
+  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
+  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(A, f, s0);
+    s1 = madd(Ax, f, s1);
+    s2 = madd(Ay, f, s2);
+    s3 = madd(B, f, s3);
+    s4 = madd(Bx, f, s4);
+    s5 = madd(By, f, s5);
+    s6 = madd(Cx, f, s6);
+    s7 = madd(Cy, f, s7);
+    t0 = madd(A, g, t0);
+    t1 = madd(Ax, g, t1);
+    t2 = madd(Ay, g, t2);
+    t3 = madd(B, g, t3);
+    t4 = madd(Bx, g, t4);
+    t5 = madd(By, g, t5);
+    t6 = madd(Cx, g, t6);
+    t7 = madd(Cy, g, t7);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc2, t0);
+  store(acc2 + kLanes, t1);
+  store(acc2 + 2 * kLanes, t2);
+  store(acc2 + 3 * kLanes, t3);
+  store(acc2 + 4 * kLanes, t4);
+  store(acc2 + 5 * kLanes, t5);
+  store(acc2 + 6 * kLanes, t6);
+  store(acc2 + 7 * kLanes, t7);
 }
 }
 }
@@ -8486,7 +9031,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8507,7 +9052,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8534,7 +9079,7 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(q0 + i), y = load(q1 + i), z = load(q2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -8560,7 +9105,7 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8580,7 +9125,7 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), d = load(r3 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8606,7 +9151,7 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf A = load(a + i), Ax = load(ax + i), B = load(b + i), Bx = load(bx + i), By = load(by + i);
+    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
     s1 = madd(A, Bx, s1);
     s2 = madd(A, By, s2);
@@ -8631,7 +9176,7 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf Cx = load(cx + i), Cy = load(cy + i), Ax = load(ax + i), Bx = load(bx + i);
+    const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
     s1 = madd(Ax, Cy, s1);
     s2 = madd(load(ay + i), Cy, s2);
@@ -8651,6 +9196,147 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
+}
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
+                                      float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
+  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
+  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
+    s0 = madd(A, A, s0);
+    s1 = madd(A, Ax, s1);
+    s2 = madd(A, Ay, s2);
+    s3 = madd(Ax, Ax, s3);
+    s4 = madd(Ax, Ay, s4);
+    s5 = madd(Ay, Ay, s5);
+    s6 = madd(B, B, s6);
+    s7 = madd(B, Bx, s7);
+    s8 = madd(B, By, s8);
+    s9 = madd(Bx, Bx, s9);
+    s10 = madd(Bx, By, s10);
+    s11 = madd(By, By, s11);
+    s12 = madd(A, B, s12);
+    s13 = madd(A, Bx, s13);
+    s14 = madd(A, By, s14);
+    s15 = madd(Ax, Bx, s15);
+    s16 = madd(Ax, By, s16);
+    s17 = madd(Ay, By, s17);
+    t0 = add(t0, A);
+    t1 = add(t1, Ax);
+    t2 = add(t2, Ay);
+    t3 = add(t3, B);
+    t4 = add(t4, Bx);
+    t5 = add(t5, By);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(acc + 9 * kLanes, s9);
+  store(acc + 10 * kLanes, s10);
+  store(acc + 11 * kLanes, s11);
+  store(acc + 12 * kLanes, s12);
+  store(acc + 13 * kLanes, s13);
+  store(acc + 14 * kLanes, s14);
+  store(acc + 15 * kLanes, s15);
+  store(acc + 16 * kLanes, s16);
+  store(acc + 17 * kLanes, s17);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+  store(sums + 2 * kLanes, t2);
+  store(sums + 3 * kLanes, t3);
+  store(sums + 4 * kLanes, t4);
+  store(sums + 5 * kLanes, t5);
+}
+TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(Ay, Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(By, Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+    t0 = add(t0, Cx);
+    t1 = add(t1, Cy);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        const float* q, int n, float* acc, float* acc2) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
+  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
+  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(A, f, s0);
+    s1 = madd(Ax, f, s1);
+    s2 = madd(Ay, f, s2);
+    s3 = madd(B, f, s3);
+    s4 = madd(Bx, f, s4);
+    s5 = madd(By, f, s5);
+    s6 = madd(Cx, f, s6);
+    s7 = madd(Cy, f, s7);
+    t0 = madd(A, g, t0);
+    t1 = madd(Ax, g, t1);
+    t2 = madd(Ay, g, t2);
+    t3 = madd(B, g, t3);
+    t4 = madd(Bx, g, t4);
+    t5 = madd(By, g, t5);
+    t6 = madd(Cx, g, t6);
+    t7 = madd(Cy, g, t7);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc2, t0);
+  store(acc2 + kLanes, t1);
+  store(acc2 + 2 * kLanes, t2);
+  store(acc2 + 3 * kLanes, t3);
+  store(acc2 + 4 * kLanes, t4);
+  store(acc2 + 5 * kLanes, t5);
+  store(acc2 + 6 * kLanes, t6);
+  store(acc2 + 7 * kLanes, t7);
 }
 }
 }
@@ -8684,7 +9370,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8705,7 +9391,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8732,7 +9418,7 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(q0 + i), y = load(q1 + i), z = load(q2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -8758,7 +9444,7 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8778,7 +9464,7 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), d = load(r3 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8804,7 +9490,7 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf A = load(a + i), Ax = load(ax + i), B = load(b + i), Bx = load(bx + i), By = load(by + i);
+    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
     s1 = madd(A, Bx, s1);
     s2 = madd(A, By, s2);
@@ -8829,7 +9515,7 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf Cx = load(cx + i), Cy = load(cy + i), Ax = load(ax + i), Bx = load(bx + i);
+    const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
     s1 = madd(Ax, Cy, s1);
     s2 = madd(load(ay + i), Cy, s2);
@@ -8849,6 +9535,147 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
+}
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
+                                      float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
+  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
+  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
+    s0 = madd(A, A, s0);
+    s1 = madd(A, Ax, s1);
+    s2 = madd(A, Ay, s2);
+    s3 = madd(Ax, Ax, s3);
+    s4 = madd(Ax, Ay, s4);
+    s5 = madd(Ay, Ay, s5);
+    s6 = madd(B, B, s6);
+    s7 = madd(B, Bx, s7);
+    s8 = madd(B, By, s8);
+    s9 = madd(Bx, Bx, s9);
+    s10 = madd(Bx, By, s10);
+    s11 = madd(By, By, s11);
+    s12 = madd(A, B, s12);
+    s13 = madd(A, Bx, s13);
+    s14 = madd(A, By, s14);
+    s15 = madd(Ax, Bx, s15);
+    s16 = madd(Ax, By, s16);
+    s17 = madd(Ay, By, s17);
+    t0 = add(t0, A);
+    t1 = add(t1, Ax);
+    t2 = add(t2, Ay);
+    t3 = add(t3, B);
+    t4 = add(t4, Bx);
+    t5 = add(t5, By);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(acc + 9 * kLanes, s9);
+  store(acc + 10 * kLanes, s10);
+  store(acc + 11 * kLanes, s11);
+  store(acc + 12 * kLanes, s12);
+  store(acc + 13 * kLanes, s13);
+  store(acc + 14 * kLanes, s14);
+  store(acc + 15 * kLanes, s15);
+  store(acc + 16 * kLanes, s16);
+  store(acc + 17 * kLanes, s17);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+  store(sums + 2 * kLanes, t2);
+  store(sums + 3 * kLanes, t3);
+  store(sums + 4 * kLanes, t4);
+  store(sums + 5 * kLanes, t5);
+}
+TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(Ay, Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(By, Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+    t0 = add(t0, Cx);
+    t1 = add(t1, Cy);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        const float* q, int n, float* acc, float* acc2) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
+  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
+  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(A, f, s0);
+    s1 = madd(Ax, f, s1);
+    s2 = madd(Ay, f, s2);
+    s3 = madd(B, f, s3);
+    s4 = madd(Bx, f, s4);
+    s5 = madd(By, f, s5);
+    s6 = madd(Cx, f, s6);
+    s7 = madd(Cy, f, s7);
+    t0 = madd(A, g, t0);
+    t1 = madd(Ax, g, t1);
+    t2 = madd(Ay, g, t2);
+    t3 = madd(B, g, t3);
+    t4 = madd(Bx, g, t4);
+    t5 = madd(By, g, t5);
+    t6 = madd(Cx, g, t6);
+    t7 = madd(Cy, g, t7);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc2, t0);
+  store(acc2 + kLanes, t1);
+  store(acc2 + 2 * kLanes, t2);
+  store(acc2 + 3 * kLanes, t3);
+  store(acc2 + 4 * kLanes, t4);
+  store(acc2 + 5 * kLanes, t5);
+  store(acc2 + 6 * kLanes, t6);
+  store(acc2 + 7 * kLanes, t7);
 }
 }
 }
@@ -8869,7 +9696,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8890,7 +9717,7 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -8917,7 +9744,7 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(q0 + i), y = load(q1 + i), z = load(q2 + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -8943,7 +9770,7 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8963,7 +9790,7 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
   vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = load(r0 + i), b = load(r1 + i), c = load(r2 + i), d = load(r3 + i), x = load(p + i), y = load(q + i);
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -8989,7 +9816,7 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf t0 = load(sums), t1 = load(sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf A = load(a + i), Ax = load(ax + i), B = load(b + i), Bx = load(bx + i), By = load(by + i);
+    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
     s1 = madd(A, Bx, s1);
     s2 = madd(A, By, s2);
@@ -9014,7 +9841,7 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
   vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf Cx = load(cx + i), Cy = load(cy + i), Ax = load(ax + i), Bx = load(bx + i);
+    const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
     s1 = madd(Ax, Cy, s1);
     s2 = madd(load(ay + i), Cy, s2);
@@ -9034,6 +9861,147 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
+}
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
+                                      float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
+  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
+  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
+    s0 = madd(A, A, s0);
+    s1 = madd(A, Ax, s1);
+    s2 = madd(A, Ay, s2);
+    s3 = madd(Ax, Ax, s3);
+    s4 = madd(Ax, Ay, s4);
+    s5 = madd(Ay, Ay, s5);
+    s6 = madd(B, B, s6);
+    s7 = madd(B, Bx, s7);
+    s8 = madd(B, By, s8);
+    s9 = madd(Bx, Bx, s9);
+    s10 = madd(Bx, By, s10);
+    s11 = madd(By, By, s11);
+    s12 = madd(A, B, s12);
+    s13 = madd(A, Bx, s13);
+    s14 = madd(A, By, s14);
+    s15 = madd(Ax, Bx, s15);
+    s16 = madd(Ax, By, s16);
+    s17 = madd(Ay, By, s17);
+    t0 = add(t0, A);
+    t1 = add(t1, Ax);
+    t2 = add(t2, Ay);
+    t3 = add(t3, B);
+    t4 = add(t4, Bx);
+    t5 = add(t5, By);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(acc + 9 * kLanes, s9);
+  store(acc + 10 * kLanes, s10);
+  store(acc + 11 * kLanes, s11);
+  store(acc + 12 * kLanes, s12);
+  store(acc + 13 * kLanes, s13);
+  store(acc + 14 * kLanes, s14);
+  store(acc + 15 * kLanes, s15);
+  store(acc + 16 * kLanes, s16);
+  store(acc + 17 * kLanes, s17);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+  store(sums + 2 * kLanes, t2);
+  store(sums + 3 * kLanes, t3);
+  store(sums + 4 * kLanes, t4);
+  store(sums + 5 * kLanes, t5);
+}
+TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+  vf t0 = load(sums), t1 = load(sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(Ay, Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(By, Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+    t0 = add(t0, Cx);
+    t1 = add(t1, Cy);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc + 8 * kLanes, s8);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        const float* q, int n, float* acc, float* acc2) noexcept {
+  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
+  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
+  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
+  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    s0 = madd(A, f, s0);
+    s1 = madd(Ax, f, s1);
+    s2 = madd(Ay, f, s2);
+    s3 = madd(B, f, s3);
+    s4 = madd(Bx, f, s4);
+    s5 = madd(By, f, s5);
+    s6 = madd(Cx, f, s6);
+    s7 = madd(Cy, f, s7);
+    t0 = madd(A, g, t0);
+    t1 = madd(Ax, g, t1);
+    t2 = madd(Ay, g, t2);
+    t3 = madd(B, g, t3);
+    t4 = madd(Bx, g, t4);
+    t5 = madd(By, g, t5);
+    t6 = madd(Cx, g, t6);
+    t7 = madd(Cy, g, t7);
+  }
+  store(acc, s0);
+  store(acc + kLanes, s1);
+  store(acc + 2 * kLanes, s2);
+  store(acc + 3 * kLanes, s3);
+  store(acc + 4 * kLanes, s4);
+  store(acc + 5 * kLanes, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  store(acc2, t0);
+  store(acc2 + kLanes, t1);
+  store(acc2 + 2 * kLanes, t2);
+  store(acc2 + 3 * kLanes, t3);
+  store(acc2 + 4 * kLanes, t4);
+  store(acc2 + 5 * kLanes, t5);
+  store(acc2 + 6 * kLanes, t6);
+  store(acc2 + 7 * kLanes, t7);
 }
 }
 }
@@ -10415,6 +11383,17 @@ struct RowStrip {
   float row[6][kStrip];
 };
 
+// The unweighted sums of the homography's rows where registers hold many of them: three loops, each with rows of its own, take
+// less time than loops over rows that pass through memory. The sums are those of add_strip_products() and add_strip_sums(), each
+// in the same order.
+TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
+                                               const float* p, const float* q, int n, float* acc, float* ones,
+                                               float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, acc, ones);
+  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, first, second);
+}
+
 // Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too.
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
@@ -10516,13 +11495,20 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
   vf si = zero(), sii = zero(), sh = zero(), shh = zero();
-  const vf kappa = set1(o.kappa);
-  for (int k = 0; k < n; k += kLanes) {
-    vf i = sub(load(target + k), set1(o.target)), h = sub(load_part(host + k, n - k), set1(o.host));
-    if (n - k < kLanes) {
-      i = keep(first_n(n - k), i);
-      h = keep(first_n(n - k), h);
-    }
+  const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
+  int k = 0;
+  for (; k + kLanes <= n; k += kLanes) {
+    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
+    store(target + k, i);
+    store(difference + k, sub(mul(kappa, h), i));
+    si = add(si, i);
+    sh = add(sh, h);
+    sii = madd(i, i, sii);
+    shh = madd(h, h, shh);
+  }
+  if (k < n) {
+    const vm counted = first_n(n - k);
+    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
     store(target + k, i);
     store(difference + k, sub(mul(kappa, h), i));
     si = add(si, i);
@@ -10644,9 +11630,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
     const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
     const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
-    vf weight = div(min_(size, limit), max_(size, set1(1e-30F)));  // w; 1 - w below
-    weight =
-        complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F))) : select(gt(size, limit), weight, one);
+    const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
+    vf weight = div(complement ? sub(size, inner) : inner, least);
+    if (!complement) weight = select(gt(size, limit), weight, one);
     if (n - j < kLanes) weight = keep(first_n(n - j), weight);
     const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
     const vf q = mul(p, nn), r = mul(p, rr);
@@ -10727,8 +11713,12 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     float *i = s.i + begin, *d = s.d + begin;
     if (begin == 0) offsets = first_offsets(i, host.h, count);
     centre_strip(i, host.h + begin, d, count, offsets, &sides);
-    add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-    add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    if (kManyRegisters && form == 8) {
+      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+    } else {
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    }
     terms += kStrip / kLanes;
     if (terms >= kFoldTerms || begin + kStrip >= n) {
       fold(acc, all, total);
@@ -10823,6 +11813,13 @@ TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 
 struct RowStrip {
   float row[6][kStrip];
 };
+TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
+                                               const float* p, const float* q, int n, float* acc, float* ones,
+                                               float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, acc, ones);
+  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, first, second);
+}
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               float* acc) noexcept {
@@ -10914,13 +11911,20 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
   vf si = zero(), sii = zero(), sh = zero(), shh = zero();
-  const vf kappa = set1(o.kappa);
-  for (int k = 0; k < n; k += kLanes) {
-    vf i = sub(load(target + k), set1(o.target)), h = sub(load_part(host + k, n - k), set1(o.host));
-    if (n - k < kLanes) {
-      i = keep(first_n(n - k), i);
-      h = keep(first_n(n - k), h);
-    }
+  const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
+  int k = 0;
+  for (; k + kLanes <= n; k += kLanes) {
+    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
+    store(target + k, i);
+    store(difference + k, sub(mul(kappa, h), i));
+    si = add(si, i);
+    sh = add(sh, h);
+    sii = madd(i, i, sii);
+    shh = madd(h, h, shh);
+  }
+  if (k < n) {
+    const vm counted = first_n(n - k);
+    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
     store(target + k, i);
     store(difference + k, sub(mul(kappa, h), i));
     si = add(si, i);
@@ -11025,9 +12029,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
     const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
     const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
-    vf weight = div(min_(size, limit), max_(size, set1(1e-30F)));
-    weight =
-        complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F))) : select(gt(size, limit), weight, one);
+    const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
+    vf weight = div(complement ? sub(size, inner) : inner, least);
+    if (!complement) weight = select(gt(size, limit), weight, one);
     if (n - j < kLanes) weight = keep(first_n(n - j), weight);
     const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
     const vf q = mul(p, nn), r = mul(p, rr);
@@ -11101,8 +12105,12 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     float *i = s.i + begin, *d = s.d + begin;
     if (begin == 0) offsets = first_offsets(i, host.h, count);
     centre_strip(i, host.h + begin, d, count, offsets, &sides);
-    add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-    add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    if (kManyRegisters && form == 8) {
+      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+    } else {
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    }
     terms += kStrip / kLanes;
     if (terms >= kFoldTerms || begin + kStrip >= n) {
       fold(acc, all, total);
@@ -11198,6 +12206,13 @@ TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 
 struct RowStrip {
   float row[6][kStrip];
 };
+TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
+                                               const float* p, const float* q, int n, float* acc, float* ones,
+                                               float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, acc, ones);
+  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, first, second);
+}
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               float* acc) noexcept {
@@ -11289,13 +12304,20 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
   vf si = zero(), sii = zero(), sh = zero(), shh = zero();
-  const vf kappa = set1(o.kappa);
-  for (int k = 0; k < n; k += kLanes) {
-    vf i = sub(load(target + k), set1(o.target)), h = sub(load_part(host + k, n - k), set1(o.host));
-    if (n - k < kLanes) {
-      i = keep(first_n(n - k), i);
-      h = keep(first_n(n - k), h);
-    }
+  const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
+  int k = 0;
+  for (; k + kLanes <= n; k += kLanes) {
+    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
+    store(target + k, i);
+    store(difference + k, sub(mul(kappa, h), i));
+    si = add(si, i);
+    sh = add(sh, h);
+    sii = madd(i, i, sii);
+    shh = madd(h, h, shh);
+  }
+  if (k < n) {
+    const vm counted = first_n(n - k);
+    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
     store(target + k, i);
     store(difference + k, sub(mul(kappa, h), i));
     si = add(si, i);
@@ -11400,9 +12422,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
     const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
     const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
-    vf weight = div(min_(size, limit), max_(size, set1(1e-30F)));
-    weight =
-        complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F))) : select(gt(size, limit), weight, one);
+    const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
+    vf weight = div(complement ? sub(size, inner) : inner, least);
+    if (!complement) weight = select(gt(size, limit), weight, one);
     if (n - j < kLanes) weight = keep(first_n(n - j), weight);
     const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
     const vf q = mul(p, nn), r = mul(p, rr);
@@ -11476,8 +12498,12 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     float *i = s.i + begin, *d = s.d + begin;
     if (begin == 0) offsets = first_offsets(i, host.h, count);
     centre_strip(i, host.h + begin, d, count, offsets, &sides);
-    add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-    add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    if (kManyRegisters && form == 8) {
+      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+    } else {
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    }
     terms += kStrip / kLanes;
     if (terms >= kFoldTerms || begin + kStrip >= n) {
       fold(acc, all, total);
@@ -11580,6 +12606,13 @@ TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 
 struct RowStrip {
   float row[6][kStrip];
 };
+TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
+                                               const float* p, const float* q, int n, float* acc, float* ones,
+                                               float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, acc, ones);
+  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, first, second);
+}
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               float* acc) noexcept {
@@ -11671,13 +12704,20 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
   vf si = zero(), sii = zero(), sh = zero(), shh = zero();
-  const vf kappa = set1(o.kappa);
-  for (int k = 0; k < n; k += kLanes) {
-    vf i = sub(load(target + k), set1(o.target)), h = sub(load_part(host + k, n - k), set1(o.host));
-    if (n - k < kLanes) {
-      i = keep(first_n(n - k), i);
-      h = keep(first_n(n - k), h);
-    }
+  const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
+  int k = 0;
+  for (; k + kLanes <= n; k += kLanes) {
+    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
+    store(target + k, i);
+    store(difference + k, sub(mul(kappa, h), i));
+    si = add(si, i);
+    sh = add(sh, h);
+    sii = madd(i, i, sii);
+    shh = madd(h, h, shh);
+  }
+  if (k < n) {
+    const vm counted = first_n(n - k);
+    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
     store(target + k, i);
     store(difference + k, sub(mul(kappa, h), i));
     si = add(si, i);
@@ -11782,9 +12822,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
     const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
     const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
-    vf weight = div(min_(size, limit), max_(size, set1(1e-30F)));
-    weight =
-        complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F))) : select(gt(size, limit), weight, one);
+    const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
+    vf weight = div(complement ? sub(size, inner) : inner, least);
+    if (!complement) weight = select(gt(size, limit), weight, one);
     if (n - j < kLanes) weight = keep(first_n(n - j), weight);
     const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
     const vf q = mul(p, nn), r = mul(p, rr);
@@ -11858,8 +12898,12 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     float *i = s.i + begin, *d = s.d + begin;
     if (begin == 0) offsets = first_offsets(i, host.h, count);
     centre_strip(i, host.h + begin, d, count, offsets, &sides);
-    add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-    add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    if (kManyRegisters && form == 8) {
+      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+    } else {
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    }
     terms += kStrip / kLanes;
     if (terms >= kFoldTerms || begin + kStrip >= n) {
       fold(acc, all, total);
@@ -11949,6 +12993,13 @@ TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 
 struct RowStrip {
   float row[6][kStrip];
 };
+TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
+                                               const float* p, const float* q, int n, float* acc, float* ones,
+                                               float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, acc, ones);
+  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, first, second);
+}
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               float* acc) noexcept {
@@ -12040,13 +13091,20 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
   vf si = zero(), sii = zero(), sh = zero(), shh = zero();
-  const vf kappa = set1(o.kappa);
-  for (int k = 0; k < n; k += kLanes) {
-    vf i = sub(load(target + k), set1(o.target)), h = sub(load_part(host + k, n - k), set1(o.host));
-    if (n - k < kLanes) {
-      i = keep(first_n(n - k), i);
-      h = keep(first_n(n - k), h);
-    }
+  const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
+  int k = 0;
+  for (; k + kLanes <= n; k += kLanes) {
+    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
+    store(target + k, i);
+    store(difference + k, sub(mul(kappa, h), i));
+    si = add(si, i);
+    sh = add(sh, h);
+    sii = madd(i, i, sii);
+    shh = madd(h, h, shh);
+  }
+  if (k < n) {
+    const vm counted = first_n(n - k);
+    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
     store(target + k, i);
     store(difference + k, sub(mul(kappa, h), i));
     si = add(si, i);
@@ -12151,9 +13209,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
     const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
     const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
-    vf weight = div(min_(size, limit), max_(size, set1(1e-30F)));
-    weight =
-        complement ? div(sub(size, min_(size, limit)), max_(size, set1(1e-30F))) : select(gt(size, limit), weight, one);
+    const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
+    vf weight = div(complement ? sub(size, inner) : inner, least);
+    if (!complement) weight = select(gt(size, limit), weight, one);
     if (n - j < kLanes) weight = keep(first_n(n - j), weight);
     const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
     const vf q = mul(p, nn), r = mul(p, rr);
@@ -12227,8 +13285,12 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     float *i = s.i + begin, *d = s.d + begin;
     if (begin == 0) offsets = first_offsets(i, host.h, count);
     centre_strip(i, host.h + begin, d, count, offsets, &sides);
-    add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-    add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    if (kManyRegisters && form == 8) {
+      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+    } else {
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+    }
     terms += kStrip / kLanes;
     if (terms >= kFoldTerms || begin + kStrip >= n) {
       fold(acc, all, total);
@@ -12383,7 +13445,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   info->s = i_s;
 
   const float delta = static_cast<float>(a.delta);
-  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), by_i = set1(static_cast<float>(i_scale));
+  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
+  const vf by_i = set1(static_cast<float>(i_scale));
   const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
   const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
   const vf by_s = set1(static_cast<float>(1 / i_s)), by_root = set1(static_cast<float>(-1 / root));
@@ -12401,7 +13464,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     if (a.huber) {
       const vf size = abs_(e), m = min_(size, limit);
       rho = madd(m, add(size, sub(size, m)), rho);
-      w = mul(w, sqrt_(div(limit, max_(size, limit))));
+      w = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), w);
     }
     store(p->i + k, i);
     store(p->e + k, mul(w, mul(e, by_root)));
@@ -12419,7 +13482,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
   if (!exact) {
     for (int k = 0; k < n; k += kLanes) {
-      const vf w = load(p.root + k);
+      const vf w = hold(load(p.root + k));
       store(r0 + k, mul(w, load(r0 + k)));
       store(r1 + k, mul(w, load(r1 + k)));
       store(r2 + k, mul(w, load(r2 + k)));
@@ -12428,7 +13491,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   }
   vf s0 = zero(), s1 = zero(), s2 = zero(), t0 = zero(), t1 = zero(), t2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), a = load(r0 + k), b = load(r1 + k), c = load(r2 + k);
+    const vf i = hold(load(p.i + k)), a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -12447,7 +13510,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   t1 = mul(set1(sum[5]), along);
   t2 = mul(set1(sum[6]), along);
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), w = load(p.root + k);
+    const vf i = hold(load(p.i + k)), w = hold(load(p.root + k));
     store(r0 + k, mul(w, nmadd(i, t0, sub(load(r0 + k), s0))));
     store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));
     store(r2 + k, mul(w, nmadd(i, t2, sub(load(r2 + k), s2))));
@@ -12460,7 +13523,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(),
      b2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), r = load(e + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), r = hold(load(e + k));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -12483,7 +13546,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
      s8 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), x = load(q0 + k), y = load(q1 + k), z = load(q2 + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)), y = hold(load(q1 + k)), z = hold(load(q2 + k));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -12634,7 +13697,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
   const float delta = static_cast<float>(a.delta);
-  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), by_i = set1(static_cast<float>(i_scale));
+  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
+  const vf by_i = set1(static_cast<float>(i_scale));
   const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
   const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
   const vf by_s = set1(static_cast<float>(1 / i_s)), by_root = set1(static_cast<float>(-1 / root));
@@ -12652,7 +13716,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     if (a.huber) {
       const vf size = abs_(e), m = min_(size, limit);
       rho = madd(m, add(size, sub(size, m)), rho);
-      w = mul(w, sqrt_(div(limit, max_(size, limit))));
+      w = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), w);
     }
     store(p->i + k, i);
     store(p->e + k, mul(w, mul(e, by_root)));
@@ -12668,7 +13732,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
   if (!exact) {
     for (int k = 0; k < n; k += kLanes) {
-      const vf w = load(p.root + k);
+      const vf w = hold(load(p.root + k));
       store(r0 + k, mul(w, load(r0 + k)));
       store(r1 + k, mul(w, load(r1 + k)));
       store(r2 + k, mul(w, load(r2 + k)));
@@ -12677,7 +13741,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   }
   vf s0 = zero(), s1 = zero(), s2 = zero(), t0 = zero(), t1 = zero(), t2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), a = load(r0 + k), b = load(r1 + k), c = load(r2 + k);
+    const vf i = hold(load(p.i + k)), a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -12696,7 +13760,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   t1 = mul(set1(sum[5]), along);
   t2 = mul(set1(sum[6]), along);
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), w = load(p.root + k);
+    const vf i = hold(load(p.i + k)), w = hold(load(p.root + k));
     store(r0 + k, mul(w, nmadd(i, t0, sub(load(r0 + k), s0))));
     store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));
     store(r2 + k, mul(w, nmadd(i, t2, sub(load(r2 + k), s2))));
@@ -12707,7 +13771,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(),
      b2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), r = load(e + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), r = hold(load(e + k));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -12728,7 +13792,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
      s8 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), x = load(q0 + k), y = load(q1 + k), z = load(q2 + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)), y = hold(load(q1 + k)), z = hold(load(q2 + k));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -12877,7 +13941,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
   const float delta = static_cast<float>(a.delta);
-  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), by_i = set1(static_cast<float>(i_scale));
+  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
+  const vf by_i = set1(static_cast<float>(i_scale));
   const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
   const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
   const vf by_s = set1(static_cast<float>(1 / i_s)), by_root = set1(static_cast<float>(-1 / root));
@@ -12895,7 +13960,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     if (a.huber) {
       const vf size = abs_(e), m = min_(size, limit);
       rho = madd(m, add(size, sub(size, m)), rho);
-      w = mul(w, sqrt_(div(limit, max_(size, limit))));
+      w = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), w);
     }
     store(p->i + k, i);
     store(p->e + k, mul(w, mul(e, by_root)));
@@ -12911,7 +13976,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
   if (!exact) {
     for (int k = 0; k < n; k += kLanes) {
-      const vf w = load(p.root + k);
+      const vf w = hold(load(p.root + k));
       store(r0 + k, mul(w, load(r0 + k)));
       store(r1 + k, mul(w, load(r1 + k)));
       store(r2 + k, mul(w, load(r2 + k)));
@@ -12920,7 +13985,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   }
   vf s0 = zero(), s1 = zero(), s2 = zero(), t0 = zero(), t1 = zero(), t2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), a = load(r0 + k), b = load(r1 + k), c = load(r2 + k);
+    const vf i = hold(load(p.i + k)), a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -12939,7 +14004,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   t1 = mul(set1(sum[5]), along);
   t2 = mul(set1(sum[6]), along);
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), w = load(p.root + k);
+    const vf i = hold(load(p.i + k)), w = hold(load(p.root + k));
     store(r0 + k, mul(w, nmadd(i, t0, sub(load(r0 + k), s0))));
     store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));
     store(r2 + k, mul(w, nmadd(i, t2, sub(load(r2 + k), s2))));
@@ -12950,7 +14015,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(),
      b2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), r = load(e + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), r = hold(load(e + k));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -12971,7 +14036,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
      s8 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), x = load(q0 + k), y = load(q1 + k), z = load(q2 + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)), y = hold(load(q1 + k)), z = hold(load(q2 + k));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -13127,7 +14192,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
   const float delta = static_cast<float>(a.delta);
-  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), by_i = set1(static_cast<float>(i_scale));
+  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
+  const vf by_i = set1(static_cast<float>(i_scale));
   const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
   const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
   const vf by_s = set1(static_cast<float>(1 / i_s)), by_root = set1(static_cast<float>(-1 / root));
@@ -13145,7 +14211,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     if (a.huber) {
       const vf size = abs_(e), m = min_(size, limit);
       rho = madd(m, add(size, sub(size, m)), rho);
-      w = mul(w, sqrt_(div(limit, max_(size, limit))));
+      w = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), w);
     }
     store(p->i + k, i);
     store(p->e + k, mul(w, mul(e, by_root)));
@@ -13161,7 +14227,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
   if (!exact) {
     for (int k = 0; k < n; k += kLanes) {
-      const vf w = load(p.root + k);
+      const vf w = hold(load(p.root + k));
       store(r0 + k, mul(w, load(r0 + k)));
       store(r1 + k, mul(w, load(r1 + k)));
       store(r2 + k, mul(w, load(r2 + k)));
@@ -13170,7 +14236,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   }
   vf s0 = zero(), s1 = zero(), s2 = zero(), t0 = zero(), t1 = zero(), t2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), a = load(r0 + k), b = load(r1 + k), c = load(r2 + k);
+    const vf i = hold(load(p.i + k)), a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -13189,7 +14255,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   t1 = mul(set1(sum[5]), along);
   t2 = mul(set1(sum[6]), along);
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), w = load(p.root + k);
+    const vf i = hold(load(p.i + k)), w = hold(load(p.root + k));
     store(r0 + k, mul(w, nmadd(i, t0, sub(load(r0 + k), s0))));
     store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));
     store(r2 + k, mul(w, nmadd(i, t2, sub(load(r2 + k), s2))));
@@ -13200,7 +14266,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(),
      b2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), r = load(e + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), r = hold(load(e + k));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -13221,7 +14287,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
      s8 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), x = load(q0 + k), y = load(q1 + k), z = load(q2 + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)), y = hold(load(q1 + k)), z = hold(load(q2 + k));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -13364,7 +14430,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
   const float delta = static_cast<float>(a.delta);
-  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), by_i = set1(static_cast<float>(i_scale));
+  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
+  const vf by_i = set1(static_cast<float>(i_scale));
   const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
   const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
   const vf by_s = set1(static_cast<float>(1 / i_s)), by_root = set1(static_cast<float>(-1 / root));
@@ -13382,7 +14449,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     if (a.huber) {
       const vf size = abs_(e), m = min_(size, limit);
       rho = madd(m, add(size, sub(size, m)), rho);
-      w = mul(w, sqrt_(div(limit, max_(size, limit))));
+      w = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), w);
     }
     store(p->i + k, i);
     store(p->e + k, mul(w, mul(e, by_root)));
@@ -13398,7 +14465,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
   if (!exact) {
     for (int k = 0; k < n; k += kLanes) {
-      const vf w = load(p.root + k);
+      const vf w = hold(load(p.root + k));
       store(r0 + k, mul(w, load(r0 + k)));
       store(r1 + k, mul(w, load(r1 + k)));
       store(r2 + k, mul(w, load(r2 + k)));
@@ -13407,7 +14474,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   }
   vf s0 = zero(), s1 = zero(), s2 = zero(), t0 = zero(), t1 = zero(), t2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), a = load(r0 + k), b = load(r1 + k), c = load(r2 + k);
+    const vf i = hold(load(p.i + k)), a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -13426,7 +14493,7 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
   t1 = mul(set1(sum[5]), along);
   t2 = mul(set1(sum[6]), along);
   for (int k = 0; k < n; k += kLanes) {
-    const vf i = load(p.i + k), w = load(p.root + k);
+    const vf i = hold(load(p.i + k)), w = hold(load(p.root + k));
     store(r0 + k, mul(w, nmadd(i, t0, sub(load(r0 + k), s0))));
     store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));
     store(r2 + k, mul(w, nmadd(i, t2, sub(load(r2 + k), s2))));
@@ -13437,7 +14504,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(),
      b2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), r = load(e + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), r = hold(load(e + k));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -13458,7 +14525,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
      s8 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = load(r0 + k), b = load(r1 + k), c = load(r2 + k), x = load(q0 + k), y = load(q1 + k), z = load(q2 + k);
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)), y = hold(load(q1 + k)), z = hold(load(q2 + k));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -13610,21 +14677,28 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
   info->status = Status::rank_deficient;
 }
 
+// Eight lanes hold a few pixels as well as sixteen do, and sums over them are sooner there.
+#define TEXTPLANE_SIMD_FEW(call)
 TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_plane_sums(a, info, H, b));
   residual_any(3, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                               double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_sums(a, info, H, b));
   residual_any(6, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                     double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_plane_sums(a, info, H, b));
   residual_any(9, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
+  TEXTPLANE_SIMD_FEW(evaluate_cost(a, info));
   residual_any(0, a, info, nullptr, nullptr);
 }
+#undef TEXTPLANE_SIMD_FEW
 }
 }
 TEXTPLANE_END_NAMESPACE
@@ -13663,21 +14737,27 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
   }
   info->status = Status::rank_deficient;
 }
+#define TEXTPLANE_SIMD_FEW(call)
 TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_plane_sums(a, info, H, b));
   residual_any(3, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                               double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_sums(a, info, H, b));
   residual_any(6, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                     double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_plane_sums(a, info, H, b));
   residual_any(9, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
+  TEXTPLANE_SIMD_FEW(evaluate_cost(a, info));
   residual_any(0, a, info, nullptr, nullptr);
 }
+#undef TEXTPLANE_SIMD_FEW
 }
 }
 TEXTPLANE_END_NAMESPACE
@@ -13722,21 +14802,27 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
   }
   info->status = Status::rank_deficient;
 }
+#define TEXTPLANE_SIMD_FEW(call)
 TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_plane_sums(a, info, H, b));
   residual_any(3, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                               double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_sums(a, info, H, b));
   residual_any(6, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                     double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_plane_sums(a, info, H, b));
   residual_any(9, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
+  TEXTPLANE_SIMD_FEW(evaluate_cost(a, info));
   residual_any(0, a, info, nullptr, nullptr);
 }
+#undef TEXTPLANE_SIMD_FEW
 }
 }
 TEXTPLANE_END_NAMESPACE
@@ -13788,21 +14874,28 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
   }
   info->status = Status::rank_deficient;
 }
+#define TEXTPLANE_SIMD_FEW(call) \
+  if (a.n <= 2 * kLanes) return avx2::call
 TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_plane_sums(a, info, H, b));
   residual_any(3, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                               double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_sums(a, info, H, b));
   residual_any(6, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                     double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_plane_sums(a, info, H, b));
   residual_any(9, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
+  TEXTPLANE_SIMD_FEW(evaluate_cost(a, info));
   residual_any(0, a, info, nullptr, nullptr);
 }
+#undef TEXTPLANE_SIMD_FEW
 }
 }
 TEXTPLANE_END_NAMESPACE
@@ -13841,21 +14934,27 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
   }
   info->status = Status::rank_deficient;
 }
+#define TEXTPLANE_SIMD_FEW(call)
 TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_plane_sums(a, info, H, b));
   residual_any(3, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                               double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_sums(a, info, H, b));
   residual_any(6, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
                                                     double* b) noexcept {
+  TEXTPLANE_SIMD_FEW(linearise_pose_plane_sums(a, info, H, b));
   residual_any(9, a, info, H, b);
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
+  TEXTPLANE_SIMD_FEW(evaluate_cost(a, info));
   residual_any(0, a, info, nullptr, nullptr);
 }
+#undef TEXTPLANE_SIMD_FEW
 }
 }
 TEXTPLANE_END_NAMESPACE
@@ -19974,16 +21073,10 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
 TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
   const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
   int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < m * kLanes; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 
@@ -20215,16 +21308,10 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
 TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
   const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
   int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < m * kLanes; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
@@ -20459,16 +21546,10 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
 TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
   const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
   int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < m * kLanes; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
@@ -20710,16 +21791,10 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
 TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
   const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
   int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < m * kLanes; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
@@ -20948,16 +22023,10 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
 TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
   const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
   int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) {
-    const std::ptrdiff_t o0 = s->offset[i], o1 = s->offset[i + 1], o2 = s->offset[i + 2], o3 = s->offset[i + 3];
-    s->taps[i] = two_bytes(upper + o0) | two_bytes(lower + o0) << 16;
-    s->taps[i + 1] = two_bytes(upper + o1) | two_bytes(lower + o1) << 16;
-    s->taps[i + 2] = two_bytes(upper + o2) | two_bytes(lower + o2) << 16;
-    s->taps[i + 3] = two_bytes(upper + o3) | two_bytes(lower + o3) << 16;
-  }
+  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
   for (; i < m * kLanes; ++i) {
     const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = two_bytes(upper + offset) | two_bytes(lower + offset) << 16;
+    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
@@ -21045,8 +22114,8 @@ TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf*
   vf s0 = zero(), s1 = s0, s2 = s0, p0 = s0, p1 = s0, p2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes);
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
+    const vf i = hold(load(p + kBatchTarget * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -21077,8 +22146,8 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf r = load(p + kBatchHost * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf r = hold(load(p + kBatchHost * kLanes));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -21107,8 +22176,8 @@ TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int paramete
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf x = load(p + column * kLanes), y = load(p + (column + 1) * kLanes), z = load(p + (column + 2) * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)), z = hold(load(p + (column + 2) * kLanes));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -21153,18 +22222,18 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 // The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i c). Costs.
 TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
                                        vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  const vf limit = set1(delta);
+  const vf limit = set1(delta), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes),
+    const vf i = hold(load(p + kBatchTarget * kLanes)),
              e = nmadd(i, target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
     vf root = load(p + kBatchWeight * kLanes);
     s = madd(e, e, s);
     if (huber) {
       const vf size = abs_(e), m = min_(size, limit);
       c = madd(m, add(size, sub(size, m)), c);
-      root = mul(root, sqrt_(div(limit, max_(size, limit))));
+      root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
     }
     if (parameters == 0) continue;
     store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);
@@ -21319,8 +22388,8 @@ TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf*
   vf s0 = zero(), s1 = s0, s2 = s0, p0 = s0, p1 = s0, p2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes);
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
+    const vf i = hold(load(p + kBatchTarget * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -21346,8 +22415,8 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf r = load(p + kBatchHost * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf r = hold(load(p + kBatchHost * kLanes));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -21374,8 +22443,8 @@ TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int paramete
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf x = load(p + column * kLanes), y = load(p + (column + 1) * kLanes), z = load(p + (column + 2) * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)), z = hold(load(p + (column + 2) * kLanes));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -21416,18 +22485,18 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 }
 TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
                                        vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  const vf limit = set1(delta);
+  const vf limit = set1(delta), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes),
+    const vf i = hold(load(p + kBatchTarget * kLanes)),
              e = nmadd(i, target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
     vf root = load(p + kBatchWeight * kLanes);
     s = madd(e, e, s);
     if (huber) {
       const vf size = abs_(e), m = min_(size, limit);
       c = madd(m, add(size, sub(size, m)), c);
-      root = mul(root, sqrt_(div(limit, max_(size, limit))));
+      root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
     }
     if (parameters == 0) continue;
     store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);
@@ -21580,8 +22649,8 @@ TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf*
   vf s0 = zero(), s1 = s0, s2 = s0, p0 = s0, p1 = s0, p2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes);
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
+    const vf i = hold(load(p + kBatchTarget * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -21607,8 +22676,8 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf r = load(p + kBatchHost * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf r = hold(load(p + kBatchHost * kLanes));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -21635,8 +22704,8 @@ TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int paramete
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf x = load(p + column * kLanes), y = load(p + (column + 1) * kLanes), z = load(p + (column + 2) * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)), z = hold(load(p + (column + 2) * kLanes));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -21677,18 +22746,18 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 }
 TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
                                        vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  const vf limit = set1(delta);
+  const vf limit = set1(delta), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes),
+    const vf i = hold(load(p + kBatchTarget * kLanes)),
              e = nmadd(i, target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
     vf root = load(p + kBatchWeight * kLanes);
     s = madd(e, e, s);
     if (huber) {
       const vf size = abs_(e), m = min_(size, limit);
       c = madd(m, add(size, sub(size, m)), c);
-      root = mul(root, sqrt_(div(limit, max_(size, limit))));
+      root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
     }
     if (parameters == 0) continue;
     store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);
@@ -21848,8 +22917,8 @@ TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf*
   vf s0 = zero(), s1 = s0, s2 = s0, p0 = s0, p1 = s0, p2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes);
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
+    const vf i = hold(load(p + kBatchTarget * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -21875,8 +22944,8 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf r = load(p + kBatchHost * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf r = hold(load(p + kBatchHost * kLanes));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -21903,8 +22972,8 @@ TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int paramete
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf x = load(p + column * kLanes), y = load(p + (column + 1) * kLanes), z = load(p + (column + 2) * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)), z = hold(load(p + (column + 2) * kLanes));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -21945,18 +23014,18 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 }
 TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
                                        vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  const vf limit = set1(delta);
+  const vf limit = set1(delta), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes),
+    const vf i = hold(load(p + kBatchTarget * kLanes)),
              e = nmadd(i, target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
     vf root = load(p + kBatchWeight * kLanes);
     s = madd(e, e, s);
     if (huber) {
       const vf size = abs_(e), m = min_(size, limit);
       c = madd(m, add(size, sub(size, m)), c);
-      root = mul(root, sqrt_(div(limit, max_(size, limit))));
+      root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
     }
     if (parameters == 0) continue;
     store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);
@@ -22103,8 +23172,8 @@ TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf*
   vf s0 = zero(), s1 = s0, s2 = s0, p0 = s0, p1 = s0, p2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes);
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
+    const vf i = hold(load(p + kBatchTarget * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -22130,8 +23199,8 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf r = load(p + kBatchHost * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf r = hold(load(p + kBatchHost * kLanes));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
     s2 = madd(a, c, s2);
@@ -22158,8 +23227,8 @@ TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int paramete
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = load(p + row * kLanes), b = load(p + (row + 1) * kLanes), c = load(p + (row + 2) * kLanes);
-    const vf x = load(p + column * kLanes), y = load(p + (column + 1) * kLanes), z = load(p + (column + 2) * kLanes);
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)), z = hold(load(p + (column + 2) * kLanes));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -22200,18 +23269,18 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 }
 TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
                                        vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  const vf limit = set1(delta);
+  const vf limit = set1(delta), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = load(p + kBatchTarget * kLanes),
+    const vf i = hold(load(p + kBatchTarget * kLanes)),
              e = nmadd(i, target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
     vf root = load(p + kBatchWeight * kLanes);
     s = madd(e, e, s);
     if (huber) {
       const vf size = abs_(e), m = min_(size, limit);
       c = madd(m, add(size, sub(size, m)), c);
-      root = mul(root, sqrt_(div(limit, max_(size, limit))));
+      root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
     }
     if (parameters == 0) continue;
     store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);

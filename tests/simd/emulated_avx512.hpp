@@ -134,6 +134,9 @@ inline __m512 shuffle_quarters(std::uint64_t mask, const __m512& a, const __m512
 #undef _mm512_maskz_sqrt_ps
 #define _mm512_maskz_sqrt_ps(m, a) \
   (emulated::masked<float, __m512>((m), [&](std::size_t i) { return std::sqrt(emulated::lanes<float>(a)[i]); }))
+#undef _mm512_maskz_rsqrt14_ps
+#define _mm512_maskz_rsqrt14_ps(m, a) \
+  (emulated::masked<float, __m512>((m), [&](std::size_t i) { return 1.0f / std::sqrt(emulated::lanes<float>(a)[i]); }))
 #undef _mm512_maskz_sra_epi32
 #define _mm512_maskz_sra_epi32(m, a, bits)  \
   (emulated::masked<std::int32_t, __m512i>( \

@@ -48,6 +48,8 @@ TEXTPLANE_SIMD_ENTRY void conversions(const float* pa, const int* pb, int* ints,
   store(floats, to_float(loadi(pb)));
 }
 
+TEXTPLANE_SIMD_ENTRY void inverse_roots(const float* p, float* out) noexcept { store(out, inverse_root(hold(load(p)))); }
+
 // Masks as bits; the last entries are counts and truth values.
 TEXTPLANE_SIMD_ENTRY void mask_operations(const float* pa, const float* pb, const int* pi, const int* pj,
                                           unsigned* out) noexcept {

@@ -21,6 +21,7 @@ inline void conversions(const float* a, const int* b, int* ints, float* floats) 
 inline void mask_operations(const float* a, const float* b, const int* i, const int* j, unsigned* out) {
   TEXTPLANE_SIMD_DISPATCH(mask_operations(a, b, i, j, out))
 }
+inline void inverse_roots(const float* p, float* out) { TEXTPLANE_SIMD_DISPATCH(inverse_roots(p, out)) }
 inline void reductions(const float* a, double* out) { TEXTPLANE_SIMD_DISPATCH(reductions(a, out)) }
 inline void taps(const std::uint32_t* words, float* out) { TEXTPLANE_SIMD_DISPATCH(taps(words, out)) }
 inline void partial_load(const float* p, int n, float* out) { TEXTPLANE_SIMD_DISPATCH(partial_load_floats(p, n, out)) }

@@ -207,6 +207,23 @@ TEST(Vec, MasksAndTheirBits) {
   });
 }
 
+TEST(Vec, InverseRootsWithinTheirBound) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> exponent(-30, 30);
+  on_each_target([&](Target, int lanes) {
+    for (int round = 0; round < 1000; ++round) {
+      float a[kMost], out[kMost];
+      for (float& x : a) x = static_cast<float>(std::pow(10.0, exponent(random)));
+      a[0] = 1.0f;
+      inverse_roots(a, out);
+      for (int i = 0; i < lanes; ++i) {
+        const double expected = 1 / std::sqrt(static_cast<double>(a[i]));
+        EXPECT_NEAR(static_cast<double>(out[i]), expected, 3e-7 * expected) << a[i];
+      }
+    }
+  });
+}
+
 TEST(Vec, ReductionsHalveTheLanes) {
   std::mt19937 random(11);
   on_each_target([&](Target, int lanes) {

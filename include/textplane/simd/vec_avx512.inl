@@ -26,7 +26,9 @@ TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept {
 }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm512_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
+#if !defined(TEXTPLANE_EMULATED_AVX512)
   __asm__("" : "+v"(v));
+#endif
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm512_storeu_ps(p, v); }
@@ -67,6 +69,10 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAllLanes, a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAllLanes, a); }
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  const vf y = _mm512_maskz_rsqrt14_ps(kAllLanes, a);
+  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm512_maskz_xor_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept {

@@ -85,6 +85,11 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return vbslq_f32(vcltq_f32(
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return vbslq_f32(vcgtq_f32(a, b), a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return vsqrtq_f32(a); }
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  vf y = vrsqrteq_f32(a);
+  y = mul(y, vrsqrtsq_f32(mul(a, y), y));
+  return mul(y, vrsqrtsq_f32(mul(a, y), y));
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return vabsq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return vnegq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return vrndmq_f32(a); }

@@ -16,6 +16,7 @@ TEXTPLANE_SIMD_INLINE vf zero() noexcept { return 0.0f; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
+// The same value, in a register from here on: g++ loads from memory several times what is used several times.
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { *p = v; }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return *p; }
@@ -60,6 +61,10 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return a < b ? a : b; }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return a > b ? a : b; }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return TEXTPLANE_SIMD_SQRT(a); }
+// 1 / sqrt(a) within 3e-7 of itself, for positive numbers that are not subnormal.
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  return 1.0f / sqrt_(a);
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return TEXTPLANE_SIMD_ABS(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return TEXTPLANE_SIMD_FLOOR(a); }

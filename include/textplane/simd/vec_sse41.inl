@@ -80,6 +80,10 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm_max_ps(a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm_sqrt_ps(a); }
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  const vf y = _mm_rsqrt_ps(a);
+  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
+}
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm_xor_ps(_mm_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm_floor_ps(a); }

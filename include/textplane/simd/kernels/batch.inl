@@ -113,7 +113,7 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 // The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i c). Costs.
 TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
                                        vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  const vf limit = set1(delta);
+  const vf limit = set1(delta), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -124,7 +124,7 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bo
     if (huber) {
       const vf size = abs_(e), m = min_(size, limit);
       c = madd(m, add(size, sub(size, m)), c);
-      root = mul(root, sqrt_(div(limit, max_(size, limit))));
+      root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
     }
     if (parameters == 0) continue;
     store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);

@@ -48,7 +48,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   info->s = i_s;
 
   const float delta = static_cast<float>(a.delta);
-  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), by_i = set1(static_cast<float>(i_scale));
+  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
+  const vf by_i = set1(static_cast<float>(i_scale));
   const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
   const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
   const vf by_s = set1(static_cast<float>(1 / i_s)), by_root = set1(static_cast<float>(-1 / root));
@@ -66,7 +67,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     if (a.huber) {
       const vf size = abs_(e), m = min_(size, limit);
       rho = madd(m, add(size, sub(size, m)), rho);
-      w = mul(w, sqrt_(div(limit, max_(size, limit))));
+      w = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), w);
     }
     store(p->i + k, i);
     store(p->e + k, mul(w, mul(e, by_root)));
