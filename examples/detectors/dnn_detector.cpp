@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "detectors/plugins.hpp"
+#include "detectors/quiet_opencv.hpp"
 #include "io/input_error.hpp"
 
 namespace textslam {
@@ -26,23 +27,16 @@ constexpr std::array<Channel, 3> kEastChannels = {{{1, -123.68}, {1, -116.78}, {
 
 int in_steps(double side) { return kStep * std::max(1, static_cast<int>(std::lround(side / kStep))); }
 
-// OpenCV tells of errors on standard error as well as by exceptions; here the exception is what is passed on.
-int say_nothing(int, const char*, const char*, const char*, int, void*) { return 0; }
-class Quiet {
- public:
-  Quiet() : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {
-    cv::redirectError(say_nothing);
-  }
-  ~Quiet() {
-    cv::redirectError(nullptr);
-    cv::utils::logging::setLogLevel(level_);
-  }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  cv::utils::logging::LogLevel level_;
-};
+// Blue, green, red: from the frame's file, where it is one of this image; else the grey image.
+cv::Mat in_colour(const FrameRef& frame, ImageView8 raw_image) {
+  cv::Mat colour;
+  if (!frame.path.empty()) colour = cv::imread(frame.path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (colour.cols == raw_image.width() && colour.rows == raw_image.height()) return colour;
+  const cv::Mat grey(raw_image.height(), raw_image.width(), CV_8U, const_cast<std::uint8_t*>(raw_image.row(0)),
+                     static_cast<std::size_t>(raw_image.stride()));
+  cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
+  return colour;
+}
 
 }  // namespace
 
@@ -51,7 +45,7 @@ DnnDetector::DnnDetector(const std::string& model, const DnnParameters& paramete
   std::error_code error;
   if (!std::filesystem::is_regular_file(model, error))
     throw InputError(model, 0, "no such model; scripts/get-detector obtains one, --model names another");
-  const Quiet quiet;
+  const QuietOpenCv quiet;
   std::string reason;
   try {
     outputs_ = cv::dnn::readNet(model).getUnconnectedOutLayersNames();
@@ -65,9 +59,7 @@ DnnDetector::DnnDetector(const std::string& model, const DnnParameters& paramete
 // Tries the network out, and puts EAST's outputs in order.
 std::string DnnDetector::reason_it_is_wrong() {
   if (outputs_.empty() || outputs_.size() > 2) return std::to_string(outputs_.size()) + " outputs";
-  const std::vector<std::uint8_t> grey(kTryOut * kTryOut, 128);
-  const ImageView8 image(grey.data(), kTryOut, kTryOut, kTryOut);
-  std::vector<cv::Mat> maps = forward(image, kTryOut, kTryOut);
+  std::vector<cv::Mat> maps = forward(cv::Mat(kTryOut, kTryOut, CV_8UC3, cv::Scalar::all(128)), kTryOut, kTryOut);
   if (is_east() && maps[0].dims == 4 && maps[0].size[1] == 5) {
     std::swap(outputs_[0], outputs_[1]);
     std::swap(maps[0], maps[1]);
@@ -82,17 +74,17 @@ std::string DnnDetector::reason_it_is_wrong() {
   return "";
 }
 
-std::vector<cv::Mat> DnnDetector::forward(ImageView8 image, int width, int height) {
-  const cv::Mat grey(image.height(), image.width(), CV_8U, const_cast<std::uint8_t*>(image.row(0)),
-                     static_cast<std::size_t>(image.stride()));
+std::vector<cv::Mat> DnnDetector::forward(const cv::Mat& image, int width, int height) {
   cv::Mat sized;
-  cv::resize(grey, sized, cv::Size(width, height), 0, 0, cv::INTER_LINEAR);
+  cv::resize(image, sized, cv::Size(width, height), 0, 0, cv::INTER_LINEAR);
+  std::vector<cv::Mat> colours;
+  cv::split(sized, colours);
   const std::array<int, 4> shape = {1, 3, height, width};
   cv::Mat blob(4, shape.data(), CV_32F);
   for (int c = 0; c < 3; ++c) {
     const Channel& channel = (is_east() ? kEastChannels : kDbChannels)[static_cast<std::size_t>(c)];
     cv::Mat plane(height, width, CV_32F, blob.ptr<float>(0, c));
-    sized.convertTo(plane, CV_32F, channel.scale, channel.shift);
+    colours[static_cast<std::size_t>(is_east() ? 2 - c : c)].convertTo(plane, CV_32F, channel.scale, channel.shift);
   }
   // OpenCV 4.6 keeps what it derived from the first size, and computes nonsense with another.
   if (net_.empty() || loaded_for_ != sized.size()) net_ = cv::dnn::readNet(model_);
@@ -109,8 +101,8 @@ std::vector<Detection> DnnDetector::detect(const FrameRef& frame, ImageView8 raw
   const int width = in_steps(scale * raw_image.width()), height = in_steps(scale * raw_image.height());
   std::vector<Detection> found;
   try {
-    const Quiet quiet;
-    const std::vector<cv::Mat> maps = forward(raw_image, width, height);
+    const QuietOpenCv quiet;
+    const std::vector<cv::Mat> maps = forward(in_colour(frame, raw_image), width, height);
     if (is_east()) {
       found =
           decode_east({maps[0].size[2], maps[0].size[3], maps[0].ptr<float>(), maps[1].ptr<float>()}, parameters_.east);

@@ -30,13 +30,14 @@ class DnnDetector final : public TextDetector {
   /// not run, or has other outputs.
   explicit DnnDetector(const std::string& model, const DnnParameters& parameters = {});
 
-  /// Text kUnreadText, score in [0, 1]. The frame itself is not used; nothing in an invalid view.
+  /// Text kUnreadText, score in [0, 1]. The networks know colours: the frame's file is read again for them, where it is an image
+  /// of this size. Nothing in an invalid view.
   std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) override;
 
   bool is_east() const { return outputs_.size() == 2; }
 
  private:
-  std::vector<cv::Mat> forward(ImageView8 image, int width, int height);
+  std::vector<cv::Mat> forward(const cv::Mat& image, int width, int height);
   std::string reason_it_is_wrong();
 
   std::string model_;

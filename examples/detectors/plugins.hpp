@@ -13,9 +13,15 @@ namespace textslam {
 constexpr bool kHasDnn = true;
 /// See dnn_detector.hpp. Throws InputError where the model is missing or none that it knows.
 std::unique_ptr<TextDetector> make_dnn_detector(const std::string& model);
+/// See dnn_reader.hpp; an empty name is that of the model which scripts/get-detector --reader makes. Throws InputError likewise.
+std::unique_ptr<TextReader> make_dnn_reader(const std::string& model);
+/// Whether that one is there.
+bool has_default_dnn_reader();
 #else
 constexpr bool kHasDnn = false;
 inline std::unique_ptr<TextDetector> make_dnn_detector(const std::string&) { return nullptr; }
+inline std::unique_ptr<TextReader> make_dnn_reader(const std::string&) { return nullptr; }
+inline bool has_default_dnn_reader() { return false; }
 #endif
 
 #ifdef TEXTSLAM_WITH_TESSERACT

@@ -8,48 +8,14 @@
 
 #include <dlfcn.h>
 
+#include "detectors/line_picture.hpp"
 #include "detectors/plugins.hpp"
 #include "io/input_error.hpp"
-#include "io/text_file.hpp"
 
 namespace textslam {
 namespace {
 
-std::uint8_t sample(ImageView8 image, double x, double y) {
-  x = std::clamp(x, 0.0, image.width() - 1.0);
-  y = std::clamp(y, 0.0, image.height() - 1.0);
-  const int x0 = std::min(static_cast<int>(x), std::max(0, image.width() - 2));
-  const int y0 = std::min(static_cast<int>(y), std::max(0, image.height() - 2));
-  const int x1 = std::min(x0 + 1, image.width() - 1), y1 = std::min(y0 + 1, image.height() - 1);
-  const double u = x - x0, v = y - y0;
-  const double upper = (1 - u) * image(x0, y0) + u * image(x1, y0);
-  const double lower = (1 - u) * image(x0, y1) + u * image(x1, y1);
-  return static_cast<std::uint8_t>(std::lround((1 - v) * upper + v * lower));
-}
-
-// `place(x, y)` of the picture's pixels in the image.
-template <class Place>
-Image<std::uint8_t> picture_of(ImageView8 image, int width, int height, Place place) {
-  Image<std::uint8_t> picture(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const Vector2<double> p = place(x, y);
-      picture(x, y) = sample(image, p.x(), p.y());
-    }
-  return picture;
-}
-
-// Marks around a word are no part of it, and texture is mostly read as marks.
-std::string cleaned(std::string word) {
-  for (std::size_t at = 0; (at = word.find("\xE2\x80", at)) != std::string::npos;)
-    word.erase(at, 3);  // dashes and quotes
-  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; };
-  const auto first = std::find_if(word.begin(), word.end(), is_letter);
-  const auto last = std::find_if(word.rbegin(), word.rend(), is_letter).base();
-  if (first >= last) return "";
-  const std::string inner(first, last);
-  return std::count_if(inner.begin(), inner.end(), is_letter) < 2 ? "" : well_formed_utf8(inner);
-}
+constexpr double kLongestLine = 40;  // times its height
 
 struct Word {
   std::string text;
@@ -74,7 +40,7 @@ std::vector<Word> words_of(tesseract::TessBaseAPI& api, double min_confidence) {
     const std::unique_ptr<char[]> text(at->GetUTF8Text(tesseract::RIL_WORD));
     if (!text) continue;
     Word word;
-    word.text = cleaned(text.get());
+    word.text = word_of(text.get());
     word.confidence = static_cast<double>(at->Confidence(tesseract::RIL_WORD)) / 100;
     if (word.text.empty() || word.confidence < min_confidence) continue;
     if (!at->BoundingBox(tesseract::RIL_WORD, &word.left, &word.top, &word.right, &word.bottom)) continue;
@@ -128,9 +94,9 @@ std::vector<Detection> Tesseract::detect(const FrameRef&, ImageView8 raw_image) 
   if (!raw_image.valid()) return {};
   const double zoom = parameters_.zoom;
   const auto back = [&](double v) { return (v + 0.5) / zoom - 0.5; };
-  const Image<std::uint8_t> picture =
-      picture_of(raw_image, static_cast<int>(zoom * raw_image.width()), static_cast<int>(zoom * raw_image.height()),
-                 [&](int x, int y) { return Vector2<double>(back(x), back(y)); });
+  Image<std::uint8_t> picture(static_cast<int>(zoom * raw_image.width()), static_cast<int>(zoom * raw_image.height()));
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) picture(x, y) = grey_at(raw_image, back(x), back(y));
   show(*api_, picture, tesseract::PSM_SPARSE_TEXT);
   std::vector<Detection> found;
   for (const Word& word : words_of(*api_, parameters_.min_confidence)) {
@@ -146,18 +112,9 @@ std::vector<Detection> Tesseract::detect(const FrameRef&, ImageView8 raw_image) 
 }
 
 TextReader::Reading Tesseract::read(ImageView8 raw_image, const Quad<double>& quad) {
-  const auto& c = quad.corner;
-  const double wide = std::max((c[1] - c[0]).norm(), (c[2] - c[3]).norm());
-  const double high = std::max((c[3] - c[0]).norm(), (c[2] - c[1]).norm());
-  if (!raw_image.valid() || !textplane::all_finite(quad) || !(high >= 4) || !(wide >= 4)) return {};
-  const double margin = parameters_.line_margin, height = parameters_.line_height * (1 + 2 * margin);
-  const double width = parameters_.line_height * std::min(wide / high, 40.0) + 2 * margin * parameters_.line_height;
   const Image<std::uint8_t> picture =
-      picture_of(raw_image, static_cast<int>(width), static_cast<int>(height), [&](int x, int y) -> Vector2<double> {
-        const double u = (x + 0.5) / width * (1 + 2 * margin * high / wide) - margin * high / wide;
-        const double v = (y + 0.5) / height * (1 + 2 * margin) - margin;
-        return (1 - v) * ((1 - u) * c[0] + u * c[1]) + v * ((1 - u) * c[3] + u * c[2]);
-      });
+      line_picture(raw_image, quad, parameters_.line_height, parameters_.line_margin, kLongestLine);
+  if (picture.width() == 0) return {};
   show(*api_, picture, tesseract::PSM_SINGLE_LINE);
   Reading reading;
   const std::vector<Word> words = words_of(*api_, parameters_.min_confidence);

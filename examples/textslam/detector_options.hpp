@@ -16,9 +16,14 @@ inline void add_detector_options(CLI::App& app, DetectorOptions& options) {
   app.add_option(
       "--model", options.model,
       "Network of --detector dnn, DB or EAST, any file that OpenCV loads; by default scripts/get-detector's");
-  app.add_option("--words", options.words, "Who reads what a detector left unread; auto: tesseract after dnn")
-      ->check(CLI::IsMember({"auto", "none", "tesseract"}))
+  app.add_option("--words", options.words,
+                 "Who reads what a detector left unread, and the texts of the map; auto: after dnn the recogniser dnn, "
+                 "where its model is, else tesseract; after tesseract that")
+      ->check(CLI::IsMember({"auto", "none", "dnn", "tesseract"}))
       ->capture_default_str();
+  app.add_option("--words-model", options.words_model,
+                 "Network of --words dnn, a recogniser with its list of letters beside it (.txt); by default "
+                 "scripts/get-detector's --reader");
 }
 
 }  // namespace textslam

@@ -5,8 +5,11 @@
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/residual_types.hpp"
+#include "textslam/text_words.hpp"
 
 namespace textslam {
+
+std::string TextObject::word() const { return consensus(votes); }
 
 double degrees(const Eigen::Matrix3d& R) { return textplane::so3_log<double>(R).norm() * 180 / M_PI; }
 

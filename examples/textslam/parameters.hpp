@@ -75,8 +75,10 @@ struct Parameters {
   double text_min_zncc = 0.65;     ///< Of an observation that counts.
   double text_cull_zncc = 0.55;    ///< Below it, an observation counts against the object.
   double text_max_slant = 78;      ///< Degrees between viewing ray and normal.
-  int text_patience = 25;          ///< Key frames a candidate may wait for its plane.
-  int text_targets = 8;            ///< Key frames that a plane is refined against.
+  int text_max_contradictions =
+      5;                   ///< Frames in a row that show other texts in its place: it no longer keeps them out.
+  int text_patience = 25;  ///< Key frames a candidate may wait for its plane.
+  int text_targets = 8;    ///< Key frames that a plane is refined against.
 
   // Last refinement of the text planes
   int refine_hosts = 4;         ///< Key frames that a text is compared from, the largest views among them,
@@ -89,6 +91,10 @@ struct Parameters {
   double refine_margin = 3;     ///< px around the quad that belong to it: edges of letters with both their sides.
   double blur_variance = 0.25;  ///< px^2 of a camera's own blur.
   double blur_spread = 2.5;     ///< See textplane::match_blur().
+
+  // Reading of the mapped texts, in the end, where there is a reader
+  int reading_views = 8;    ///< Key frames that a text is read in, those that show it sharpest.
+  int reading_height = 40;  ///< px of the text, seen squarely.
 
   // Text planes in mode `loose`
   double loose_inlier = 0.01;    ///< Relative depth error of a point on the plane.

@@ -29,7 +29,8 @@ class FrameSource {
         parameters_(options.parameters),
         first_(static_cast<std::size_t>(options.first)),
         undistort_(sequence.camera),
-        detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)) {}
+        detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)),
+        reader_(options.parameters.mode == Mode::points ? nullptr : make_reader(options.detector)) {}
 
   RawImage load(int index) const {
     return std::make_shared<const Image<std::uint8_t>>(load_frame(sequence_, at(index)));
@@ -43,6 +44,10 @@ class FrameSource {
     frame.timestamp = sequence_.frames[at(index)].timestamp;
     frame.image = pyramid(raw);
     return frame;
+  }
+
+  void read_texts(System& system) const {
+    if (reader_) system.read_texts(*reader_);
   }
 
   std::shared_ptr<const Pyramid> image(int index) { return pyramid(load_frame(sequence_, at(index))); }
@@ -59,6 +64,7 @@ class FrameSource {
   std::size_t first_;
   Undistorter undistort_;
   std::shared_ptr<TextDetector> detector_;
+  std::unique_ptr<TextReader> reader_;
 };
 
 // Real time: frames come when their time stamps say, counted from the first. One that is late is worked on at once; none is
@@ -182,6 +188,7 @@ RunResult run(const RunOptions& options) {
   });
   detections.end();
   system.finish();
+  source.read_texts(system);
   keep_going(result, [&] { system.fill_in([&](int index) { return source.frame(index, *source.load(index)); }); });
   RunSummary& summary = result.summary;
   summary = summarise(system, sequence, static_cast<std::size_t>(total));

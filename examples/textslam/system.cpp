@@ -10,6 +10,7 @@
 #include "textslam/recovery.hpp"
 #include "textslam/statistics.hpp"
 #include "textslam/text_merge.hpp"
+#include "textslam/text_reading.hpp"
 #include "textslam/text_refiner.hpp"
 
 namespace textslam {
@@ -248,5 +249,7 @@ void System::finish() {
   }
   for (FrameRecord& record : records_) refit(record);
 }
+
+void System::read_texts(TextReader& reader) { textslam::read_texts(map_, parameters_, reader); }
 
 }  // namespace textslam

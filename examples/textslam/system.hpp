@@ -23,6 +23,7 @@
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
 #include "textslam/pose_refit.hpp"
+#include "textslam/text_detector.hpp"
 #include "textslam/text_mapper.hpp"
 #include "textslam/tracker.hpp"
 
@@ -76,6 +77,9 @@ class System {
 
   /// The map with most frames becomes the result; the adjustment over all its key frames.
   void finish();
+
+  /// After finish(): has the mapped texts read, see text_reading.hpp.
+  void read_texts(TextReader& reader);
 
   /// The map that is worked on, in the end the result.
   const Map& map() const { return map_; }

@@ -72,10 +72,26 @@ const std::vector<std::string>& detector_names() {
 
 std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, const Sequence& sequence) {
   std::unique_ptr<TextDetector> detector = make_found(options, sequence);
-  const bool by_itself = options.words == "auto" && options.name == "dnn" && kHasTesseract;
-  if (options.words != "tesseract" && !by_itself) return detector;
+  if (options.name == "tesseract" && options.words == "auto") return detector;  // it reads itself
+  std::unique_ptr<TextReader> reader = make_reader(options);
+  if (!reader) return detector;
+  return std::make_unique<ReadingDetector>(std::move(detector), std::move(reader));
+}
+
+std::unique_ptr<TextReader> make_reader(const DetectorOptions& options) {
+  std::string reader = options.words;
+  if (reader == "auto") {
+    const bool by_network = options.name == "dnn" && (has_default_dnn_reader() || !options.words_model.empty());
+    const bool by_tesseract = (options.name == "dnn" || options.name == "tesseract") && kHasTesseract;
+    reader = by_network ? "dnn" : by_tesseract ? "tesseract" : "none";
+  }
+  if (reader == "none") return nullptr;
+  if (reader == "dnn") {
+    if (!kHasDnn) refuse("--words dnn", "TEXTSLAM_DNN", "libopencv-dev");
+    return make_dnn_reader(options.words_model);
+  }
   if (!kHasTesseract) refuse("--words tesseract", "TEXTSLAM_TESSERACT", "libtesseract-dev tesseract-ocr-eng");
-  return std::make_unique<ReadingDetector>(std::move(detector), make_tesseract_reader());
+  return make_tesseract_reader();
 }
 
 }  // namespace textslam

@@ -34,7 +34,8 @@ class TextReader {
 struct DetectorOptions {
   std::string name = "files";  ///< One of detector_names().
   std::string model;           ///< Of `dnn`; empty: where scripts/get-detector puts it.
-  std::string words = "auto";  ///< "none", "tesseract", or "auto": by Tesseract after `dnn`, where it was built.
+  std::string words = "auto";  ///< Who reads: "none", "dnn", "tesseract", or "auto", see make_reader().
+  std::string words_model;     ///< Of the reader `dnn`; empty: where scripts/get-detector --reader puts it.
 };
 
 /// "files" (the sequence's own detections, by any external detector), "classical" (built in, no model), "dnn" (a network
@@ -44,6 +45,10 @@ const std::vector<std::string>& detector_names();
 /// The sequence must outlive the detector. Throws InputError where the plug-in was not built, saying how to build it, and for
 /// a model that is missing or wrong; std::invalid_argument that lists the names for any other name.
 std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, const Sequence& sequence);
+
+/// Who reads what is unread, and the texts of the map; null: nobody. "auto": after `dnn` the recogniser, where its model is,
+/// else Tesseract where it was built; after `tesseract` that; else nobody. Throws InputError as make_detector() does.
+std::unique_ptr<TextReader> make_reader(const DetectorOptions& options);
 
 }  // namespace textslam
 

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "io/json_file.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/evaluate_text.hpp"
 #include "textslam/report_json.hpp"
+#include "textslam/text_words.hpp"
 
 namespace textslam {
 namespace {
 
-constexpr int kNoMatch = 3;
+constexpr int kNoMatch = 4;
+constexpr double kAlike = 0.5;
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -25,6 +28,8 @@ int rank(const IndexedText& text, const std::string& word) {
   if (is_read(text.text) && holds(text.text)) return 1;
   for (const auto& [reading, votes] : text.readings)
     if (holds(reading)) return 2;
+  for (const auto& [reading, votes] : text.readings)
+    if (likeness(lower(reading), word) >= kAlike) return 3;
   return kNoMatch;
 }
 
@@ -125,6 +130,10 @@ std::vector<IndexedText> query(const std::vector<IndexedText>& texts, const std:
     return rank_a != rank_b ? rank_a < rank_b : a.score > b.score;
   });
   return found;
+}
+
+double angle_between(const IndexedText& a, const IndexedText& b) {
+  return std::atan2(a.normal.cross(b.normal).norm(), a.normal.dot(b.normal)) * 180 / M_PI;
 }
 
 }  // namespace textslam

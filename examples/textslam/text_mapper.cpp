@@ -16,6 +16,10 @@
 namespace textslam {
 namespace {
 
+constexpr double kItsOutline = 0.4;        // IoU of a detection that confirms a text
+constexpr std::size_t kFewestCorners = 6;  // on a text, for its plane
+constexpr double kOnItsPlace = 0.5;        // of the smaller quad: a detection that is about the same place
+
 const Vec2* observed_in(const std::vector<PointObservation>& observations, int keyframe) {
   for (const PointObservation& o : observations)
     if (o.keyframe == keyframe) return &o.px;
@@ -66,12 +70,16 @@ void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vec
   for (TextObject& text : map_.texts) {
     Quad<double> quad;
     if (text.state == TextState::dropped || !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad)) continue;
+    bool confirmed = false, otherwise = false;
     for (const Detection& detection : frame.detections) {
-      if (textplane::iou(quad, detection.quad) < 0.4) continue;
+      otherwise = otherwise || overlap(quad, detection.quad) > kOnItsPlace;
+      if (textplane::iou(quad, detection.quad) < kItsOutline) continue;
+      confirmed = true;
       ++text.detections;
       if (is_read(detection.text)) text.votes[detection.text] += detection.score;
       break;
     }
+    text.contradictions = confirmed ? 0 : text.contradictions + (otherwise ? 1 : 0);
   }
 }
 
@@ -80,7 +88,8 @@ std::vector<Detection> TextMapper::new_detections(const Frame& frame, const SE3d
   std::vector<Quad<double>> known;
   for (const TextObject& text : map_.texts) {
     Quad<double> quad;
-    if (text.state != TextState::dropped && local_.has_text(text.id) && locate(text, T_c_w, tracks, &quad))
+    if (text.state != TextState::dropped && local_.has_text(text.id) && !outvoted(text) &&
+        locate(text, T_c_w, tracks, &quad))
       known.push_back(quad);
   }
   std::vector<Detection> accepted;
@@ -112,23 +121,49 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
   }
 }
 
-// The linear system of section IV-B over the corners tracked from the host to `keyframe`, with outliers removed by their
-// transfer error. False while there are too few corners or too little parallax.
-bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks,
-                               Vec3* theta) const {
-  const SE3d T_t_h = map_.keyframe(keyframe).T_w_c.inverse() * map_.keyframe(text.host).T_w_c;
-  std::vector<Vec3> host, target;
-  std::vector<double> parallax;
+// A first detection may hold a whole page, or a part of a word. What the detector sees there instead, time after time, is let
+// in beside it.
+bool TextMapper::outvoted(const TextObject& text) const {
+  return text.contradictions >= parameters_.text_max_contradictions;
+}
+
+// A text that was let in and proved itself takes the place of those outvoted.
+void TextMapper::supersede(const TextObject& by) {
+  const SE3d T_h_w = map_.keyframe(by.host).T_w_c.inverse();
+  for (TextObject& text : map_.texts) {
+    if (text.id == by.id || !text.has_plane() || !outvoted(text)) continue;
+    Quad<double> quad;
+    if (facing(map_, text, T_h_w) > 0 && project_text(map_, text, T_h_w, &quad) &&
+        overlap(by.patch.quad, quad) > kOnItsPlace)
+      text.state = TextState::dropped;
+  }
+}
+
+// Rays of the corners tracked from the host to `keyframe`.
+TextMapper::Corners TextMapper::corners(const TextObject& text, int keyframe, const std::vector<Track>& tracks) const {
+  Corners out;
   for (const Track& track : tracks) {
     const auto& observations = observations_of(map_, track);
     const Vec2 *host_px = observed_in(observations, text.host), *px = observed_in(observations, keyframe);
     if (!host_px || !px || !textplane::contains(text.patch.quad, *host_px)) continue;
-    host.push_back(map_.camera.unproject(*host_px));
-    target.push_back(map_.camera.unproject(*px));
-    const Vec3 turned = T_t_h.R * host.back();
-    parallax.push_back(std::atan2(turned.cross(target.back()).norm(), turned.dot(target.back())) * 180 / M_PI);
+    out.host.push_back(map_.camera.unproject(*host_px));
+    out.target.push_back(map_.camera.unproject(*px));
   }
-  if (host.size() < 6 || median(parallax) < parameters_.text_min_parallax) return false;
+  return out;
+}
+
+// The linear system of section IV-B over the corners, with outliers removed by their transfer error. False while there are too
+// few corners or too little parallax.
+bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks,
+                               Vec3* theta) const {
+  const SE3d T_t_h = map_.keyframe(keyframe).T_w_c.inverse() * map_.keyframe(text.host).T_w_c;
+  auto [host, target] = corners(text, keyframe, tracks);
+  std::vector<double> parallax;
+  for (std::size_t i = 0; i < host.size(); ++i) {
+    const Vec3 turned = T_t_h.R * host[i];
+    parallax.push_back(std::atan2(turned.cross(target[i]).norm(), turned.dot(target[i])) * 180 / M_PI);
+  }
+  if (host.size() < kFewestCorners || median(parallax) < parameters_.text_min_parallax) return false;
   for (int round = 0; round < 4; ++round) {
     const auto fit = textplane::plane_from_matches(host.data(), target.data(), static_cast<int>(host.size()), T_t_h);
     if (!textplane::is_ok(fit.status)) return false;
@@ -150,7 +185,7 @@ bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::
     if (kept == host.size()) break;
     host.resize(kept);
     target.resize(kept);
-    if (kept < 6) return false;
+    if (kept < kFewestCorners) return false;
   }
   return theta->allFinite() &&
          textplane::inverse_depth(*theta, map_.camera.unproject(textplane::centroid(text.patch.quad))) > 0;
@@ -181,6 +216,21 @@ bool TextMapper::refine(TextObject& text, const std::vector<int>& keyframes, Vec
   text.theta = fit.theta;
   text.covariance = fit.covariance;
   text.zncc = fit.zncc;
+  return true;
+}
+
+// By the corners, and the images: the plane that key frame `id` speaks for, and the key frames that agree with it. One that the
+// text has already stays where they are not more: the first was solved with little parallax, and may be no good in later views.
+bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& tracks) {
+  TextObject found = text;
+  Vec3 theta;
+  if (!initial_plane(text, id, tracks, &theta) || !refine(found, {id}, theta, parameters_.text_min_zncc)) return false;
+  found.targets.clear();
+  for (int other = text.host + 1; other <= id; ++other)
+    if (!map_.keyframe(other).culled) observe(found, other, 1);
+  if (text.has_plane() && found.targets.size() <= text.targets.size()) return false;
+  found.failures = 0;
+  text = std::move(found);
   return true;
 }
 
@@ -230,28 +280,28 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
   for (TextObject& text : map_.texts) {
     if (text.host == id || text.state == TextState::dropped) continue;
     const bool near = local_.has_text(text.id);
+    const std::size_t before = text.targets.size();
     if (text.state == TextState::candidate) {
-      Vec3 theta;
-      if (near && initial_plane(text, id, tracks, &theta) && refine(text, {id}, theta, parameters_.text_min_zncc)) {
+      if (near && find_plane(text, id, tracks)) {
         text.state = TextState::tentative;
-        for (int other = text.host + 1; other < id; ++other)
-          if (!map_.keyframe(other).culled) observe(text, other, 1);
-      } else if (id - text.host > parameters_.text_patience) {
-        text.state = TextState::dropped;
-        continue;
+      } else if (id - text.host > parameters_.text_patience || corners(text, id, tracks).host.size() < kFewestCorners) {
+        text.state = TextState::dropped;  // where it is seen again, another candidate has new corners
       }
+    } else if (near) {
+      observe(text, id, 1);
+      if (text.state == TextState::tentative && text.targets.size() == before) find_plane(text, id, tracks);
     }
     if (!text.has_plane()) continue;
-    const std::size_t before = text.targets.size();
-    if (near) observe(text, id, 1);
     if (text.targets.size() > before && text.state == TextState::tentative) {
       refine(text, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)), text.theta,
              parameters_.text_cull_zncc);
     }
     const int observations = static_cast<int>(text.targets.size()) + 1;
     if (text.state == TextState::tentative && observations >= parameters_.text_min_observations &&
-        text.detections >= parameters_.text_min_detections)
+        text.detections >= parameters_.text_min_detections) {
       text.state = TextState::mapped;
+      supersede(text);
+    }
     if (text.failures >= 5 && text.failures > static_cast<int>(text.targets.size())) text.state = TextState::dropped;
     if (text.state == TextState::tentative && id - text.host > 2 * parameters_.text_patience)
       text.state = TextState::dropped;

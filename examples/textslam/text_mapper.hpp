@@ -3,7 +3,7 @@
 // Detection in a key frame -> candidate (refused where it meets a known text or the image border) -> its corners are tracked;
 // once they have parallax, theta by the linear system [m']x t m^T theta = -[m']x R m -> photometric refinement against the
 // key frames that see it -> tentative -> after n_min observations mapped: it takes part in tracking and adjustment ->
-// dropped when the images stop agreeing with it.
+// dropped when the images stop agreeing with it, or when the detector keeps seeing other texts in its place.
 #ifndef TEXTSLAM_TEXT_MAPPER_HPP
 #define TEXTSLAM_TEXT_MAPPER_HPP
 
@@ -35,6 +35,13 @@ class TextMapper {
 
  private:
   bool locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks, Quad<double>* quad) const;
+  bool outvoted(const TextObject& text) const;
+  void supersede(const TextObject& by);
+  struct Corners {
+    std::vector<Vec3> host, target;
+  };
+  Corners corners(const TextObject& text, int keyframe, const std::vector<Track>& tracks) const;
+  bool find_plane(TextObject& text, int id, const std::vector<Track>& tracks);
   bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
   bool refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc);
   void observe(TextObject& text, int keyframe, double min_share);

@@ -5,11 +5,13 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textslam/text_words.hpp"
 
 namespace textslam {
 namespace {
 
 constexpr double kDeviations = 3;
+constexpr double kSameWord = 0.5;  // likeness of two readings of one word: a quarter of the letters may differ
 
 // b's plane beside a's, in a's host.
 bool planes_agree(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b) {
@@ -41,7 +43,7 @@ bool overlaps_in_host(const Map& map, const Parameters& parameters, const TextOb
 
 bool words_agree(const TextObject& a, const TextObject& b) {
   const std::string word_a = a.word(), word_b = b.word();
-  return word_a == word_b || !is_read(word_a) || !is_read(word_b);
+  return !is_read(word_a) || !is_read(word_b) || likeness(word_a, word_b) >= kSameWord;
 }
 
 void add_sightings(TextObject& kept, const TextObject& other, int first_keyframe) {

@@ -9,10 +9,10 @@
 
 namespace textslam {
 
-/// The words of two texts are the same, or one of them was never read.
+/// The words of two texts are alike, as two readings of one word are, or one of them was never read.
 bool words_agree(const TextObject& a, const TextObject& b);
 
-/// Do two texts with planes stand for one sign? Their words are the same, or one is unread; their planes agree in angle and,
+/// Do two texts with planes stand for one sign? Their words agree; their planes agree in angle and,
 /// at their centres, in inverse depth, within three standard deviations of the two and a tolerance; and in the host of either
 /// their quads overlap.
 bool same_text(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b);

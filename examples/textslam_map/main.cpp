@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "io/input_error.hpp"
 #include "textslam/text_index.hpp"
@@ -21,16 +23,51 @@ void print(const textslam::IndexedText& text) {
   std::printf("\n");
 }
 
+// Exit code 1 where no text was found, or, with a limit, where two normals are farther apart.
+int show_angles(const std::vector<textslam::IndexedText>& texts, double within) {
+  std::printf("%4s  %-20s %5s  %-22s  degrees to text", "text", "word", "votes", "normal");
+  for (const textslam::IndexedText& text : texts) std::printf(" %5d", text.id);
+  std::printf("\n");
+  double largest = 0;
+  std::size_t first = 0, second = 0;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const auto& n = texts[i].normal;
+    std::printf("%4d  %-20s %3.0f %%  %7.3f %7.3f %7.3f %15s", texts[i].id, texts[i].text.c_str(), 100 * texts[i].score,
+                n.x(), n.y(), n.z(), "");
+    for (std::size_t j = 0; j < texts.size(); ++j) {
+      const double angle = angle_between(texts[i], texts[j]);
+      std::printf(" %5.1f", angle);
+      if (angle <= largest) continue;
+      largest = angle;
+      first = i;
+      second = j;
+    }
+    std::printf("\n");
+  }
+  if (texts.size() > 1)
+    std::printf("largest angle %.2f degrees, between texts %d and %d\n", largest, texts[first].id, texts[second].id);
+  if (!(largest > within)) return 0;
+  std::fprintf(stderr, "textslam-map: an angle of %.2f degrees is more than %g\n", largest, within);
+  return kNotFound;
+}
+
 int execute(int argc, char** argv) {
   std::string folder, word;
+  std::vector<std::string> words;
+  double within = 180;
   bool json = false;
   CLI::App app{"Questions to the text map that textslam wrote."};
   app.require_subcommand(1);
   CLI::App* query = app.add_subcommand(
       "query", "Where is a word? Position and normal in the world frame, and the key frame that shows it best");
   query->add_option("DIR", folder, "Output folder of textslam")->required();
-  query->add_option("WORD", word, "Or a part of it; letters' case does not matter")->required();
+  query->add_option("WORD", word, "Or a part of it, or one like it; letters' case does not matter")->required();
   query->add_flag("--json", json, "Print it as text_index.json has it");
+  CLI::App* angles = app.add_subcommand("angles", "How do texts lie to each other? The angles between their normals");
+  angles->add_option("DIR", folder, "Output folder of textslam")->required();
+  angles->add_option("WORD", words, "Of each the text that query finds first; without any, all texts of the map");
+  angles->add_option("--within", within, "Degrees: exit code 1 where two normals are farther apart")
+      ->check(CLI::Range(0.0, 180.0));
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -39,14 +76,24 @@ int execute(int argc, char** argv) {
     std::fprintf(stderr, "textslam-map: %s (see textslam-map --help)\n", error.what());
     return kInputError;
   }
-  const auto found = textslam::query(textslam::read_text_index(folder + "/text_index.json"), word);
+  const std::vector<textslam::IndexedText> texts = textslam::read_text_index(folder + "/text_index.json");
+  if (angles->parsed() && words.empty()) return show_angles(texts, within);
+  if (query->parsed()) words = {word};
+  std::vector<textslam::IndexedText> found;
+  for (const std::string& wanted : words) {
+    const auto alike = textslam::query(texts, wanted);
+    if (alike.empty()) {
+      std::fprintf(stderr, "textslam-map: no text of %s reads like '%s'\n", folder.c_str(), wanted.c_str());
+      return kNotFound;
+    }
+    found.insert(found.end(), alike.begin(), angles->parsed() ? alike.begin() + 1 : alike.end());
+  }
+  if (angles->parsed()) return show_angles(found, within);
   if (json)
     std::printf("%s", textslam::text_index_json(found).c_str());
   else
     for (const textslam::IndexedText& text : found) print(text);
-  if (!found.empty()) return 0;
-  std::fprintf(stderr, "textslam-map: no text of %s reads like '%s'\n", folder.c_str(), word.c_str());
-  return kNotFound;
+  return 0;
 }
 
 }  // namespace

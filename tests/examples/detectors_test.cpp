@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "detectors/east_boxes.hpp"
+#include "detectors/line_picture.hpp"
 #include "detectors/plugins.hpp"
 #include "examples/io_support.hpp"
 #include "textslam/text_detector.hpp"
@@ -13,6 +14,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "detectors/dnn_detector.hpp"
+#include "detectors/dnn_reader.hpp"
 #endif
 #ifdef TEXTSLAM_WITH_TESSERACT
 #include "detectors/tesseract_detector.hpp"
@@ -160,7 +162,50 @@ TEST(DnnDetector, MissingAndWrongModelsAreNamed) {
     expect_input_error([&] { DnnDetector{path}; }, path, 0, "not a text detector");
   }
 }
+
+TEST(DnnReader, TheBestPathOfCtc) {
+  const std::vector<std::string> letters = {"a", "b"};  // classes: blank, a, b, space
+  const auto said = [&](const std::vector<int>& classes) {
+    std::vector<float> probability(4 * classes.size(), 0.1F);
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      probability[4 * i + static_cast<std::size_t>(classes[i])] = classes[i] == 2 ? 0.5F : 0.7F;
+    return decode_ctc(probability.data(), static_cast<int>(classes.size()), 4, letters);
+  };
+  EXPECT_EQ(said({0, 1, 1, 0, 1, 3, 2, 2}).text, "aa b") << "twice the same letter only with a blank between";
+  EXPECT_NEAR(said({0, 1, 1, 0, 1, 3, 2, 2}).score, (3 * 0.7 + 0.5) / 4, 1e-6);
+  EXPECT_EQ(said({0, 0}).text, "");
+  EXPECT_EQ(said({0, 0}).score, 0);
+}
+
+TEST(DnnReader, MissingAndWrongModelsAreNamed) {
+  expect_input_error([] { DnnReader("/nowhere/model.onnx"); }, "/nowhere/model.onnx", 0, "get-detector --reader");
+  const TemporaryFolder folder;
+  const std::string path = folder.write("model.onnx", "no network\n");
+  expect_input_error([&] { DnnReader{path}; }, folder.path("model.txt"), 0, "");
+  folder.write("model.txt", "a\nb\n");
+  expect_input_error([&] { DnnReader{path}; }, path, 0, "not a text recogniser");
+}
 #endif
+
+TEST(Readers, AWordHasTwoLettersAndNoMarksAroundIt) {
+  EXPECT_EQ(word_of("\xE2\x80\x94\"Exit 2!\""), "Exit 2");
+  EXPECT_EQ(word_of("(A)"), "");
+  EXPECT_EQ(word_of("\xC3\xA9\xC3\xA9"), "\xC3\xA9\xC3\xA9");
+  EXPECT_EQ(word_of("\xC3\xA9"), "") << "one letter of two bytes";
+}
+
+TEST(Readers, ALineIsCutOutSquarely) {
+  Image<std::uint8_t> image(200, 100);
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 200; ++x) image(x, y) = static_cast<std::uint8_t>(x);
+  const Quad<double> quad = turned_box({100, 50}, 80, 20, 0);
+  const Image<std::uint8_t> picture = line_picture(image.view(), quad, 40, 0.25, 40);
+  ASSERT_EQ(picture.width(), 180);
+  ASSERT_EQ(picture.height(), 60);
+  for (int x = 0; x < 180; ++x) EXPECT_NEAR(picture(x, 30), 60 - 5 + (x + 0.5) / 2, 0.6) << x;
+  EXPECT_EQ(line_picture(image.view(), quad, 40, 0.25, 2).width(), 100) << "squeezed";
+  EXPECT_EQ(line_picture(image.view(), turned_box({100, 50}, 80, 2, 0), 40, 0.25, 40).width(), 0);
+}
 
 #ifndef TEXTSLAM_WITH_TESSERACT
 TEST(Detectors, AReaderThatWasNotBuiltTellsHowToBuildIt) {

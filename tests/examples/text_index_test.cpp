@@ -82,9 +82,22 @@ TEST(TextIndex, QueriesFindWordsAndReadings) {
   std::vector<int> ids;
   for (const IndexedText& found : query(texts, "eXiT")) ids.push_back(found.id);
   EXPECT_EQ(ids, (std::vector<int>{3, 1, 0, 2}));
+  ids.clear();
+  for (const IndexedText& found : query(texts, "EXIST")) ids.push_back(found.id);
+  EXPECT_EQ(ids, (std::vector<int>{1, 2})) << "one letter too many; in EXITS it is two";
   EXPECT_TRUE(query(texts, "door").empty());
   EXPECT_TRUE(query(texts, "").empty());
   EXPECT_TRUE(query(texts, "##").empty()) << "what nobody read is no word";
+}
+
+TEST(TextIndex, AnglesBetweenNormals) {
+  IndexedText a, b;
+  a.normal = Vec3(0, 0, -1);
+  b.normal = textplane::so3_exp<double>(Vec3(0, 2.5 * M_PI / 180, 0)) * a.normal;
+  EXPECT_NEAR(angle_between(a, b), 2.5, 1e-9);
+  EXPECT_EQ(angle_between(a, a), 0);
+  b.normal = -a.normal;
+  EXPECT_NEAR(angle_between(a, b), 180, 1e-9);
 }
 
 }  // namespace

@@ -251,6 +251,26 @@ TEST_F(TextslamRun, TheMapIsAskedForWords) {
                  output("none") + "/text_index.json: ", "", "textslam-map");
 }
 
+TEST_F(TextslamRun, TheMapIsAskedForAngles) {
+  const Json map = json_of(output("text_map.json")).at("texts");
+  ASSERT_GE(map.size(), 2u);
+  const ProgramResult all = run_program(TEXTSLAM_MAP_PROGRAM, {"angles", output()});
+  expect_success(all);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(all.out.begin(), all.out.end(), '\n')), map.size() + 2)
+      << "a line a text, between the heading and the largest angle:\n"
+      << all.out;
+  const std::string word = map.at(0).at("text");
+  const ProgramResult twice = run_program(TEXTSLAM_MAP_PROGRAM, {"angles", output(), word, word, "--within", "0"});
+  expect_success(twice);
+  EXPECT_NE(twice.out.find("largest angle 0.00 degrees"), std::string::npos) << twice.out;
+  // The room has walls at right angles, and signs on more than one.
+  const ProgramResult apart = run_program(TEXTSLAM_MAP_PROGRAM, {"angles", output(), "--within", "1"});
+  EXPECT_EQ(apart.code, 1) << apart.out;
+  EXPECT_NE(apart.err.find("is more than 1"), std::string::npos) << apart.err;
+  expect_refused(run_program(TEXTSLAM_MAP_PROGRAM, {"angles", output(), "nobody wrote this"}), 1, "no text of ",
+                 "nobody wrote this", "textslam-map");
+}
+
 TEST_F(TextslamRun, TimingsCoverEveryFrame) {
   const Json timing = json_of(output("timing.json"));
   EXPECT_EQ(timing.at("frames").size(), static_cast<std::size_t>(kFrames));

@@ -1,0 +1,35 @@
+// Readings of one word: how alike they are, and what they say together.
+#include "textslam/text_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include "io/detections.hpp"
+
+namespace textslam {
+namespace {
+
+TEST(TextWords, LikenessFallsWithEveryLetter) {
+  EXPECT_EQ(likeness("EXIT", "EXIT"), 1);
+  EXPECT_EQ(likeness("", ""), 1);
+  EXPECT_DOUBLE_EQ(likeness("Computer", "Comouter"), 0.75) << "another letter";
+  EXPECT_DOUBLE_EQ(likeness("Computer", "Compuer"), 0.75) << "one left out";
+  EXPECT_DOUBLE_EQ(likeness("Compute", "Computer"), 0.75) << "one added";
+  EXPECT_DOUBLE_EQ(likeness("EXIT", "EXAM"), 0) << "half of it";
+  EXPECT_EQ(likeness("EXIT", "OFFICE"), 0);
+  EXPECT_EQ(likeness("EXIT", ""), 0);
+}
+
+TEST(TextWords, NoiseThatDiffersDoesNotSplitTheVotes) {
+  // Each misread once, in another letter; a wrong word, read twice the same way, has more votes than any of them.
+  EXPECT_EQ(consensus({{"Computer", 0.9}, {"Comquter", 0.8}, {"Computez", 0.8}, {"Gomputer", 0.8}, {"we", 1.4}}),
+            "Computer");
+}
+
+TEST(TextWords, AmongWordsThatAreNotAlikeTheVotesDecide) {
+  EXPECT_EQ(consensus({{"OFTEN", 0.9}, {"SURE", 0.95}}), "SURE");
+  EXPECT_EQ(consensus({{"A", 1}, {"B", 1}}), "A") << "the first in order";
+  EXPECT_EQ(consensus({}), kUnreadText);
+}
+
+}  // namespace
+}  // namespace textslam
