@@ -11,7 +11,7 @@
 namespace textslam {
 namespace superseded_texts_test {
 
-constexpr int kFrames = 120, kPages = 45;
+constexpr int kFrames = 200, kPages = 50;
 
 Quad<double> page_round(const Quad<double>& line) {
   const Vec2 centre = textplane::centroid(line);
