@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 012fd1a2dab0589c
+// Hash of these files: fa78587245b20aa3
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 012fd1a2dab0589c"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 fa78587245b20aa3"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -6989,11 +6989,11 @@ struct Robust {
   /// Where it leaves the quadratic, in the unit of |r|.
   double delta = 1.0;
 
-  /// A known kind with a finite positive delta (l2 ignores it).
+  /// A known kind with a delta in [1e-100, 1e100], so that its square and ratios to it are numbers (l2 ignores it).
   bool valid() const noexcept {
     if (kind == RobustKind::l2) return true;
     return (kind == RobustKind::huber || kind == RobustKind::cauchy || kind == RobustKind::tukey) && is_finite(delta) &&
-           delta > 0.0;
+           delta >= 1e-100 && delta <= 1e100;
   }
 
   /// The cost of the squared residual r2.
@@ -23844,8 +23844,11 @@ TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
 //
 // A homography with q_z > 0 maps the tile into the convex hull of the images of its corners. Along a row v,
 // d(x/z)/du = N(v) / z^2 with N = x1 z - x z1 affine in v and z affine in u and v, so corners bound both.
+//
+// Positions are made in float, from divisors whose terms add up to `size`: half of the margin is for what float does to a
+// position where q_z is small beside that.
 TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
-                                         WarpTile* t) noexcept {
+                                         double size, WarpTile* t) noexcept {
   const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
                bottom = top + t->rows - 1;
   const double margin = 1e-3;
@@ -23855,8 +23858,9 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    inside =
-        inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
+    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
+             px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
     x_high = px > x_high ? px : x_high;
     y_low = py < y_low ? py : y_low;
@@ -23901,7 +23905,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
     t.y[i] = (y[i] - t.oy * z[i]) * s;
     t.z[i] = z[i] * s;
   }
-  warp_classify(a, x, y, z, &t);
+  warp_classify(a, x, y, z, size, &t);
   return t;
 }
 
@@ -24141,7 +24145,7 @@ TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
   return x < static_cast<double>(last) ? static_cast<int>(x) : last;
 }
 TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
-                                         WarpTile* t) noexcept {
+                                         double size, WarpTile* t) noexcept {
   const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
                bottom = top + t->rows - 1;
   const double margin = 1e-3;
@@ -24151,8 +24155,9 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    inside =
-        inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
+    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
+             px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
     x_high = px > x_high ? px : x_high;
     y_low = py < y_low ? py : y_low;
@@ -24193,7 +24198,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
     t.y[i] = (y[i] - t.oy * z[i]) * s;
     t.z[i] = z[i] * s;
   }
-  warp_classify(a, x, y, z, &t);
+  warp_classify(a, x, y, z, size, &t);
   return t;
 }
 enum WarpPath : int {
@@ -24420,7 +24425,7 @@ TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
   return x < static_cast<double>(last) ? static_cast<int>(x) : last;
 }
 TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
-                                         WarpTile* t) noexcept {
+                                         double size, WarpTile* t) noexcept {
   const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
                bottom = top + t->rows - 1;
   const double margin = 1e-3;
@@ -24430,8 +24435,9 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    inside =
-        inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
+    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
+             px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
     x_high = px > x_high ? px : x_high;
     y_low = py < y_low ? py : y_low;
@@ -24472,7 +24478,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
     t.y[i] = (y[i] - t.oy * z[i]) * s;
     t.z[i] = z[i] * s;
   }
-  warp_classify(a, x, y, z, &t);
+  warp_classify(a, x, y, z, size, &t);
   return t;
 }
 enum WarpPath : int {
@@ -24708,7 +24714,7 @@ TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
   return x < static_cast<double>(last) ? static_cast<int>(x) : last;
 }
 TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
-                                         WarpTile* t) noexcept {
+                                         double size, WarpTile* t) noexcept {
   const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
                bottom = top + t->rows - 1;
   const double margin = 1e-3;
@@ -24718,8 +24724,9 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    inside =
-        inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
+    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
+             px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
     x_high = px > x_high ? px : x_high;
     y_low = py < y_low ? py : y_low;
@@ -24760,7 +24767,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
     t.y[i] = (y[i] - t.oy * z[i]) * s;
     t.z[i] = z[i] * s;
   }
-  warp_classify(a, x, y, z, &t);
+  warp_classify(a, x, y, z, size, &t);
   return t;
 }
 enum WarpPath : int {
@@ -24980,7 +24987,7 @@ TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
   return x < static_cast<double>(last) ? static_cast<int>(x) : last;
 }
 TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
-                                         WarpTile* t) noexcept {
+                                         double size, WarpTile* t) noexcept {
   const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
                bottom = top + t->rows - 1;
   const double margin = 1e-3;
@@ -24990,8 +24997,9 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    inside =
-        inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
+    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
+             px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
     x_high = px > x_high ? px : x_high;
     y_low = py < y_low ? py : y_low;
@@ -25032,7 +25040,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
     t.y[i] = (y[i] - t.oy * z[i]) * s;
     t.z[i] = z[i] * s;
   }
-  warp_classify(a, x, y, z, &t);
+  warp_classify(a, x, y, z, size, &t);
   return t;
 }
 enum WarpPath : int {

@@ -65,7 +65,7 @@ TEST(Robust, KnowsBadParameters) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   for (const RobustKind kind : {RobustKind::huber, RobustKind::cauchy, RobustKind::tukey}) {
     EXPECT_TRUE((Robust{kind, 0.1}.valid()));
-    for (const double delta : {0.0, -1.0, nan, inf}) EXPECT_FALSE((Robust{kind, delta}.valid()));
+    for (const double delta : {0.0, -1.0, 1e-300, 1e300, nan, inf}) EXPECT_FALSE((Robust{kind, delta}.valid()));
   }
   EXPECT_TRUE((Robust{RobustKind::l2, nan}.valid()));
   EXPECT_FALSE((Robust{static_cast<RobustKind>(9), 1.0}.valid()));

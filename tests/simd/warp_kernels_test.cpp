@@ -305,4 +305,32 @@ TEST(WarpKernels, TouchesNothingOutside) {
   });
 }
 
+// All output pixels come from one source pixel; the divisor vanishes, or nearly, at a corner of the output.
+TEST(WarpKernels, DivisorThatVanishesAtACorner) {
+  const int width = 55, height = 40, out_width = 6, out_height = 9;
+  const textplane_test::Guarded<std::uint8_t> memory(static_cast<std::size_t>(width * height));
+  for (int i = 0; i < width * height; ++i) memory.front()[i] = memory.data()[i] = static_cast<std::uint8_t>(i % 251);
+  on_each_target([&](Target) {
+    Random random(14);
+    for (int k = 0; k < 400; ++k) {
+      const double u = k % 2 ? out_width - 1 : 0, v = k / 2 % 2 ? out_height - 1 : 0;
+      const double a = random.uniform(0.1, 2) * (k % 2 ? -1 : 1), b = random.uniform(0.1, 2) * (k / 2 % 2 ? -1 : 1);
+      const double left = k % 5 == 0 ? 0 : std::pow(10.0, random.uniform(-17, -2));
+      const Eigen::RowVector3d divisor(a, b, left - a * u - b * v);
+      Matrix3<double> H;
+      H.row(0) = random.uniform(1, width - 2) * divisor;
+      H.row(1) = random.uniform(1, height - 2) * divisor;
+      H.row(2) = divisor;
+      for (const std::uint8_t* pixels : {memory.front(), memory.data()}) {
+        Image<float> values(out_width, out_height);
+        Image<std::uint8_t> bytes(out_width, out_height);
+        warp_patch(ImageView8(pixels, width, height), H, values.view(), kFill);
+        warp_patch(ImageView8(pixels, width, height), H, bytes.view(), kFill);
+        for (int y = 0; y < out_height; ++y)
+          for (int x = 0; x < out_width; ++x) ASSERT_TRUE(values(x, y) >= 0 && values(x, y) < 255.01F) << H;
+      }
+    }
+  });
+}
+
 }  // namespace warp_kernels_test

@@ -24,11 +24,11 @@ struct Robust {
   /// Where it leaves the quadratic, in the unit of |r|.
   double delta = 1.0;
 
-  /// A known kind with a finite positive delta (l2 ignores it).
+  /// A known kind with a delta in [1e-100, 1e100], so that its square and ratios to it are numbers (l2 ignores it).
   bool valid() const noexcept {
     if (kind == RobustKind::l2) return true;
     return (kind == RobustKind::huber || kind == RobustKind::cauchy || kind == RobustKind::tukey) && is_finite(delta) &&
-           delta > 0.0;
+           delta >= 1e-100 && delta <= 1e100;
   }
 
   /// The cost of the squared residual r2.

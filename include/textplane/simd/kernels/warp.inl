@@ -22,8 +22,11 @@ TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
 //
 // A homography with q_z > 0 maps the tile into the convex hull of the images of its corners. Along a row v,
 // d(x/z)/du = N(v) / z^2 with N = x1 z - x z1 affine in v and z affine in u and v, so corners bound both.
+//
+// Positions are made in float, from divisors whose terms add up to `size`: half of the margin is for what float does to a
+// position where q_z is small beside that.
 TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
-                                         WarpTile* t) noexcept {
+                                         double size, WarpTile* t) noexcept {
   const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
                bottom = top + t->rows - 1;
   const double margin = 1e-3;
@@ -33,8 +36,9 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
     const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
     const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
     const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
-    inside =
-        inside && q > 0.0 && px >= margin && py >= margin && px <= a.width - 1 - margin && py <= a.height - 1 - margin;
+    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
+             px <= a.width - 1 - margin && py <= a.height - 1 - margin;
     x_low = px < x_low ? px : x_low;
     x_high = px > x_high ? px : x_high;
     y_low = py < y_low ? py : y_low;
@@ -79,7 +83,7 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
     t.y[i] = (y[i] - t.oy * z[i]) * s;
     t.z[i] = z[i] * s;
   }
-  warp_classify(a, x, y, z, &t);
+  warp_classify(a, x, y, z, size, &t);
   return t;
 }
 
