@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 113 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: fa78587245b20aa3
+// textplane 0.1.0 in one header, made of 115 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: f777b1e6951b6789
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 fa78587245b20aa3"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 f777b1e6951b6789"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -3400,22 +3400,8 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
 
-// Four words of taps, of two bytes of the upper row and, above them, two of the lower.
-#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
-TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                      std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o0)), 1);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o1)), 2);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o1)), 3);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o2)), 4);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o2)), 5);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
-}
-#else
+// Four words of taps, each of two bytes of the upper row and, above them, two of the lower.
+
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
@@ -3424,8 +3410,6 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
   taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
 }
-#endif
-
 // Vectors of one lane, in plain C++: the definition of every operation.
 //
 // Lanes are counted from 0. `_n` loads leave the lanes from n on at zero and touch no memory beyond n; `_n` stores write n
@@ -3638,7 +3622,8 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
-#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
+// taps_plain.inl for the x86 targets: inserts beat gathers and the way through general registers.
+
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
@@ -3652,16 +3637,6 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
   _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
 }
-#else
-TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                      std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
-  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
-  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
-  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
-}
-#endif
 // Vectors of four lanes in SSE4.1. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 4;
@@ -3904,7 +3879,6 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
-#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
@@ -3918,16 +3892,6 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
   _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
 }
-#else
-TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                      std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
-  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
-  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
-  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
-}
-#endif
 // Vectors of eight lanes in AVX2 and FMA. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 8;
@@ -4178,7 +4142,6 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
-#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
@@ -4192,16 +4155,6 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
   _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
 }
-#else
-TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                      std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
-  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
-  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
-  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
-}
-#endif
 // Vectors of sixteen lanes in AVX-512 (F, BW, DQ, VL, VNNI). vec_scalar.inl defines the operations.
 //
 // The zero-masking forms stand where the plain ones start from an undefined register in the compiler's header, about which
@@ -4422,21 +4375,6 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
-#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
-TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                      std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o0)), 1);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o1)), 2);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o1)), 3);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o2)), 4);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o2)), 5);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
-}
-#else
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
@@ -4445,7 +4383,6 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
   taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
 }
-#endif
 // Vectors of four lanes in NEON of AArch64. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 4;

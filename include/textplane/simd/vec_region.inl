@@ -24,40 +24,19 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
   for (int i = 0; i < n; ++i) target[i] = source[i];
 }
 
-// Four words of taps, of two bytes of the upper row and, above them, two of the lower.
-#if TEXTPLANE_SIMD_REGION >= 1 && TEXTPLANE_SIMD_REGION <= 3
-TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                      std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o0)), 1);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o1)), 2);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o1)), 3);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o2)), 4);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o2)), 5);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
-  v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
-}
-#else
-TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                      std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  taps[0] = load_half(upper + o0) | load_half(lower + o0) << 16;
-  taps[1] = load_half(upper + o1) | load_half(lower + o1) << 16;
-  taps[2] = load_half(upper + o2) | load_half(lower + o2) << 16;
-  taps[3] = load_half(upper + o3) | load_half(lower + o3) << 16;
-}
-#endif
-
 #if TEXTPLANE_SIMD_REGION == 0
+#include "textplane/simd/taps_plain.inl"
 #include "textplane/simd/vec_scalar.inl"
 #elif TEXTPLANE_SIMD_REGION == 1
+#include "textplane/simd/taps_x86.inl"
 #include "textplane/simd/vec_sse41.inl"
 #elif TEXTPLANE_SIMD_REGION == 2
+#include "textplane/simd/taps_x86.inl"
 #include "textplane/simd/vec_avx2.inl"
 #elif TEXTPLANE_SIMD_REGION == 3
+#include "textplane/simd/taps_x86.inl"
 #include "textplane/simd/vec_avx512.inl"
 #elif TEXTPLANE_SIMD_REGION == 4
+#include "textplane/simd/taps_plain.inl"
 #include "textplane/simd/vec_neon.inl"
 #endif
