@@ -68,7 +68,6 @@ struct TextObject {
   std::vector<int> targets;             ///< Key frames (without the host) that observe it well.
   std::map<std::string, double> votes;  ///< Words read, without those unread: sums of the scores of their readings.
   int detections = 0;                   ///< Frames in which the detector saw it.
-  int contradictions = 0;               ///< Frames in a row whose detections on its place have another outline.
   int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
   double zncc = 0;                      ///< Mean over its last refinement.
 

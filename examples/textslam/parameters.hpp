@@ -75,10 +75,8 @@ struct Parameters {
   double text_min_zncc = 0.65;     ///< Of an observation that counts.
   double text_cull_zncc = 0.55;    ///< Below it, an observation counts against the object.
   double text_max_slant = 78;      ///< Degrees between viewing ray and normal.
-  int text_max_contradictions =
-      5;                   ///< Frames in a row that show other texts in its place: it no longer keeps them out.
-  int text_patience = 25;  ///< Key frames a candidate may wait for its plane.
-  int text_targets = 8;    ///< Key frames that a plane is refined against.
+  int text_patience = 25;          ///< Key frames a candidate may wait for its plane.
+  int text_targets = 8;            ///< Key frames that a plane is refined against.
 
   // Last refinement of the text planes
   int refine_hosts = 4;         ///< Key frames that a text is compared from, the largest views among them,

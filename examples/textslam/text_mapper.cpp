@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kItsOutline = 0.4;        // IoU of a detection that confirms a text
 constexpr std::size_t kFewestCorners = 6;  // on a text, for its plane
-constexpr double kOnItsPlace = 0.5;        // of the smaller quad: a detection that is about the same place
 
 const Vec2* observed_in(const std::vector<PointObservation>& observations, int keyframe) {
   for (const PointObservation& o : observations)
@@ -70,16 +69,12 @@ void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vec
   for (TextObject& text : map_.texts) {
     Quad<double> quad;
     if (text.state == TextState::dropped || !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad)) continue;
-    bool confirmed = false, otherwise = false;
     for (const Detection& detection : frame.detections) {
-      otherwise = otherwise || overlap(quad, detection.quad) > kOnItsPlace;
       if (textplane::iou(quad, detection.quad) < kItsOutline) continue;
-      confirmed = true;
       ++text.detections;
       if (is_read(detection.text)) text.votes[detection.text] += detection.score;
       break;
     }
-    text.contradictions = confirmed ? 0 : text.contradictions + (otherwise ? 1 : 0);
   }
 }
 
@@ -88,8 +83,7 @@ std::vector<Detection> TextMapper::new_detections(const Frame& frame, const SE3d
   std::vector<Quad<double>> known;
   for (const TextObject& text : map_.texts) {
     Quad<double> quad;
-    if (text.state != TextState::dropped && local_.has_text(text.id) && !outvoted(text) &&
-        locate(text, T_c_w, tracks, &quad))
+    if (text.state != TextState::dropped && local_.has_text(text.id) && locate(text, T_c_w, tracks, &quad))
       known.push_back(quad);
   }
   std::vector<Detection> accepted;
@@ -118,24 +112,6 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
     text.detections = 1;
     if (is_read(detection.text)) text.votes[detection.text] += detection.score;
     map_.texts.push_back(std::move(text));
-  }
-}
-
-// A first detection may hold a whole page, or a part of a word. What the detector sees there instead, time after time, is let
-// in beside it.
-bool TextMapper::outvoted(const TextObject& text) const {
-  return text.contradictions >= parameters_.text_max_contradictions;
-}
-
-// A text that was let in and proved itself takes the place of those outvoted.
-void TextMapper::supersede(const TextObject& by) {
-  const SE3d T_h_w = map_.keyframe(by.host).T_w_c.inverse();
-  for (TextObject& text : map_.texts) {
-    if (text.id == by.id || !text.has_plane() || !outvoted(text)) continue;
-    Quad<double> quad;
-    if (facing(map_, text, T_h_w) > 0 && project_text(map_, text, T_h_w, &quad) &&
-        overlap(by.patch.quad, quad) > kOnItsPlace)
-      text.state = TextState::dropped;
   }
 }
 
@@ -298,10 +274,8 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     }
     const int observations = static_cast<int>(text.targets.size()) + 1;
     if (text.state == TextState::tentative && observations >= parameters_.text_min_observations &&
-        text.detections >= parameters_.text_min_detections) {
+        text.detections >= parameters_.text_min_detections)
       text.state = TextState::mapped;
-      supersede(text);
-    }
     if (text.failures >= 5 && text.failures > static_cast<int>(text.targets.size())) text.state = TextState::dropped;
     if (text.state == TextState::tentative && id - text.host > 2 * parameters_.text_patience)
       text.state = TextState::dropped;

@@ -35,8 +35,6 @@ class TextMapper {
 
  private:
   bool locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks, Quad<double>* quad) const;
-  bool outvoted(const TextObject& text) const;
-  void supersede(const TextObject& by);
   struct Corners {
     std::vector<Vec3> host, target;
   };
