@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 115 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: f777b1e6951b6789
+// Hash of these files: bea84ff053e4714f
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 f777b1e6951b6789"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 bea84ff053e4714f"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -4874,13 +4874,15 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
 
 // The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs the
 // middle two are exchanged. Faster than gathers, and it reads these pixels only.
-TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
+TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
+                                      const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
+                                      std::uint32_t* TEXTPLANE_SIMD_RESTRICT taps) noexcept {
+  const std::uint8_t* lower = upper + stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, offset + i, taps + i);
   for (; i < n; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
+    const std::ptrdiff_t at = offset[i];
+    taps[i] = load_half(upper + at) | load_half(lower + at) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -4901,7 +4903,7 @@ TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* 
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f, n, s);
+    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 
@@ -5085,13 +5087,15 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
   store(x + i, tx);
   store(y + i, ty);
 }
-TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
+TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
+                                      const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
+                                      std::uint32_t* TEXTPLANE_SIMD_RESTRICT taps) noexcept {
+  const std::uint8_t* lower = upper + stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, offset + i, taps + i);
   for (; i < n; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
+    const std::ptrdiff_t at = offset[i];
+    taps[i] = load_half(upper + at) | load_half(lower + at) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -5111,7 +5115,7 @@ TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* 
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f, n, s);
+    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
@@ -5297,13 +5301,15 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
   store(x + i, tx);
   store(y + i, ty);
 }
-TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
+TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
+                                      const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
+                                      std::uint32_t* TEXTPLANE_SIMD_RESTRICT taps) noexcept {
+  const std::uint8_t* lower = upper + stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, offset + i, taps + i);
   for (; i < n; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
+    const std::ptrdiff_t at = offset[i];
+    taps[i] = load_half(upper + at) | load_half(lower + at) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -5323,7 +5329,7 @@ TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* 
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f, n, s);
+    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
@@ -5516,13 +5522,15 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
   store(x + i, tx);
   store(y + i, ty);
 }
-TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
+TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
+                                      const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
+                                      std::uint32_t* TEXTPLANE_SIMD_RESTRICT taps) noexcept {
+  const std::uint8_t* lower = upper + stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, offset + i, taps + i);
   for (; i < n; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
+    const std::ptrdiff_t at = offset[i];
+    taps[i] = load_half(upper + at) | load_half(lower + at) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -5542,7 +5550,7 @@ TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* 
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f, n, s);
+    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
@@ -5722,13 +5730,15 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
   store(x + i, tx);
   store(y + i, ty);
 }
-TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
+TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
+                                      const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
+                                      std::uint32_t* TEXTPLANE_SIMD_RESTRICT taps) noexcept {
+  const std::uint8_t* lower = upper + stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, offset + i, taps + i);
   for (; i < n; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
+    const std::ptrdiff_t at = offset[i];
+    taps[i] = load_half(upper + at) | load_half(lower + at) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -5748,7 +5758,7 @@ TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* 
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f, n, s);
+    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
@@ -11428,35 +11438,35 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
 struct SideSums {
   double i, ii, h, hh;
 };
+// The same sums, lane by lane.
+struct CentredSums {
+  vf i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
+  store(target, i);
+  store(difference, sub(mul(kappa, h), i));
+  s->i = add(s->i, i);
+  s->h = add(s->h, h);
+  s->ii = madd(i, i, s->ii);
+  s->hh = madd(h, h, s->hh);
+}
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
-  vf si = zero(), sii = zero(), sh = zero(), shh = zero();
+  CentredSums s = {zero(), zero(), zero(), zero()};
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
-  for (; k + kLanes <= n; k += kLanes) {
-    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
-  }
+  for (; k + kLanes <= n; k += kLanes)
+    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k, &s);
   if (k < n) {
     const vm counted = first_n(n - k);
-    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
+    centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
+                  kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(si);
-  sums->ii += hsum_d(sii);
-  sums->h += hsum_d(sh);
-  sums->hh += hsum_d(shh);
+  sums->i += hsum_d(s.i);
+  sums->ii += hsum_d(s.ii);
+  sums->h += hsum_d(s.h);
+  sums->hh += hsum_d(s.hh);
 }
 
 // r sqrt(N) = on_d d + on_i i + shift, and n = (I - mean) / s = (i - i_mean) / i_s.
@@ -11844,35 +11854,34 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
 struct SideSums {
   double i, ii, h, hh;
 };
+struct CentredSums {
+  vf i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
+  store(target, i);
+  store(difference, sub(mul(kappa, h), i));
+  s->i = add(s->i, i);
+  s->h = add(s->h, h);
+  s->ii = madd(i, i, s->ii);
+  s->hh = madd(h, h, s->hh);
+}
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
-  vf si = zero(), sii = zero(), sh = zero(), shh = zero();
+  CentredSums s = {zero(), zero(), zero(), zero()};
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
-  for (; k + kLanes <= n; k += kLanes) {
-    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
-  }
+  for (; k + kLanes <= n; k += kLanes)
+    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k, &s);
   if (k < n) {
     const vm counted = first_n(n - k);
-    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
+    centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
+                  kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(si);
-  sums->ii += hsum_d(sii);
-  sums->h += hsum_d(sh);
-  sums->hh += hsum_d(shh);
+  sums->i += hsum_d(s.i);
+  sums->ii += hsum_d(s.ii);
+  sums->h += hsum_d(s.h);
+  sums->hh += hsum_d(s.hh);
 }
 struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
@@ -12237,35 +12246,34 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
 struct SideSums {
   double i, ii, h, hh;
 };
+struct CentredSums {
+  vf i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
+  store(target, i);
+  store(difference, sub(mul(kappa, h), i));
+  s->i = add(s->i, i);
+  s->h = add(s->h, h);
+  s->ii = madd(i, i, s->ii);
+  s->hh = madd(h, h, s->hh);
+}
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
-  vf si = zero(), sii = zero(), sh = zero(), shh = zero();
+  CentredSums s = {zero(), zero(), zero(), zero()};
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
-  for (; k + kLanes <= n; k += kLanes) {
-    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
-  }
+  for (; k + kLanes <= n; k += kLanes)
+    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k, &s);
   if (k < n) {
     const vm counted = first_n(n - k);
-    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
+    centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
+                  kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(si);
-  sums->ii += hsum_d(sii);
-  sums->h += hsum_d(sh);
-  sums->hh += hsum_d(shh);
+  sums->i += hsum_d(s.i);
+  sums->ii += hsum_d(s.ii);
+  sums->h += hsum_d(s.h);
+  sums->hh += hsum_d(s.hh);
 }
 struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
@@ -12637,35 +12645,34 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
 struct SideSums {
   double i, ii, h, hh;
 };
+struct CentredSums {
+  vf i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
+  store(target, i);
+  store(difference, sub(mul(kappa, h), i));
+  s->i = add(s->i, i);
+  s->h = add(s->h, h);
+  s->ii = madd(i, i, s->ii);
+  s->hh = madd(h, h, s->hh);
+}
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
-  vf si = zero(), sii = zero(), sh = zero(), shh = zero();
+  CentredSums s = {zero(), zero(), zero(), zero()};
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
-  for (; k + kLanes <= n; k += kLanes) {
-    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
-  }
+  for (; k + kLanes <= n; k += kLanes)
+    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k, &s);
   if (k < n) {
     const vm counted = first_n(n - k);
-    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
+    centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
+                  kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(si);
-  sums->ii += hsum_d(sii);
-  sums->h += hsum_d(sh);
-  sums->hh += hsum_d(shh);
+  sums->i += hsum_d(s.i);
+  sums->ii += hsum_d(s.ii);
+  sums->h += hsum_d(s.h);
+  sums->hh += hsum_d(s.hh);
 }
 struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
@@ -13024,35 +13031,34 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
 struct SideSums {
   double i, ii, h, hh;
 };
+struct CentredSums {
+  vf i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
+  store(target, i);
+  store(difference, sub(mul(kappa, h), i));
+  s->i = add(s->i, i);
+  s->h = add(s->h, h);
+  s->ii = madd(i, i, s->ii);
+  s->hh = madd(h, h, s->hh);
+}
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
-  vf si = zero(), sii = zero(), sh = zero(), shh = zero();
+  CentredSums s = {zero(), zero(), zero(), zero()};
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
-  for (; k + kLanes <= n; k += kLanes) {
-    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
-  }
+  for (; k + kLanes <= n; k += kLanes)
+    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k, &s);
   if (k < n) {
     const vm counted = first_n(n - k);
-    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
+    centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
+                  kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(si);
-  sums->ii += hsum_d(sii);
-  sums->h += hsum_d(sh);
-  sums->hh += hsum_d(shh);
+  sums->i += hsum_d(s.i);
+  sums->ii += hsum_d(s.ii);
+  sums->h += hsum_d(s.h);
+  sums->hh += hsum_d(s.hh);
 }
 struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
@@ -21007,16 +21013,6 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
   if (whole) counts->visible = add(counts->visible, set1(static_cast<float>(m)));
 }
 
-TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
-  const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
-  int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
-  for (; i < m * kLanes; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
-  }
-}
-
 // Intensities of the strip, and rows of dI for `parameters`: v and omega (6), and theta (9).
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                       int parameters, const float* pixels, int k, int m, const BatchStripMemory& s,
@@ -21241,15 +21237,6 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
     counts->host = add(counts->host, host);
   }
   if (whole) counts->visible = add(counts->visible, set1(static_cast<float>(m)));
-}
-TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
-  const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
-  int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
-  for (; i < m * kLanes; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
-  }
 }
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                       int parameters, const float* pixels, int k, int m, const BatchStripMemory& s,
@@ -21479,15 +21466,6 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
     counts->host = add(counts->host, host);
   }
   if (whole) counts->visible = add(counts->visible, set1(static_cast<float>(m)));
-}
-TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
-  const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
-  int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
-  for (; i < m * kLanes; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
-  }
 }
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                       int parameters, const float* pixels, int k, int m, const BatchStripMemory& s,
@@ -21725,15 +21703,6 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
   }
   if (whole) counts->visible = add(counts->visible, set1(static_cast<float>(m)));
 }
-TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
-  const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
-  int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
-  for (; i < m * kLanes; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
-  }
-}
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                       int parameters, const float* pixels, int k, int m, const BatchStripMemory& s,
                                       float* scratch, BatchCounts* counts) noexcept {
@@ -21956,15 +21925,6 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
     counts->host = add(counts->host, host);
   }
   if (whole) counts->visible = add(counts->visible, set1(static_cast<float>(m)));
-}
-TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
-  const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
-  int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
-  for (; i < m * kLanes; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
-  }
 }
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                       int parameters, const float* pixels, int k, int m, const BatchStripMemory& s,
@@ -22199,7 +22159,7 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
     else
       batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
-    batch_taps(a.target, m, &strip);
+    fetch_rows(a.target.data, a.target.stride, strip.offset, m * kLanes, strip.taps);
     if (whole)
       batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
     else
@@ -22460,7 +22420,7 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
     else
       batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
-    batch_taps(a.target, m, &strip);
+    fetch_rows(a.target.data, a.target.stride, strip.offset, m * kLanes, strip.taps);
     if (whole)
       batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
     else
@@ -22721,7 +22681,7 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
     else
       batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
-    batch_taps(a.target, m, &strip);
+    fetch_rows(a.target.data, a.target.stride, strip.offset, m * kLanes, strip.taps);
     if (whole)
       batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
     else
@@ -22989,7 +22949,7 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
     else
       batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
-    batch_taps(a.target, m, &strip);
+    fetch_rows(a.target.data, a.target.stride, strip.offset, m * kLanes, strip.taps);
     if (whole)
       batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
     else
@@ -23244,7 +23204,7 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
     else
       batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
-    batch_taps(a.target, m, &strip);
+    fetch_rows(a.target.data, a.target.stride, strip.offset, m * kLanes, strip.taps);
     if (whole)
       batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
     else

@@ -13,6 +13,8 @@ std::string TextObject::word() const { return consensus(votes); }
 
 double degrees(const Eigen::Matrix3d& R) { return textplane::so3_log<double>(R).norm() * 180 / M_PI; }
 
+double degrees_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI; }
+
 std::vector<int> spread(const std::vector<int>& ids, std::size_t count) {
   if (ids.size() <= count || count < 2) return ids;
   std::vector<int> picked;

@@ -109,6 +109,8 @@ struct Track {
 
 /// By how much a rotation turns, degrees.
 double degrees(const Eigen::Matrix3d& R);
+/// Between two directions of any length, degrees.
+double degrees_between(const Vec3& a, const Vec3& b);
 
 /// At most `count` of the ids, evenly spread, the first and the last among them.
 std::vector<int> spread(const std::vector<int>& ids, std::size_t count);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "io/json_file.hpp"
 #include "textplane/geometry/plane.hpp"
@@ -14,7 +13,6 @@ namespace textslam {
 namespace {
 
 constexpr int kNoMatch = 4;
-constexpr double kAlike = 0.5;
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -29,7 +27,7 @@ int rank(const IndexedText& text, const std::string& word) {
   for (const auto& [reading, votes] : text.readings)
     if (holds(reading)) return 2;
   for (const auto& [reading, votes] : text.readings)
-    if (likeness(lower(reading), word) >= kAlike) return 3;
+    if (likeness(lower(reading), word) >= kSameWord) return 3;
   return kNoMatch;
 }
 
@@ -132,8 +130,6 @@ std::vector<IndexedText> query(const std::vector<IndexedText>& texts, const std:
   return found;
 }
 
-double angle_between(const IndexedText& a, const IndexedText& b) {
-  return std::atan2(a.normal.cross(b.normal).norm(), a.normal.dot(b.normal)) * 180 / M_PI;
-}
+double angle_between(const IndexedText& a, const IndexedText& b) { return degrees_between(a.normal, b.normal); }
 
 }  // namespace textslam

@@ -137,7 +137,7 @@ bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::
   std::vector<double> parallax;
   for (std::size_t i = 0; i < host.size(); ++i) {
     const Vec3 turned = T_t_h.R * host[i];
-    parallax.push_back(std::atan2(turned.cross(target[i]).norm(), turned.dot(target[i])) * 180 / M_PI);
+    parallax.push_back(degrees_between(turned, target[i]));
   }
   if (host.size() < kFewestCorners || median(parallax) < parameters_.text_min_parallax) return false;
   for (int round = 0; round < 4; ++round) {

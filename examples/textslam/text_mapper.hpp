@@ -3,7 +3,7 @@
 // Detection in a key frame -> candidate (refused where it meets a known text or the image border) -> its corners are tracked;
 // once they have parallax, theta by the linear system [m']x t m^T theta = -[m']x R m -> photometric refinement against the
 // key frames that see it -> tentative -> after n_min observations mapped: it takes part in tracking and adjustment ->
-// dropped when the images stop agreeing with it, or when the detector keeps seeing other texts in its place.
+// dropped when the images stop agreeing with it.
 #ifndef TEXTSLAM_TEXT_MAPPER_HPP
 #define TEXTSLAM_TEXT_MAPPER_HPP
 

@@ -11,7 +11,6 @@ namespace textslam {
 namespace {
 
 constexpr double kDeviations = 3;
-constexpr double kSameWord = 0.5;  // likeness of two readings of one word: a quarter of the letters may differ
 
 // b's plane beside a's, in a's host.
 bool planes_agree(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b) {

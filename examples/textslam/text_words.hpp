@@ -10,6 +10,9 @@ namespace textslam {
 /// 1 for the same word, falling by twice the share of letters to change, add or leave out; 0 from half of the longer word on.
 double likeness(const std::string& a, const std::string& b);
 
+/// The least likeness of two readings of one word: a quarter of the letters may differ.
+constexpr double kSameWord = 0.5;
+
 /// The reading that all the readings are most like, each weighed by its votes (a weighted median of strings): one letter read
 /// wrongly, here in one view and there in another, does not split the votes. The first in order among equals, kUnreadText
 /// without readings.

@@ -211,7 +211,7 @@ TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b
     if (std::abs(r) > kInlierPx) continue;
     best.inlier[i] = 1;
     sum += r * r;
-    parallaxes.push_back(std::atan2(q.cross(b[i]).norm(), q.dot(b[i])) * 180 / M_PI);
+    parallaxes.push_back(degrees_between(q, b[i]));
   }
   best.inliers = static_cast<int>(parallaxes.size());
   if (best.inliers < 12) return best;

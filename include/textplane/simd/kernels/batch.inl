@@ -153,7 +153,7 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
     else
       batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
-    batch_taps(a.target, m, &strip);
+    fetch_rows(a.target.data, a.target.stride, strip.offset, m * kLanes, strip.taps);
     if (whole)
       batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
     else

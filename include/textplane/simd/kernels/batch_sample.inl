@@ -187,16 +187,6 @@ TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole,
   if (whole) counts->visible = add(counts->visible, set1(static_cast<float>(m)));
 }
 
-TEXTPLANE_SIMD_INLINE void batch_taps(const simd::Image8& image, int m, BatchStripMemory* s) noexcept {
-  const std::uint8_t *upper = image.data, *lower = image.data + image.stride;
-  int i = 0;
-  for (; i + 4 <= m * kLanes; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
-  for (; i < m * kLanes; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
-  }
-}
-
 // Intensities of the strip, and rows of dI for `parameters`: v and omega (6), and theta (9).
 TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                       int parameters, const float* pixels, int k, int m, const BatchStripMemory& s,

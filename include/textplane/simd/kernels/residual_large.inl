@@ -119,35 +119,35 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
 struct SideSums {
   double i, ii, h, hh;
 };
+// The same sums, lane by lane.
+struct CentredSums {
+  vf i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
+  store(target, i);
+  store(difference, sub(mul(kappa, h), i));
+  s->i = add(s->i, i);
+  s->h = add(s->h, h);
+  s->ii = madd(i, i, s->ii);
+  s->hh = madd(h, h, s->hh);
+}
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
                                        float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
                                        SideSums* sums) noexcept {
-  vf si = zero(), sii = zero(), sh = zero(), shh = zero();
+  CentredSums s = {zero(), zero(), zero(), zero()};
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
-  for (; k + kLanes <= n; k += kLanes) {
-    const vf i = sub(load(target + k), i_offset), h = sub(load(host + k), h_offset);
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
-  }
+  for (; k + kLanes <= n; k += kLanes)
+    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k, &s);
   if (k < n) {
     const vm counted = first_n(n - k);
-    const vf i = keep(counted, sub(load(target + k), i_offset)), h = keep(counted, sub(load_n(host + k, n - k), h_offset));
-    store(target + k, i);
-    store(difference + k, sub(mul(kappa, h), i));
-    si = add(si, i);
-    sh = add(sh, h);
-    sii = madd(i, i, sii);
-    shh = madd(h, h, shh);
+    centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
+                  kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(si);
-  sums->ii += hsum_d(sii);
-  sums->h += hsum_d(sh);
-  sums->hh += hsum_d(shh);
+  sums->i += hsum_d(s.i);
+  sums->ii += hsum_d(s.ii);
+  sums->h += hsum_d(s.h);
+  sums->hh += hsum_d(s.hh);
 }
 
 // r sqrt(N) = on_d d + on_i i + shift, and n = (I - mean) / s = (i - i_mean) / i_s.

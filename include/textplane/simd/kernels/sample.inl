@@ -165,13 +165,15 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
 
 // The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs the
 // middle two are exchanged. Faster than gathers, and it reads these pixels only.
-TEXTPLANE_SIMD_INLINE void fetch_rows(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const std::uint8_t *upper = f.bytes, *lower = f.bytes + f.stride;
+TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
+                                      const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
+                                      std::uint32_t* TEXTPLANE_SIMD_RESTRICT taps) noexcept {
+  const std::uint8_t* lower = upper + stride;
   int i = 0;
-  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, s->offset + i, s->taps + i);
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, offset + i, taps + i);
   for (; i < n; ++i) {
-    const std::ptrdiff_t offset = s->offset[i];
-    s->taps[i] = load_half(upper + offset) | load_half(lower + offset) << 16;
+    const std::ptrdiff_t at = offset[i];
+    taps[i] = load_half(upper + at) | load_half(lower + at) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -192,7 +194,7 @@ TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* 
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f, n, s);
+    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 
