@@ -47,8 +47,8 @@ Report compare(const Results& all, const std::string& best) {
       "error of ours | error of the peer |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   report.speed =
-      "| versus | N | times as fast | ns an item | error of ours | error of the peer |\n| --- | --- | --- | --- | --- "
-      "| --- |\n";
+      "| versus | N | target | times as fast | ns an item | error of ours | error of the peer |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Comparison& c : comparisons()) {
     const std::string target = std::string(c.target) == "best" ? best : c.target;
     const auto ours = all.find(std::string(c.ours) + "/" + target + "/" + c.size), peer = all.find(c.peer);
@@ -83,8 +83,9 @@ Report compare(const Results& all, const std::string& best) {
                     short_number(a.median()) + " | " + short_number(b.min()) + ", " + short_number(b.median()) + " | " +
                     error_text(a.errors) + " | " + error_text(b.errors) + " |\n";
     if (c.aim > 0)
-      report.speed += std::string("| ") + c.versus + " | " + c.size + " | " + short_number(ratio) + " | " +
-                      short_number(a.min()) + " | " + error_text(a.errors) + " | " + error_text(b.errors) + " |\n";
+      report.speed += std::string("| ") + c.versus + " | " + c.size + " | " + target + " | " + short_number(ratio) +
+                      " | " + short_number(a.min()) + " | " + error_text(a.errors) + " | " + error_text(b.errors) +
+                      " |\n";
   }
   return report;
 }
