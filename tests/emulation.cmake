@@ -29,13 +29,16 @@ else()
   message(STATUS "no qemu-x86_64: nothing is run on an old CPU")
 endif()
 
-# The AVX-512 bodies, with their lanes and masks, on AVX2.
+# The AVX-512 bodies, with their lanes and masks, on AVX2: on CPUs that do not run them as they are.
 find_path(TEXTPLANE_SIMDE simde/x86/avx512.h)
 include(CheckCXXSourceRuns)
 set(CMAKE_REQUIRED_FLAGS "-mavx2 -mfma -mpopcnt")
 check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\") ? 0 : 1; }" TEXTPLANE_RUNS_AVX2)
 unset(CMAKE_REQUIRED_FLAGS)
-if(TEXTPLANE_SIMDE AND TEXTPLANE_RUNS_AVX2 AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx512vnni\") && __builtin_cpu_supports(\"avx512vl\") ? 0 : 1; }" TEXTPLANE_RUNS_AVX512)
+if(TEXTPLANE_RUNS_AVX512 AND NOT TEXTPLANE_TEST_LONG)
+  message(STATUS "this CPU has AVX-512: its kernels are not emulated")
+elseif(TEXTPLANE_SIMDE AND TEXTPLANE_RUNS_AVX2 AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # 64-byte vectors are passed in memory then: their layout in a call is of no concern within one program.
   add_library(textplane_emulated INTERFACE)
   target_link_libraries(textplane_emulated INTERFACE textplane_developer GTest::gtest GTest::gtest_main)
