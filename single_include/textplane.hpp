@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 115 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: bea84ff053e4714f
+// Hash of these files: 0aa1e46a76cb8605
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 bea84ff053e4714f"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 0aa1e46a76cb8605"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -112,6 +112,17 @@
 #define TEXTPLANE_END_NAMESPACE \
   }                             \
   }
+
+// Compiled once for a program, or where they are called: see simd/targets.hpp. TEXTPLANE_INSTANCE begins the lines, at the end of a
+// header, that name the functions which TEXTPLANE_EXTERN_KERNELS makes declarations.
+#if defined(TEXTPLANE_DEFINE_KERNELS) && !defined(TEXTPLANE_EXTERN_KERNELS)
+#define TEXTPLANE_EXTERN_KERNELS
+#endif
+#if defined(TEXTPLANE_DEFINE_KERNELS)
+#define TEXTPLANE_INSTANCE template
+#else
+#define TEXTPLANE_INSTANCE extern template
+#endif
 
 // Checks of preconditions that only a bug in the caller can break. Off unless the embedder defines the macro, for example
 // as `assert(condition)`: the library itself never aborts.
@@ -1403,6 +1414,12 @@ PlaneFit<S> plane_from_points(const Points& p) noexcept {
   return plane_from_points<S>(p.data(), static_cast<int>(p.size()));
 }
 
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE PlaneFit<double> plane_from_matches<double>(const Vector3<double>*, const Vector3<double>*, int,
+                                                               const SE3<double>&, const double*) noexcept;
+TEXTPLANE_INSTANCE PlaneFit<double> plane_from_points<double>(const Vector3<double>*, int, const double*) noexcept;
+#endif
+
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
@@ -1976,7 +1993,8 @@ TEXTPLANE_END_NAMESPACE
 // All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone.
 //
 // Compiled kernels, an option: compiling all targets of a kernel in every file that calls it takes its time. Where
-// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see the entry points as declarations, and one file,
+// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see the entry points as declarations, those of the solvers, too,
+// and one file,
 //
 //   #define TEXTPLANE_DEFINE_KERNELS
 //   #include <textplane/textplane.hpp>
@@ -1986,9 +2004,6 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_SIMD_TARGETS_HPP
 #define TEXTPLANE_SIMD_TARGETS_HPP
 
-#if defined(TEXTPLANE_DEFINE_KERNELS) && !defined(TEXTPLANE_EXTERN_KERNELS)
-#define TEXTPLANE_EXTERN_KERNELS
-#endif
 #if defined(TEXTPLANE_EXTERN_KERNELS) && !defined(TEXTPLANE_DEFINE_KERNELS)
 #define TEXTPLANE_HAS_KERNELS 0
 #else
@@ -16011,15 +16026,17 @@ NormalEquations<P> fast_linearise(const BasicPhotometricInput<T>& in, const Vect
 
 /// Normal equations for the pose, parameters (v, omega).
 template <class T>
-NormalEquations<6> linearise_pose(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
-                                  const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
+NormalEquations<6> linearise_pose(const BasicPhotometricInput<T>& input, const Vector3<double>& theta,
+                                  const SE3d& T_t_h, const PhotometricOptions& options,
+                                  PhotometricWorkspace& workspace) noexcept {
   return detail::fast_linearise<6>(input, theta, T_t_h, options, workspace);
 }
 
 /// Normal equations for the plane, parameters theta.
 template <class T>
-NormalEquations<3> linearise_plane(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
-                                   const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
+NormalEquations<3> linearise_plane(const BasicPhotometricInput<T>& input, const Vector3<double>& theta,
+                                   const SE3d& T_t_h, const PhotometricOptions& options,
+                                   PhotometricWorkspace& workspace) noexcept {
   return detail::fast_linearise<3>(input, theta, T_t_h, options, workspace);
 }
 
@@ -16038,7 +16055,8 @@ NormalEquations<15> linearise_host_target_plane(const BasicPhotometricInput<T>& 
                                                 const PhotometricOptions& options,
                                                 PhotometricWorkspace& workspace) noexcept {
   const SE3d T_t_h = T_w_t.inverse() * T_w_h;
-  return detail::world_parameters(detail::fast_linearise<9>(input, theta, T_t_h, options, workspace), T_w_h, T_w_t, side);
+  return detail::world_parameters(detail::fast_linearise<9>(input, theta, T_t_h, options, workspace), T_w_h, T_w_t,
+                                  side);
 }
 
 /// The cost alone: see reference::evaluate().
@@ -16052,6 +16070,28 @@ PhotometricCost evaluate(const BasicPhotometricInput<T>& input, const Vector3<do
   }
   return reference::evaluate(input, theta, T_t_h, options, workspace, on_set);
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE NormalEquations<6> linearise_pose<std::uint8_t>(const BasicPhotometricInput<std::uint8_t>&,
+                                                                   const Vector3<double>&, const SE3d&,
+                                                                   const PhotometricOptions&,
+                                                                   PhotometricWorkspace&) noexcept;
+TEXTPLANE_INSTANCE NormalEquations<3> linearise_plane<std::uint8_t>(const BasicPhotometricInput<std::uint8_t>&,
+                                                                    const Vector3<double>&, const SE3d&,
+                                                                    const PhotometricOptions&,
+                                                                    PhotometricWorkspace&) noexcept;
+TEXTPLANE_INSTANCE NormalEquations<9> linearise_pose_plane<std::uint8_t>(const BasicPhotometricInput<std::uint8_t>&,
+                                                                         const Vector3<double>&, const SE3d&,
+                                                                         const PhotometricOptions&,
+                                                                         PhotometricWorkspace&) noexcept;
+TEXTPLANE_INSTANCE NormalEquations<15> linearise_host_target_plane<std::uint8_t>(
+    const BasicPhotometricInput<std::uint8_t>&, const Vector3<double>&, const SE3d&, const SE3d&, PerturbationSide,
+    const PhotometricOptions&, PhotometricWorkspace&) noexcept;
+TEXTPLANE_INSTANCE PhotometricCost evaluate<std::uint8_t>(const BasicPhotometricInput<std::uint8_t>&,
+                                                          const Vector3<double>&, const SE3d&,
+                                                          const PhotometricOptions&, PhotometricWorkspace&,
+                                                          const std::uint8_t*) noexcept;
+#endif
 
 TEXTPLANE_END_NAMESPACE
 
@@ -27282,6 +27322,11 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
   }
 }
 
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE void track_klt<void>(const PyramidView&, const PyramidView&, const Vector2<float>*,
+                                        const Vector2<float>*, int, const KltOptions&, KltResult*) noexcept;
+#endif
+
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_FEATURES_KLT_HPP
@@ -27517,6 +27562,15 @@ TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, cons
   const Pyramid pyramid(host, std::min(std::max(options.levels, 1), kMaxPyramidLevels));
   return make_patch(pyramid.view(), camera, quad, options);
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE Status select_pixels<void>(const ImageView8&, const Quad<double>&, const SelectOptions&,
+                                              std::vector<Vector2<float>>&);
+TEXTPLANE_INSTANCE TextPatch make_patch<void>(const PyramidView&, const Pinhole<double>&, const Quad<double>&,
+                                              const SelectOptions&);
+TEXTPLANE_INSTANCE TextPatch make_patch<void>(const ImageView8&, const Pinhole<double>&, const Quad<double>&,
+                                              const SelectOptions&);
+#endif
 
 TEXTPLANE_END_NAMESPACE
 
@@ -28408,9 +28462,9 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
 /// skipped. No allocation: `workspace` must have been reserved for these terms. Thread-safe for distinct workspaces.
 template <class = void>  // instantiated where it is called: including the header costs little
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-                           const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
-                           const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
-                           float* point_chi2 = nullptr) noexcept {
+                    const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
+                    const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
+                    float* point_chi2 = nullptr) noexcept {
   return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace,
                              text_zncc, point_chi2);
 }
@@ -28418,9 +28472,9 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 /// The same on float images.
 template <class = void>  // instantiated where it is called: including the header costs little
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-                           const PyramidViewF& target, const Pinhole<double>& camera, const SE3d& T_t_w,
-                           const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
-                           float* point_chi2 = nullptr) noexcept {
+                    const PyramidViewF& target, const Pinhole<double>& camera, const SE3d& T_t_w,
+                    const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
+                    float* point_chi2 = nullptr) noexcept {
   return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace,
                              text_zncc, point_chi2);
 }
@@ -28429,18 +28483,29 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 /// refine_pose() with this object alone; allocates its own workspace.
 template <class = void>  // instantiated where it is called: including the header costs little
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                                const PyramidView& target, const Pinhole<double>& camera,
-                                const PoseOptions& options = {}) {
+                         const PyramidView& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
 /// The same on a float image.
 template <class = void>  // instantiated where it is called: including the header costs little
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                                const PyramidViewF& target, const Pinhole<double>& camera,
-                                const PoseOptions& options = {}) {
+                         const PyramidViewF& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
+                                             const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
+                                             float*, float*) noexcept;
+TEXTPLANE_INSTANCE PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
+                                             const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
+                                             float*, float*) noexcept;
+TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                  const PyramidView&, const Pinhole<double>&, const PoseOptions&);
+TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                  const PyramidViewF&, const Pinhole<double>&, const PoseOptions&);
+#endif
 
 TEXTPLANE_END_NAMESPACE
 
@@ -28595,8 +28660,8 @@ class PlaneProblem {
       const int visible = memory_.counts_[static_cast<std::size_t>(i)];
       if (visible == 0) continue;
       const PhotometricCost c =
-          textplane::evaluate(level_input(patch_of(i), level_, targets_[i].image, camera_, targets_[i].scale_shift), theta,
-                              targets_[i].T_t_h, options_.photometric, memory_.photometric_, visible_set(i));
+          textplane::evaluate(level_input(patch_of(i), level_, targets_[i].image, camera_, targets_[i].scale_shift),
+                              theta, targets_[i].T_t_h, options_.photometric, memory_.photometric_, visible_set(i));
       // A target that is lost as a whole costs what an uncorrelated patch would.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost += is_ok(c.status) ? c.lost : visible;
@@ -28699,29 +28764,40 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 /// count. Thread-safe for distinct workspaces.
 template <class = void>  // instantiated where it is called: including the header costs little
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets,
-                                    int count, const Pinhole<double>& camera, const PlaneOptions& options,
-                                    PlaneWorkspace& workspace) noexcept {
+                             int count, const Pinhole<double>& camera, const PlaneOptions& options,
+                             PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
 
 /// The same on float images.
 template <class = void>  // instantiated where it is called: including the header costs little
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTargetF* targets,
-                                    int count, const Pinhole<double>& camera, const PlaneOptions& options,
-                                    PlaneWorkspace& workspace) noexcept {
+                             int count, const Pinhole<double>& camera, const PlaneOptions& options,
+                             PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
 
 /// refine_plane() with one target and a workspace of its own (allocates).
 template <class = void>  // instantiated where it is called: including the header costs little
 PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                                   const PyramidView& target, const Pinhole<double>& camera,
-                                   const PlaneOptions& options = {}) {
+                            const PyramidView& target, const Pinhole<double>& camera,
+                            const PlaneOptions& options = {}) {
   const PlaneTarget one{target, T_t_h};
   PlaneWorkspace workspace;
   workspace.reserve(patch, 1);
   return detail::refine_plane(patch, theta, &one, 1, camera, options, workspace);
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
+                                                      const Pinhole<double>&, const PlaneOptions&,
+                                                      PlaneWorkspace&) noexcept;
+TEXTPLANE_INSTANCE PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
+                                                      int, const Pinhole<double>&, const PlaneOptions&,
+                                                      PlaneWorkspace&) noexcept;
+TEXTPLANE_INSTANCE PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                     const PyramidView&, const Pinhole<double>&, const PlaneOptions&);
+#endif
 
 TEXTPLANE_END_NAMESPACE
 
@@ -28846,6 +28922,12 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
   if (zncc) *zncc = search.zncc();
   return search.best();
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE SE3d search_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
+                                          const Pinhole<double>&, const SearchOptions&, PhotometricWorkspace&,
+                                          const TemplatePatch*, float*) noexcept;
+#endif
 
 TEXTPLANE_END_NAMESPACE
 
@@ -30115,6 +30197,11 @@ WindowSummary solve_window(Window& window, const WindowOptions& options = {}) {
   WindowWorkspace workspace;
   return solve_window<S>(window, options, workspace);
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE WindowSummary solve_window<double>(Window&, const WindowOptions&, WindowWorkspace&);
+TEXTPLANE_INSTANCE WindowSummary solve_window<double>(Window&, const WindowOptions&);
+#endif
 
 TEXTPLANE_END_NAMESPACE
 

@@ -70,6 +70,17 @@
   }                             \
   }
 
+// Compiled once for a program, or where they are called: see simd/targets.hpp. TEXTPLANE_INSTANCE begins the lines, at the end of a
+// header, that name the functions which TEXTPLANE_EXTERN_KERNELS makes declarations.
+#if defined(TEXTPLANE_DEFINE_KERNELS) && !defined(TEXTPLANE_EXTERN_KERNELS)
+#define TEXTPLANE_EXTERN_KERNELS
+#endif
+#if defined(TEXTPLANE_DEFINE_KERNELS)
+#define TEXTPLANE_INSTANCE template
+#else
+#define TEXTPLANE_INSTANCE extern template
+#endif
+
 // Checks of preconditions that only a bug in the caller can break. Off unless the embedder defines the macro, for example
 // as `assert(condition)`: the library itself never aborts.
 #ifndef TEXTPLANE_ASSERT

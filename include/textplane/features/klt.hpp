@@ -154,6 +154,11 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
   }
 }
 
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE void track_klt<void>(const PyramidView&, const PyramidView&, const Vector2<float>*,
+                                        const Vector2<float>*, int, const KltOptions&, KltResult*) noexcept;
+#endif
+
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_FEATURES_KLT_HPP

@@ -252,15 +252,17 @@ NormalEquations<P> fast_linearise(const BasicPhotometricInput<T>& in, const Vect
 
 /// Normal equations for the pose, parameters (v, omega).
 template <class T>
-NormalEquations<6> linearise_pose(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
-                                  const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
+NormalEquations<6> linearise_pose(const BasicPhotometricInput<T>& input, const Vector3<double>& theta,
+                                  const SE3d& T_t_h, const PhotometricOptions& options,
+                                  PhotometricWorkspace& workspace) noexcept {
   return detail::fast_linearise<6>(input, theta, T_t_h, options, workspace);
 }
 
 /// Normal equations for the plane, parameters theta.
 template <class T>
-NormalEquations<3> linearise_plane(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_t_h,
-                                   const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
+NormalEquations<3> linearise_plane(const BasicPhotometricInput<T>& input, const Vector3<double>& theta,
+                                   const SE3d& T_t_h, const PhotometricOptions& options,
+                                   PhotometricWorkspace& workspace) noexcept {
   return detail::fast_linearise<3>(input, theta, T_t_h, options, workspace);
 }
 
@@ -279,7 +281,8 @@ NormalEquations<15> linearise_host_target_plane(const BasicPhotometricInput<T>& 
                                                 const PhotometricOptions& options,
                                                 PhotometricWorkspace& workspace) noexcept {
   const SE3d T_t_h = T_w_t.inverse() * T_w_h;
-  return detail::world_parameters(detail::fast_linearise<9>(input, theta, T_t_h, options, workspace), T_w_h, T_w_t, side);
+  return detail::world_parameters(detail::fast_linearise<9>(input, theta, T_t_h, options, workspace), T_w_h, T_w_t,
+                                  side);
 }
 
 /// The cost alone: see reference::evaluate().
@@ -293,6 +296,28 @@ PhotometricCost evaluate(const BasicPhotometricInput<T>& input, const Vector3<do
   }
   return reference::evaluate(input, theta, T_t_h, options, workspace, on_set);
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE NormalEquations<6> linearise_pose<std::uint8_t>(const BasicPhotometricInput<std::uint8_t>&,
+                                                                   const Vector3<double>&, const SE3d&,
+                                                                   const PhotometricOptions&,
+                                                                   PhotometricWorkspace&) noexcept;
+TEXTPLANE_INSTANCE NormalEquations<3> linearise_plane<std::uint8_t>(const BasicPhotometricInput<std::uint8_t>&,
+                                                                    const Vector3<double>&, const SE3d&,
+                                                                    const PhotometricOptions&,
+                                                                    PhotometricWorkspace&) noexcept;
+TEXTPLANE_INSTANCE NormalEquations<9> linearise_pose_plane<std::uint8_t>(const BasicPhotometricInput<std::uint8_t>&,
+                                                                         const Vector3<double>&, const SE3d&,
+                                                                         const PhotometricOptions&,
+                                                                         PhotometricWorkspace&) noexcept;
+TEXTPLANE_INSTANCE NormalEquations<15> linearise_host_target_plane<std::uint8_t>(
+    const BasicPhotometricInput<std::uint8_t>&, const Vector3<double>&, const SE3d&, const SE3d&, PerturbationSide,
+    const PhotometricOptions&, PhotometricWorkspace&) noexcept;
+TEXTPLANE_INSTANCE PhotometricCost evaluate<std::uint8_t>(const BasicPhotometricInput<std::uint8_t>&,
+                                                          const Vector3<double>&, const SE3d&,
+                                                          const PhotometricOptions&, PhotometricWorkspace&,
+                                                          const std::uint8_t*) noexcept;
+#endif
 
 TEXTPLANE_END_NAMESPACE
 

@@ -10,7 +10,8 @@
 // All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone.
 //
 // Compiled kernels, an option: compiling all targets of a kernel in every file that calls it takes its time. Where
-// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see the entry points as declarations, and one file,
+// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see the entry points as declarations, those of the solvers, too,
+// and one file,
 //
 //   #define TEXTPLANE_DEFINE_KERNELS
 //   #include <textplane/textplane.hpp>
@@ -22,9 +23,6 @@
 
 #include "textplane/config.hpp"
 
-#if defined(TEXTPLANE_DEFINE_KERNELS) && !defined(TEXTPLANE_EXTERN_KERNELS)
-#define TEXTPLANE_EXTERN_KERNELS
-#endif
 #if defined(TEXTPLANE_EXTERN_KERNELS) && !defined(TEXTPLANE_DEFINE_KERNELS)
 #define TEXTPLANE_HAS_KERNELS 0
 #else

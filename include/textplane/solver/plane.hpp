@@ -166,8 +166,8 @@ class PlaneProblem {
       const int visible = memory_.counts_[static_cast<std::size_t>(i)];
       if (visible == 0) continue;
       const PhotometricCost c =
-          textplane::evaluate(level_input(patch_of(i), level_, targets_[i].image, camera_, targets_[i].scale_shift), theta,
-                              targets_[i].T_t_h, options_.photometric, memory_.photometric_, visible_set(i));
+          textplane::evaluate(level_input(patch_of(i), level_, targets_[i].image, camera_, targets_[i].scale_shift),
+                              theta, targets_[i].T_t_h, options_.photometric, memory_.photometric_, visible_set(i));
       // A target that is lost as a whole costs what an uncorrelated patch would.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost += is_ok(c.status) ? c.lost : visible;
@@ -270,29 +270,40 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 /// count. Thread-safe for distinct workspaces.
 template <class = void>  // instantiated where it is called: including the header costs little
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets,
-                                    int count, const Pinhole<double>& camera, const PlaneOptions& options,
-                                    PlaneWorkspace& workspace) noexcept {
+                             int count, const Pinhole<double>& camera, const PlaneOptions& options,
+                             PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
 
 /// The same on float images.
 template <class = void>  // instantiated where it is called: including the header costs little
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTargetF* targets,
-                                    int count, const Pinhole<double>& camera, const PlaneOptions& options,
-                                    PlaneWorkspace& workspace) noexcept {
+                             int count, const Pinhole<double>& camera, const PlaneOptions& options,
+                             PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
 
 /// refine_plane() with one target and a workspace of its own (allocates).
 template <class = void>  // instantiated where it is called: including the header costs little
 PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                                   const PyramidView& target, const Pinhole<double>& camera,
-                                   const PlaneOptions& options = {}) {
+                            const PyramidView& target, const Pinhole<double>& camera,
+                            const PlaneOptions& options = {}) {
   const PlaneTarget one{target, T_t_h};
   PlaneWorkspace workspace;
   workspace.reserve(patch, 1);
   return detail::refine_plane(patch, theta, &one, 1, camera, options, workspace);
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
+                                                      const Pinhole<double>&, const PlaneOptions&,
+                                                      PlaneWorkspace&) noexcept;
+TEXTPLANE_INSTANCE PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
+                                                      int, const Pinhole<double>&, const PlaneOptions&,
+                                                      PlaneWorkspace&) noexcept;
+TEXTPLANE_INSTANCE PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                     const PyramidView&, const Pinhole<double>&, const PlaneOptions&);
+#endif
 
 TEXTPLANE_END_NAMESPACE
 

@@ -148,9 +148,9 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
 /// skipped. No allocation: `workspace` must have been reserved for these terms. Thread-safe for distinct workspaces.
 template <class = void>  // instantiated where it is called: including the header costs little
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-                           const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
-                           const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
-                           float* point_chi2 = nullptr) noexcept {
+                    const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
+                    const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
+                    float* point_chi2 = nullptr) noexcept {
   return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace,
                              text_zncc, point_chi2);
 }
@@ -158,9 +158,9 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 /// The same on float images.
 template <class = void>  // instantiated where it is called: including the header costs little
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-                           const PyramidViewF& target, const Pinhole<double>& camera, const SE3d& T_t_w,
-                           const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
-                           float* point_chi2 = nullptr) noexcept {
+                    const PyramidViewF& target, const Pinhole<double>& camera, const SE3d& T_t_w,
+                    const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
+                    float* point_chi2 = nullptr) noexcept {
   return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace,
                              text_zncc, point_chi2);
 }
@@ -169,18 +169,29 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 /// refine_pose() with this object alone; allocates its own workspace.
 template <class = void>  // instantiated where it is called: including the header costs little
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                                const PyramidView& target, const Pinhole<double>& camera,
-                                const PoseOptions& options = {}) {
+                         const PyramidView& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
 /// The same on a float image.
 template <class = void>  // instantiated where it is called: including the header costs little
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                                const PyramidViewF& target, const Pinhole<double>& camera,
-                                const PoseOptions& options = {}) {
+                         const PyramidViewF& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
+
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
+                                             const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
+                                             float*, float*) noexcept;
+TEXTPLANE_INSTANCE PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
+                                             const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
+                                             float*, float*) noexcept;
+TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                  const PyramidView&, const Pinhole<double>&, const PoseOptions&);
+TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                  const PyramidViewF&, const Pinhole<double>&, const PoseOptions&);
+#endif
 
 TEXTPLANE_END_NAMESPACE
 

@@ -224,6 +224,11 @@ WindowSummary solve_window(Window& window, const WindowOptions& options = {}) {
   return solve_window<S>(window, options, workspace);
 }
 
+#if defined(TEXTPLANE_EXTERN_KERNELS)
+TEXTPLANE_INSTANCE WindowSummary solve_window<double>(Window&, const WindowOptions&, WindowWorkspace&);
+TEXTPLANE_INSTANCE WindowSummary solve_window<double>(Window&, const WindowOptions&);
+#endif
+
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_WINDOW_HPP
