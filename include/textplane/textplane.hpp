@@ -19,6 +19,7 @@
 #include "textplane/photometry/blur.hpp"
 #include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/linearise_policy.hpp"
+#include "textplane/photometry/local_contrast.hpp"
 #include "textplane/photometry/patch.hpp"
 #include "textplane/photometry/prepared_target.hpp"
 #include "textplane/photometry/pyramid.hpp"
