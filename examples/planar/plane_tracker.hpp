@@ -2,6 +2,8 @@
 //
 // Every frame is aligned with the pixels of the first one, so nothing drifts. A frame's starts are the best by ZNCC of a search round the
 // last pose, and round the pose that went on as before; pose and plane are found from both, coarse to fine, and the better fit is kept.
+// What is compared is the local contrast of both, at one sharpness (appearance.hpp). Where the fit is not good, it is tried again from the
+// best of a search on a finer level: the coarsest cannot tell what repeats apart, and has few pixels of small text.
 // H = R + t theta^T with both free is any homography, so that the focal length is a matter of conditioning alone. What H does not show,
 // its scale and without parallax the plane, and what a small quad hardly shows, perspective, is held by weak pulls.
 #ifndef TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
@@ -12,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "planar/appearance.hpp"
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/solver/gauss_newton.hpp"
@@ -32,8 +35,11 @@ struct PlaneTrackerOptions {
   tp::SelectOptions select;
   tp::PhotometricOptions photometric;
   tp::SolveOptions solve;
-  tp::SearchOptions search;
-  int plane_level = 2;  ///< From here on the plane is free, too.
+  tp::SearchOptions search;  ///< Before a frame of a video, on grey levels.
+  AppearanceOptions appearance;
+  double sure = 0.9;        ///< A fit with a lower ZNCC is tried again.
+  tp::SearchOptions again;  ///< Before that, on local contrast.
+  int plane_level = 2;      ///< From here on the plane is free, too.
   double focal =
       8;  ///< Of the camera, in sides of a square of the quad's area; its axis goes through the quad's centre.
   double plane = 1e-3;  ///< Pull of theta to a plane that faces the first camera, as a part of the photometric cost.
@@ -48,6 +54,7 @@ struct PlaneTrackerOptions {
     search.level = 3;
     search.radius = 5;
     search.roll = 0.2;
+    again.level = 1;
   }
 };
 
@@ -106,6 +113,7 @@ class PlaneTracker {
     camera_ = {focal, focal, centre[0], centre[1]};
     patch_ = tp::make_patch(first, camera_, quad, options.select);
     workspace_.reserve(patch_.max_pixels());
+    appearance_ = Appearance(tp::Pyramid(first, patch_.level_count()).view(), patch_, options.appearance);
     prepared_ = std::vector<tp::TemplatePatch>(patch_.levels.size());
     for (std::size_t l = 0; l < prepared_.size(); ++l) prepared_[l].prepare(patch_.levels[l].view());
   }
@@ -115,22 +123,25 @@ class PlaneTracker {
   /// Where the object is in the next image: an ok status, or why it is not known; the state is then that of the frame before.
   tp::Status track(tp::ImageView8 image) {
     image_.build(image, options_.select.levels);
-    PlaneState found;
+    PlaneState found, best;
     tp::Status status = tp::Status::too_few;
     double zncc = -1.0;
     for (const tp::SE3d& guess : {state_.T_t_h, step_ * state_.T_t_h}) {
       PlaneState tried = state_;
       tried.T_t_h =
           tp::search_pose(patch_, state_.theta, guess, image_, camera_, options_.search, workspace_, prepared_.data());
-      const tp::Status s = align(image_, tried);
+      const PlaneState start = tried;
+      const tp::Status s = descend(image_, kAllLevels, tried);
       if (tp::is_ok(s) && zncc_ > zncc) {
         zncc = zncc_;
         found = tried;
+        best = start;
         status = s;
       }
     }
     zncc_ = zncc;
-    if (tp::is_ok(status) && zncc < options_.lost) status = tp::Status::diverged;
+    if (tp::is_ok(status)) status = again(image_, best, status, found);
+    if (tp::is_ok(status) && zncc_ < options_.lost) status = tp::Status::diverged;
     if (!tp::is_ok(status)) {
       step_ = {};
       return status;
@@ -140,23 +151,11 @@ class PlaneTracker {
     return status;
   }
 
-  /// Coarse to fine from `state`, in place: first with the plane that is known, then with a free one.
+  /// Coarse to fine from `state`, in place: first with the plane that is known, then with a free one; and again where that is not good.
   tp::Status align(const tp::PyramidView& image, PlaneState& state) {
-    tp::Status status = tp::Status::too_few;
-    PlaneState from = state;
-    for (int level = std::min(patch_.level_count(), image.levels) - 1; level >= 0; --level) {
-      const bool known = level > options_.plane_level;
-      if (!known) from.theta = PlaneState().theta;
-      const tp::PhotometricInput input = tp::photometric_input(patch_, level, image, camera_, scale_shift(state));
-      PosePlaneProblem problem(input, from, options_.turn, known ? 1.0 : options_.plane, options_.photometric,
-                               workspace_);
-      tp::NormalEquations<9> system;
-      status = tp::minimise(problem, state, options_.solve, &system).status;
-      // No step that lowers the cost: as good as it gets, and ZNCC says how good.
-      if (status == tp::Status::diverged) status = tp::Status::converged;
-      zncc_ = system.zncc;
-    }
-    return status;
+    const PlaneState start = state;
+    const tp::Status status = descend(image, kAllLevels, state);
+    return again(image, start, status, state);
   }
 
   const tp::Pinhole<double>& camera() const noexcept { return camera_; }
@@ -173,6 +172,77 @@ class PlaneTracker {
   tp::Quad<double> quad() const noexcept { return quad(state_); }
 
  private:
+  static constexpr int kAllLevels = tp::kMaxPyramidLevels, kRounds = 3;
+
+  tp::Status descend(const tp::PyramidView& image, int coarsest, PlaneState& state) {
+    tp::Status status = tp::Status::too_few;
+    PlaneState from = state;
+    for (int level = std::min({coarsest, patch_.level_count() - 1, image.levels - 1}); level >= 0; --level) {
+      const bool known = level > options_.plane_level;
+      if (!known) from.theta = PlaneState().theta;
+      const int shift = scale_shift(state), host = level - std::min(shift, 0), target = level + std::max(shift, 0);
+      tp::PhotometricInput input = tp::photometric_input(appearance_.sharp(), level, image, camera_, shift);
+      if (!input.target.valid()) return tp::Status::invalid_argument;
+      const Window window = appearance_.window(input.target, tp::quad_to_level(quad(state), target));
+      if (!window.image.valid()) return tp::Status::out_of_view;
+      input.target = window.image;
+      input.target_camera = window.of(input.target_camera);
+      std::size_t look = appearance_.count();
+      for (int round = 0; round < kRounds; ++round) {
+        const std::size_t best =
+            appearance_.best(input, host, state.theta, state.T_t_h, options_.photometric, workspace_);
+        if (best == look) break;
+        look = best;
+        input.patch = appearance_.look(look, host);
+        PosePlaneProblem problem(input, from, options_.turn, known ? 1.0 : options_.plane, options_.photometric,
+                                 workspace_);
+        tp::NormalEquations<9> system;
+        status = tp::minimise(problem, state, options_.solve, &system).status;
+        // No step that lowers the cost: as good as it gets, and ZNCC says how good.
+        if (status == tp::Status::diverged) status = tp::Status::converged;
+        zncc_ = system.zncc;
+      }
+    }
+    return status;
+  }
+
+  // What came of `start` with zncc_, or where that is not good what comes of a search round it, if this is better.
+  tp::Status again(const tp::PyramidView& image, const PlaneState& start, tp::Status status, PlaneState& state) {
+    const double zncc = tp::is_ok(status) ? zncc_ : -1.0;
+    if (zncc >= options_.sure) return status;
+    const int level = search_level(std::min(options_.again.level, image.levels - 1));
+    const Window window =
+        appearance_.window(image.level[static_cast<std::size_t>(level)], tp::quad_to_level(quad(start), level));
+    if (window.image.valid()) {
+      tp::PyramidView view;  // of which the search sees this level alone
+      view.levels = level + 1;
+      view.level[static_cast<std::size_t>(level)] = window.image;
+      tp::Pinhole<double> camera = camera_;
+      camera.cx -= std::ldexp(window.x, level);
+      camera.cy -= std::ldexp(window.y, level);
+      tp::SearchOptions search = options_.again;
+      search.level = level;
+      PlaneState tried = start;
+      tried.T_t_h = tp::search_pose(appearance_.sharp(), start.theta, start.T_t_h, view, camera, search, workspace_,
+                                    appearance_.prepared());
+      const tp::Status second = descend(image, level, tried);
+      if (tp::is_ok(second) && zncc_ > zncc) {
+        state = tried;
+        return second;
+      }
+    }
+    zncc_ = zncc;
+    return status;
+  }
+
+  // The coarsest level up to `level` that search_pose() does not leave for having too few pixels.
+  int search_level(int level) const noexcept {
+    level = std::min(level, patch_.level_count() - 1);
+    const auto least = static_cast<std::size_t>(2 * options_.again.photometric.min_visible);
+    while (level > 0 && patch_.levels[static_cast<std::size_t>(level)].x.size() < least) --level;
+    return level;
+  }
+
   int scale_shift(const PlaneState& state) const noexcept {
     return tp::scale_shift(tp::area(patch_.quad), tp::area(quad(state)));
   }
@@ -180,7 +250,8 @@ class PlaneTracker {
   PlaneTrackerOptions options_;
   tp::Pinhole<double> camera_;
   tp::TextPatch patch_;
-  std::vector<tp::TemplatePatch> prepared_;
+  std::vector<tp::TemplatePatch> prepared_;  // of patch_
+  Appearance appearance_;
   tp::Pyramid image_;
   tp::PhotometricWorkspace workspace_;
   PlaneState state_;
