@@ -23,6 +23,8 @@ using textslam::InputError;
 
 constexpr double kPrecision = 5.0;  // px, mean over the corners: what the benchmark scores with
 constexpr double kOffset = 4.0;     // px
+constexpr std::uint64_t kSeeds[] = {1, 2, 3};
+constexpr int kTrialsOfASeed = 100;
 
 std::string text(const char* format, double a, double b = 0) {
   char out[96];
@@ -113,14 +115,26 @@ std::string tracking_table(const std::string& folder, const std::string& sequenc
 }
 
 std::string trial_table(const std::vector<PhotoSet>& sets, const std::string& label) {
-  const Trials trials = run_trials(sets, 100, kOffset, 1);
-  std::string out = "\n" + label + ", " + std::to_string(trials.count) + " trials from " +
-                    std::to_string(trials.quads) +
-                    " patches:\n\n| aligner | below 1 px from 4 px | below 1 px from the truth | ms, median |\n| "
-                    "--- | --- | --- | --- |\n";
-  for (const Score& s : trials.scores)
-    out += "| " + s.name + " | " + std::to_string(s.successes) + " | " + std::to_string(s.from_truth) +
-           text(" | %.2f |\n", s.milliseconds);
+  std::vector<Trials> runs;
+  for (const std::uint64_t seed : kSeeds) runs.push_back(run_trials(sets, kTrialsOfASeed, kOffset, seed));
+  std::string out =
+      "\n" + label + ", three times " + std::to_string(kTrialsOfASeed) + " trials from " +
+      std::to_string(runs[0].quads) +
+      " patches:\n\n| aligner | below 1 px from 4 px | share | below 1 px from the truth | ms, median |\n| "
+      "--- | --- | --- | --- | --- |\n";
+  for (std::size_t k = 0; k < runs[0].scores.size(); ++k) {
+    std::string off, truth;
+    double all = 0, milliseconds = 0;
+    for (const Trials& run : runs) {
+      const Score& s = run.scores[k];
+      off += (off.empty() ? "" : ", ") + std::to_string(s.successes);
+      truth += (truth.empty() ? "" : ", ") + std::to_string(s.from_truth);
+      all += 100.0 * s.successes / (run.count * static_cast<double>(runs.size()));
+      milliseconds += s.milliseconds / static_cast<double>(runs.size());
+    }
+    out += "| " + runs[0].scores[k].name + " | " + off + text(" | %.1f %% | ", all) + truth +
+           text(" | %.2f |\n", milliseconds);
+  }
   return out;
 }
 
@@ -129,14 +143,15 @@ const char* const kHead = R"(# Real images
 Measured by `real_images` (examples/planar, built with `-DTEXTPLANE_BUILD_PEER_EXAMPLES=ON` where OpenCV is found), one thread, milliseconds of CPU time, the
 same parameters for everything (`PlaneTrackerOptions`):
 
-    build/release/bin/real_images --pot POT --hope HOPE --oxford OXFORD --output docs/real_images.md
+    build/release/bin/real_images --pot POT --hope HOPE --oxford OXFORD \
+        --not-text 1,396,713 1,119,648 1,264,956 2,1378,527 2,1660,705 --output docs/real_images.md
 
 The data are published sets, not part of this repository: POT-210 (Liang et al., ICRA 2018), HOPE-Image (Tyree et al., 2022), Oxford affine
 regions (Mikolajczyk et al., 2005).
 
-How far to trust it: the tracker was developed with these very images in view, and none were held out. Over some sixteen settings V24_7
-gave 39 to 47 of 49 frames; over a dozen of focal length and penalty on turning, HOPE gave 73 to 91 of 100, leuven 83 to 93, bikes 44 to 61, and
-no setting won everywhere. One seed of random starts each.
+How far to trust it: the tracker was developed with these very images in view, and none were held out; what is random was. Settings were judged
+on starts and Oxford patches of seeds 7 to 9, and the tables are of seeds 1 to 3. Over fifteen settings of window, floor, blur, robust cost and
+pulls HOPE gave 96 to 99.6 %, leuven 96 to 99.3 %, bikes 93 to 98.6 %.
 
 ## A plane through a video
 
@@ -148,21 +163,37 @@ const char* const kTrials = R"(
 ## Alignment under other light, and under blur
 
 A patch of the first photograph of a scene, and another photograph of it, both at random. On HOPE patches are quads of 60 x 20 px or more
-that the built-in text detector finds; Oxford's photographs hold little text, so that theirs are 120 x 40 px at random places with at least 60
-FAST corners. The start is a pose with corners 4 px off on average, by shift, turn and scale at random; ours finds pose and plane, the
-peers the homography, all of them on four levels. The last but one column starts from the truth: what is lost there is lost to the
-truth's own error, or to pixels that look different, not to convergence. Truth is the identity on HOPE, whose camera stood still to about
-1 px, and on Oxford the published homography after OpenCV's ECC over the whole images.
+that the built-in text detector finds, but for five of 42 that hold tablecloth and no text, seen by eye (PP-OCRv4 finds no text in these five
+either); Oxford's photographs hold little text, so that theirs are 120 x 40 px at random places with at least 60 FAST corners. The start is a pose
+with corners 4 px off on average, by shift, turn and scale at random; ours finds pose and plane, the peers the homography, all of them on four
+levels. The column before the last starts from the truth: what is lost there is lost to the truth's own error, or to pixels that look different,
+not to convergence. Numbers are of 100 trials for each of three seeds.
 
-These patches are not those of the first trial, which took every quad of 30 x 12 px or more on HOPE and the published homographies as they are:
-78 on HOPE, 85 on leuven, 55 on bikes.
+Truth is not ours. On HOPE, whose camera moved by up to a pixel between photographs, it is a similarity by RANSAC through corners that OpenCV's
+template matching finds in the other photograph, there and back; on Oxford the published homography after OpenCV's ECC over the whole images.
+The same matching finds leuven's scene 0.1 px (photograph 2) to 0.3 px (photograph 6) from that at half of the patches and 0.3 to 0.8 px at
+the worst tenth, for it is not quite planar; a homography fitted to the matches themselves does hardly better. On bikes it is 0.1 px up to
+photograph 3 and 0.4 px on photograph 4; the last two are too blurred to be matched so.
+
+ECC compares grey levels, as it is published, and once what ours compares, whole images by local contrast, whose making its time leaves out.
+
+What each part brings, of the share on seed 7, all patches and photographs of HOPE with five starts each and 286 and 283 trials on leuven and bikes:
+
+| | HOPE | leuven | bikes |
+| --- | --- | --- | --- |
+| grey levels, as before | 91.8 % | 91.6 % | 66.4 % |
+| by local contrast | 97.0 % | 94.1 % | 63.3 % |
+| and a second start where ZNCC is below 0.9 | 99.7 % | 99.0 % | 63.3 % |
+| and the object as blurred as the image | 99.1 % | 98.6 % | 97.2 % |
 )";
 
 int run(int argc, char** argv) {
   std::string pot, hope, oxford, output = "real_images.md";
+  std::vector<std::string> not_text;
   CLI::App app("Tracking and alignment on real images, beside OpenCV's");
   app.add_option("--pot", pot, "folder with V24_7_960x540, V25_2 and their _gt_corners.csv")->required();
   app.add_option("--hope", hope, "folder of scenes, each with photographs in several lights")->required();
+  app.add_option("--not-text", not_text, "scene,x,y of what the detector takes for text there, seen by eye");
   app.add_option("--oxford", oxford, "folder with leuven and bikes")->required();
   app.add_option("--output", output, "the page to write");
   try {
@@ -177,7 +208,14 @@ int run(int argc, char** argv) {
                      "V24_7 (an information panel, free motion, partly hidden by a sheet of paper from frame 96 on)");
   page += tracking_table(pot, "V25_2", "V25_2 (a poster, rotation)");
   page += kTrials;
-  page += trial_table(read_still_scenes(hope), "HOPE, five lightings of each of five scenes");
+  TruthPrecision precision;
+  const std::vector<PhotoSet> still = read_still_scenes(hope, not_text, &precision);
+  page += trial_table(still, "HOPE, five lightings of each of five scenes");
+  page += text("\nThe truth on HOPE: matches lie %.2f px from it on average;", precision.residual) +
+          text(
+              " at the patches, two photographs by way of a third differ\nfrom the direct way by %.2f px on average "
+              "and %.2f px at most.\n",
+              precision.round_trip, precision.largest_round_trip);
   page += trial_table(read_oxford(oxford + "/leuven"), "Oxford leuven, light");
   page += trial_table(read_oxford(oxford + "/bikes"), "Oxford bikes, blur");
   textslam::write_file(output, page);

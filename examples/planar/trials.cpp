@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "planar/peers.hpp"
+#include "planar/registration.hpp"
 #include "renderer/random.hpp"
 #include "textslam/classical_detector.hpp"
 
@@ -88,11 +90,14 @@ PlaneState perturbed(const PlaneTracker& tracker, const PlaneState& state, doubl
   return out;
 }
 
-std::vector<tp::Quad<double>> text_quads(const textslam::Image<std::uint8_t>& image) {
+std::vector<tp::Quad<double>> text_quads(const textslam::Image<std::uint8_t>& image,
+                                         const std::vector<tp::Vector2<double>>& not_text) {
   std::vector<tp::Quad<double>> out;
   for (const auto& d : textslam::ClassicalDetector().detect({}, image.view())) {
     const auto& c = d.quad.corner;
-    if ((c[0] - c[3]).norm() >= kMinHeight && (c[0] - c[1]).norm() >= kMinWidth &&
+    const bool text = std::none_of(not_text.begin(), not_text.end(),
+                                   [&d](const tp::Vector2<double>& p) { return tp::contains(d.quad, p); });
+    if (text && (c[0] - c[3]).norm() >= kMinHeight && (c[0] - c[1]).norm() >= kMinWidth &&
         tp::inside_image(d.quad, image.width(), image.height(), kBorder))
       out.push_back(d.quad);
   }
@@ -130,6 +135,24 @@ Matrix read_homography(const std::string& path) {
   return H;
 }
 
+/// The levels of a pyramid by local contrast, each on its own.
+class LocalLevels {
+ public:
+  explicit LocalLevels(const tp::PyramidView& from) {
+    view_.levels = from.levels;
+    for (std::size_t l = 0; l < static_cast<std::size_t>(from.levels); ++l) {
+      levels_.emplace_back(from.level[l].width(), from.level[l].height());
+      tp::LocalContrast(AppearanceOptions().contrast)(from.level[l], 0, 0, levels_.back().view());
+      view_.level[l] = tp::ImageView8(levels_.back().view());
+    }
+  }
+  const tp::PyramidView& view() const noexcept { return view_; }
+
+ private:
+  std::vector<tp::Image<std::uint8_t>> levels_;  // moved, their pixels stay where they are
+  tp::PyramidView view_;
+};
+
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -138,22 +161,51 @@ double median(std::vector<double> values) {
 }
 }  // namespace
 
-std::vector<PhotoSet> read_still_scenes(const std::string& folder) {
+std::vector<PhotoSet> read_still_scenes(const std::string& folder, const std::vector<std::string>& not_text,
+                                        TruthPrecision* precision) {
   std::vector<PhotoSet> out;
   if (!std::filesystem::is_directory(folder)) throw InputError(folder, 0, "no such folder");
   std::vector<std::string> scenes;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.is_directory()) scenes.push_back(entry.path().string());
   std::sort(scenes.begin(), scenes.end());
-  for (const std::string& scene : scenes) {
+  std::vector<std::vector<tp::Vector2<double>>> places(scenes.size());
+  for (const std::string& place : not_text) {
+    std::size_t scene = 0;
+    double x = 0, y = 0;
+    if (std::sscanf(place.c_str(), "%zu,%lf,%lf", &scene, &x, &y) != 3 || scene >= scenes.size())
+      throw InputError(folder, 0, "has no place " + place);
+    places[scene].emplace_back(x, y);
+  }
+  *precision = {};
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
     std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(scene)) files.push_back(entry.path().string());
+    for (const auto& entry : std::filesystem::directory_iterator(scenes[s])) files.push_back(entry.path().string());
     std::sort(files.begin(), files.end());
-    if (files.size() < 2) throw InputError(scene, 0, "fewer than two photographs");
+    if (files.size() < 2) throw InputError(scenes[s], 0, "fewer than two photographs");
+    std::vector<cv::Mat> seen;
+    for (const std::string& file : files) {
+      const auto image = textslam::load_grey(file);
+      seen.push_back(compare(cv::Mat(image.height(), image.width(), CV_8U, const_cast<std::uint8_t*>(image.data()))));
+    }
+    std::vector<std::vector<Registration>> from(files.size(), std::vector<Registration>(files.size()));
+    for (std::size_t i = 0; i < files.size(); ++i)
+      for (std::size_t j = i + 1; j < files.size(); ++j) from[i][j] = register_still(seen[i], seen[j]);
+
     PhotoSet set;
     set.first = files[0];
     set.others.assign(files.begin() + 1, files.end());
-    set.truth.assign(set.others.size(), Matrix::Identity());
+    set.not_text = places[s];
+    for (std::size_t j = 1; j < files.size(); ++j) {
+      set.truth.push_back(from[0][j].H);
+      precision->residual += from[0][j].residual / static_cast<double>(set.others.size() * scenes.size());
+    }
+    std::vector<cv::Point2d> centres;
+    for (const tp::Quad<double>& quad : text_quads(textslam::load_grey(files[0]), set.not_text))
+      centres.emplace_back(tp::centroid(quad)[0], tp::centroid(quad)[1]);
+    const Consistency round = round_trips(from, centres);
+    precision->round_trip += round.mean / static_cast<double>(scenes.size());
+    precision->largest_round_trip = std::max(precision->largest_round_trip, round.largest);
     out.push_back(std::move(set));
   }
   if (out.empty()) throw InputError(folder, 0, "no scenes");
@@ -179,6 +231,7 @@ Trials run_trials(const std::vector<PhotoSet>& sets, int count, double offset, s
     textslam::Image<std::uint8_t> first;
     tp::Pyramid first_pyramid;
     std::vector<tp::Pyramid> others;
+    std::vector<LocalLevels> local;  // of the first, then of the others
     std::vector<tp::Quad<double>> quads;
   };
   std::vector<Photos> photos;
@@ -188,13 +241,17 @@ Trials run_trials(const std::vector<PhotoSet>& sets, int count, double offset, s
     Photos& p = photos.emplace_back();
     p.first = textslam::load_grey(set.first);
     p.first_pyramid.build(p.first.view(), levels);
-    for (const std::string& other : set.others) p.others.emplace_back(textslam::load_grey(other).view(), levels);
-    p.quads = set.text ? text_quads(p.first) : random_quads(p.first, count, random);
+    p.local.emplace_back(p.first_pyramid.view());
+    for (const std::string& other : set.others) {
+      p.others.emplace_back(textslam::load_grey(other).view(), levels);
+      p.local.emplace_back(p.others.back().view());
+    }
+    p.quads = set.text ? text_quads(p.first, set.not_text) : random_quads(p.first, count, random);
     out.quads += static_cast<int>(p.quads.size());
   }
   if (out.quads == 0) throw InputError(sets.front().first, 0, "no text found");
 
-  for (const char* name : {"textplane", "ECC", "SSD"}) out.scores.push_back({name, 0, 0, 0});
+  for (const char* name : {"textplane", "ECC", "ECC, local contrast", "SSD"}) out.scores.push_back({name, 0, 0, 0});
   std::vector<std::vector<double>> times(out.scores.size());
   while (out.count < count) {
     const auto s = static_cast<std::size_t>(random.below(static_cast<int>(sets.size())));
@@ -221,16 +278,18 @@ Trials run_trials(const std::vector<PhotoSet>& sets, int count, double offset, s
       const Matrix H =
           tp::pixel_homography(tp::plane_homography(from.theta, from.T_t_h), tracker.camera(), tracker.camera());
       PlaneState state = from;
-      Matrix ecc = H, ssd = H;
-      const std::function<bool()> align[] = {[&] { return tp::is_ok(tracker.align(other, state)); },
-                                             [&] { return align_ecc(p.first_pyramid, quad, other, &ecc); },
-                                             [&] { return align_ssd(tracker.patch(), other, &ssd); }};
+      Matrix ecc = H, local = H, ssd = H;
+      const std::function<bool()> align[] = {
+          [&] { return tp::is_ok(tracker.align(other, state)); },
+          [&] { return align_ecc(p.first_pyramid, quad, other, &ecc); },
+          [&] { return align_ecc(p.local[0].view(), quad, p.local[o + 1].view(), &local); },
+          [&] { return align_ssd(tracker.patch(), other, &ssd); }};
       for (std::size_t k = 0; k < out.scores.size(); ++k) {
         const std::clock_t begin = std::clock();
         const bool ok = align[k]();
         if (off) times[k].push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
         tp::Quad<double> found = tracker.quad(state);
-        if (!ok || (k > 0 && !tp::is_ok(tp::transform(quad, k == 1 ? ecc : ssd, &found)))) continue;
+        if (!ok || (k > 0 && !tp::is_ok(tp::transform(quad, k == 1 ? ecc : k == 2 ? local : ssd, &found)))) continue;
         if (corner_error(found, truth) < kSuccess) ++(off ? out.scores[k].successes : out.scores[k].from_truth);
       }
     }

@@ -15,12 +15,21 @@ struct PhotoSet {
   std::string first;
   std::vector<std::string> others;
   std::vector<tp::Matrix3<double>> truth;
+  std::vector<tp::Vector2<double>> not_text;  ///< px of the first: what the detector finds here is none.
   bool text =
       true;  ///< Patches are what the built-in detector finds; else, where there is little text, random places with as many corners.
 };
 
-/// The five scenes of a folder of scene_NNNN folders, photographed by a camera that stands still. Throws InputError.
-std::vector<PhotoSet> read_still_scenes(const std::string& folder);
+/// What the truth of a folder of scenes is worth (registration.hpp), px: the mean distance of a match from it, and how far from photograph
+/// 0 to j directly is from going by way of another i, at the patches.
+struct TruthPrecision {
+  double residual = 0, round_trip = 0, largest_round_trip = 0;
+};
+
+/// A folder of scene_NNNN folders, each of photographs by a camera that hardly moves. `not_text`: "scene,x,y", scenes counted from 0.
+/// Throws InputError.
+std::vector<PhotoSet> read_still_scenes(const std::string& folder, const std::vector<std::string>& not_text,
+                                        TruthPrecision* precision);
 /// img1.png to img6.png with H1to2p.txt to H1to6p.txt. Throws InputError.
 std::vector<PhotoSet> read_oxford(const std::string& folder);
 
