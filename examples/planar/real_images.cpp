@@ -164,7 +164,7 @@ const char* const kTrials = R"(
 
 A patch of the first photograph of a scene, and another photograph of it, both at random. On HOPE patches are quads of 60 x 20 px or more
 that the built-in text detector finds, but for five of 42 that hold tablecloth and no text, seen by eye (PP-OCRv4 finds no text in these five
-either); Oxford's photographs hold little text, so that theirs are 120 x 40 px at random places with at least 60 FAST corners. The start is a pose
+either; with all 42 ours has 96.7 %, ECC 44.3 %); Oxford's photographs hold little text, so that theirs are 120 x 40 px at random places with at least 60 FAST corners. The start is a pose
 with corners 4 px off on average, by shift, turn and scale at random; ours finds pose and plane, the peers the homography, all of them on four
 levels. The column before the last starts from the truth: what is lost there is lost to the truth's own error, or to pixels that look different,
 not to convergence. Numbers are of 100 trials for each of three seeds.
