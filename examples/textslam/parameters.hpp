@@ -79,7 +79,7 @@ struct Parameters {
   int text_targets = 8;            ///< Key frames that a plane is refined against.
 
   // Last refinement of the text planes
-  int refine_hosts = 4;         ///< Key frames that a text is compared from, the largest views among them,
+  int refine_hosts = 8;         ///< Key frames that a text is compared from, the largest views among them,
   double refine_area = 0.4;     ///< each showing it at least this large, as a share of the largest view.
   double refine_scale = 2;      ///< One that shows it this much smaller than the host is not compared with it.
   int refine_targets = 24;      ///< Key frames that each is compared with.
@@ -89,6 +89,12 @@ struct Parameters {
   double refine_margin = 3;     ///< px around the quad that belong to it: edges of letters with both their sides.
   double blur_variance = 0.25;  ///< px^2 of a camera's own blur.
   double blur_spread = 2.5;     ///< See textplane::match_blur().
+
+  // Surface that a text lies on, in that refinement
+  double surface_reach = 2;      ///< Map points up to so many times the text's longer side beside it tell of its plane.
+  double surface_relief = 0.03;  ///< What lies beside a text is off its plane by this share of the distance: a sigma,
+  double surface_bend = 0.25;    ///< and all of it together turned from the text's normal by this: a sigma, degrees.
+  double surface_min_points = 6;  ///< That count, each by its weight of at most 1; fewer change nothing.
 
   // Reading of the mapped texts, in the end, where there is a reader
   int reading_views = 8;    ///< Key frames that a text is read in, those that show it sharpest.

@@ -8,6 +8,7 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textslam/statistics.hpp"
+#include "textslam/text_surface.hpp"
 
 namespace textslam {
 namespace {
@@ -167,7 +168,10 @@ void TextRefiner::refine(TextObject& text) {
     covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
   text.theta = mean;
   text.covariance = covariance;
-  if (!(normal_sigma(text) <= parameters_.refine_max_sigma * M_PI / 180)) text.state = TextState::dropped;
+  if (normal_sigma(text) <= parameters_.refine_max_sigma * M_PI / 180)
+    fit_to_surface(map_, parameters_, text);
+  else
+    text.state = TextState::dropped;
 }
 
 void TextRefiner::refine() {

@@ -2,7 +2,8 @@
 //
 // Each text is compared between key frames that show it, from several hosts, with all its pixels, each pair of views brought to
 // the same blur first (textplane/photometry/blur.hpp). What a host's own sampling makes of narrow strokes differs from host to
-// host, so their planes are averaged; how far they scatter goes into the covariance.
+// host, so their planes are averaged; how far they scatter goes into the covariance. In the end the map points of the surface
+// that a text lies on have their say (text_surface.hpp).
 #ifndef TEXTSLAM_TEXT_REFINER_HPP
 #define TEXTSLAM_TEXT_REFINER_HPP
 

@@ -1,0 +1,132 @@
+// The plane of a small text settles on the surface that the text lies on; one that is well known, or lies on nothing that the
+// points show, stays.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "textplane/geometry/plane.hpp"
+#include "textslam/text_surface.hpp"
+
+namespace textslam {
+namespace text_surface_test {
+
+constexpr double kDegree = M_PI / 180;
+
+// A table seen from 1 m at a slant of 45 degrees, in the frame of the text's host, and a text at the middle of it.
+class TextSurfaceTest : public testing::Test {
+ protected:
+  const Vec3 normal = Vec3(0, -1, -1).normalized(), centre = Vec3(0, 0, 1);
+  const Vec3 right = Vec3(1, 0, 0), below = normal.cross(right);
+
+  Vec3 turned(double degrees) const {
+    const Vec3 n = textplane::so3_exp<double>(Vec3(right * degrees * kDegree)) * normal;
+    return textplane::plane_from_normal<double>(n, -n.dot(centre));
+  }
+  // By the four corners of a text of 12 x 3 cm, each known to sigma along its ray, as a share of its distance.
+  Eigen::Matrix3d known_to(double sigma) const {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    for (const double x : {-0.06, 0.06})
+      for (const double y : {-0.015, 0.015}) {
+        const Vec3 p = centre + x * right + y * below;
+        information += p * p.transpose() / (sigma * sigma);
+      }
+    return information.inverse();
+  }
+  // Points of the table within 20 cm, 2 mm off it; every `other_every`-th `height` above it.
+  std::vector<SurfacePoint> table(int count, int other_every = 1 << 30, double height = 0) const {
+    std::mt19937 random(7);
+    const auto uniform = [&] { return static_cast<double>(random()) / 4294967295.0 * 2 - 1; };
+    std::vector<SurfacePoint> points;
+    for (int i = 1; i <= count; ++i) {
+      const double x = 0.2 * uniform(), y = 0.2 * uniform(),
+                   z = 0.0035 * uniform() + (i % other_every == 0 ? height : 0);
+      points.push_back({centre + x * right + y * below + z * normal, 0.002});
+    }
+    return points;
+  }
+  double off(const Vec3& theta) const { return degrees_between(textplane::plane_normal(theta), normal); }
+
+  Parameters parameters;
+};
+
+TEST_F(TextSurfaceTest, ASmallTextSettlesOnIt) {
+  Vec3 theta = turned(8);
+  Eigen::Matrix3d covariance = known_to(0.0025);
+  TextObject before;
+  before.theta = theta;
+  before.covariance = covariance;
+  ASSERT_GT(normal_sigma(before), 3 * kDegree);
+  ASSERT_TRUE(fit_to_surface(table(60), centre, parameters, &theta, &covariance));
+  EXPECT_LT(off(theta), 0.5);
+  before.theta = theta;
+  before.covariance = covariance;
+  EXPECT_LT(normal_sigma(before), 0.6 * kDegree);
+  EXPECT_GE(normal_sigma(before), 0.9 * parameters.surface_bend * kDegree);  // no number of points makes it surer
+}
+
+TEST_F(TextSurfaceTest, ThingsThatStandBesideItDoNotCount) {
+  Vec3 theta = turned(4);
+  Eigen::Matrix3d covariance = known_to(0.0025);
+  ASSERT_TRUE(fit_to_surface(table(90, 3, 0.1), centre, parameters, &theta, &covariance));
+  EXPECT_LT(off(theta), 0.7);
+}
+
+TEST_F(TextSurfaceTest, AWellKnownTextOnAnotherPlaneStays) {
+  Vec3 theta = turned(8);
+  Eigen::Matrix3d covariance = known_to(0.00005);
+  fit_to_surface(table(60), centre, parameters, &theta, &covariance);
+  EXPECT_NEAR(off(theta), 8, 0.4);
+}
+
+TEST_F(TextSurfaceTest, FewPointsSayNothing) {
+  Vec3 theta = turned(8);
+  Eigen::Matrix3d covariance = known_to(0.0025);
+  const Vec3 theta_before = theta;
+  const Eigen::Matrix3d covariance_before = covariance;
+  EXPECT_FALSE(fit_to_surface(table(5), centre, parameters, &theta, &covariance));
+  EXPECT_FALSE(fit_to_surface({}, centre, parameters, &theta, &covariance));
+  EXPECT_EQ(theta, theta_before);
+  EXPECT_EQ(covariance, covariance_before);
+  covariance.setZero();
+  EXPECT_FALSE(fit_to_surface(table(60), centre, parameters, &theta, &covariance));
+}
+
+// Which points of a map count, and as how sure.
+TEST_F(TextSurfaceTest, PointsBesideATextAreSurerTheNearerTheyAre) {
+  Map map;
+  map.camera = {525, 525, 319.5, 239.5};
+  map.width = 640;
+  map.height = 480;
+  map.keyframes.resize(3);
+  map.keyframes[1].T_w_c.t = Vec3(0.4, 0, 0);
+  map.keyframes[2].T_w_c.t = Vec3(-0.4, 0, 0);
+  TextObject text;
+  text.host = 0;
+  text.theta = turned(0);
+  std::size_t corner = 0;
+  for (const auto& [x, y] : {std::pair(-0.06, -0.015), {0.06, -0.015}, {0.06, 0.015}, {-0.06, 0.015}})
+    text.patch.quad.corner[corner++] = map.camera.project(Vec3(centre + x * right + y * below));
+  const auto add = [&](double x, double height, std::vector<int> keyframes) {
+    MapPoint point;
+    point.p_w = centre + x * right + height * normal;
+    for (const int id : keyframes) point.observations.push_back({id, Vec2::Zero()});
+    map.points.push_back(point);
+  };
+  add(0.05, 0, {0, 1, 2});
+  add(0.25, 0, {0, 1, 2});
+  add(0.4, 0, {0, 1, 2});      // too far beside it
+  add(0.05, -0.5, {0, 1, 2});  // too far below it
+  add(0.05, 0, {1});           // at no known distance
+  add(0.05, 0, {0, 1, 2});
+  map.points.back().bad = true;
+  const std::vector<SurfacePoint> points = points_beside(map, parameters, text);
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_GT(points[0].sigma, 1e-4);
+  EXPECT_LT(points[0].sigma, 5e-3);
+  EXPECT_NEAR(points[1].sigma, std::hypot(points[0].sigma, parameters.surface_relief * 0.19), 2e-3);
+  map.keyframes[1].culled = map.keyframes[2].culled = true;
+  EXPECT_TRUE(points_beside(map, parameters, text).empty());
+}
+
+}  // namespace text_surface_test
+}  // namespace textslam
