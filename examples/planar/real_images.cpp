@@ -27,7 +27,7 @@ constexpr std::uint64_t kSeeds[] = {1, 2, 3};
 constexpr int kTrialsOfASeed = 100;
 
 std::string text(const char* format, double a, double b = 0) {
-  char out[96];
+  char out[256];
   std::snprintf(out, sizeof out, format, a, b);
   return out;
 }
