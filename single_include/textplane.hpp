@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 116 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: f392e59429940e69
+// Hash of these files: f2071c50b9491a7f
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 f392e59429940e69"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 f2071c50b9491a7f"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -29016,6 +29016,16 @@ class PoseSearch {
 
 }  // namespace detail
 
+/// The level that search_pose() searches on in a target of `levels` levels: options.level, or the next finer one that is there and has
+/// twice the pixels that must be visible; 0 where none has, -1 where there is no level.
+inline int search_level(const TextPatch& patch, int levels, const SearchOptions& options) noexcept {
+  int level = std::min({options.level, patch.level_count() - 1, levels - 1});
+  while (level > 0 &&
+         static_cast<int>(patch.levels[static_cast<std::size_t>(level)].x.size()) < 2 * options.photometric.min_visible)
+    --level;
+  return level;
+}
+
 /// The pose T_t_h, out of those that turn the target camera so that the patch's centre moves by the shifts of a grid, with the
 /// best ZNCC of the patch in the target, and then turned a little about that centre where this is better still; the guess itself
 /// where nothing is better or nothing can be compared. `zncc`, if given, receives the best value, -1 where none. `prepared`: one
@@ -29025,10 +29035,7 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
                  const Pinhole<double>& camera, const SearchOptions& options, PhotometricWorkspace& workspace,
                  const TemplatePatch* prepared = nullptr, float* zncc = nullptr) noexcept {
   if (zncc) *zncc = -1.0F;
-  int level = std::min({options.level, patch.level_count() - 1, target.levels - 1});
-  while (level > 0 &&
-         static_cast<int>(patch.levels[static_cast<std::size_t>(level)].x.size()) < 2 * options.photometric.min_visible)
-    --level;
+  const int level = search_level(patch, target.levels, options);
   if (level < 0 || !(options.step > 0) || !is_finite(options.step) || !is_finite(options.roll) || !camera.valid())
     return T_t_h;
   const PhotometricInput in = photometric_input(patch, level, target, camera);

@@ -210,7 +210,7 @@ class PlaneTracker {
   tp::Status again(const tp::PyramidView& image, const PlaneState& start, tp::Status status, PlaneState& state) {
     const double zncc = tp::is_ok(status) ? zncc_ : -1.0;
     if (zncc >= options_.sure) return status;
-    const int level = search_level(std::min(options_.again.level, image.levels - 1));
+    const int level = tp::search_level(patch_, image.levels, options_.again);
     const Window window =
         appearance_.window(image.level[static_cast<std::size_t>(level)], tp::quad_to_level(quad(start), level));
     if (window.image.valid()) {
@@ -233,14 +233,6 @@ class PlaneTracker {
     }
     zncc_ = zncc;
     return status;
-  }
-
-  // The coarsest level up to `level` that search_pose() does not leave for having too few pixels.
-  int search_level(int level) const noexcept {
-    level = std::min(level, patch_.level_count() - 1);
-    const auto least = static_cast<std::size_t>(2 * options_.again.photometric.min_visible);
-    while (level > 0 && patch_.levels[static_cast<std::size_t>(level)].x.size() < least) --level;
-    return level;
   }
 
   int scale_shift(const PlaneState& state) const noexcept {

@@ -6,8 +6,12 @@
 #include <limits>
 #include <random>
 
+#include "support/noise.hpp"
+
 namespace textplane {
 namespace blur_test {
+
+using textplane_test::noise;
 
 Matrix2d covariance(double xx, double xy, double yy) {
   Matrix2d c;
@@ -16,14 +20,6 @@ Matrix2d covariance(double xx, double xy, double yy) {
 }
 
 double least_eigenvalue(const Matrix2d& c) { return symmetric_eigen<double, 2>(c).values[0]; }
-
-Image<std::uint8_t> noise(int width, int height, unsigned seed) {
-  std::mt19937 random(seed);
-  Image<std::uint8_t> image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) image(x, y) = static_cast<std::uint8_t>(random() & 255U);
-  return image;
-}
 
 // The filter's definition, in double, pixel by pixel.
 double filtered(const ImageView8& image, const BlurKernel& kernel, int x, int y) {

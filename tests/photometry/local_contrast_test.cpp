@@ -6,20 +6,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 
+#include "support/noise.hpp"
 #include "textplane/photometry/residual.hpp"
 
 namespace textplane {
 namespace local_contrast_test {
 
-Image<std::uint8_t> noise(int width, int height, unsigned seed) {
-  std::mt19937 random(seed);
-  Image<std::uint8_t> image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) image(x, y) = static_cast<std::uint8_t>(random() & 255U);
-  return image;
-}
+using textplane_test::noise;
 
 // The definition, in double, pixel by pixel.
 double expected(const ImageView8& image, const LocalContrastOptions& o, int x, int y) {
