@@ -3,6 +3,7 @@
 
 # needs STAGE PROGRAM...: whether the programs are there; a line of the summary where not.
 needs() {
+  wanted "$1" || return 1
   name=$1
   shift
   for program in "$@"; do
@@ -14,6 +15,7 @@ needs() {
 
 # checked NAME COMMAND...: a stage whose last line of output is its line of the summary.
 checked() {
+  wanted "$1" || return 0
   name=$1
   shift
   begin=$(date +%s)
@@ -63,8 +65,10 @@ coverage() {
   return $outcome
 }
 
+fuzz_seconds=${TEXTPLANE_FUZZ_SECONDS:-900}
+
 all_stages() {
-  if needs memcheck valgrind && [ -x "$root/build/dev/bin/test_simd" ]; then checked memcheck memcheck "$root/build/dev/bin/test_simd" "$root/build/dev/bin/test_threads"; fi
+  if needs memcheck valgrind "$root/build/dev/bin/test_simd" "$root/build/dev/bin/test_threads"; then checked memcheck memcheck "$root/build/dev/bin/test_simd" "$root/build/dev/bin/test_threads"; fi
   if needs i386 /usr/lib/gcc/x86_64-linux-gnu/12/32 /usr/src/googletest; then stage i386 '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
   if needs s390x s390x-linux-gnu-g++-11 qemu-s390x /usr/src/googletest; then stage s390x '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
   stage unoptimised "$library_only" "$library_filter" "$library_tests"
@@ -74,12 +78,11 @@ all_stages() {
   if needs cppcheck cppcheck; then checked cppcheck cpp_check; fi
   if needs coverage gcovr; then
     stage coverage "$library_only" "$library_filter" "$library_tests"
+    only="$only${only:+ coverage-of-include}"
     checked coverage-of-include coverage
   fi
   checked mutants "$root/tests/mutants/run"
-  if needs fuzz clang++; then
-    checked fuzz-fast "$root/tests/fuzz/run" --fast --seconds 900
-    checked fuzz "$root/tests/fuzz/run" --seconds 900
-  fi
-  checked soak "$root/tests/soak/run" --build "$root/build/release"
+  if needs fuzz-fast clang++; then checked fuzz-fast "$root/tests/fuzz/run" --fast --seconds "$fuzz_seconds"; fi
+  if needs fuzz clang++; then checked fuzz "$root/tests/fuzz/run" --seconds "$fuzz_seconds"; fi
+  if needs soak "$root/build/dev/bin/textslam"; then checked soak "$root/tests/soak/run" --build "$root/build/dev"; fi
 }

@@ -25,6 +25,12 @@ if(TEXTPLANE_QEMU_X86_64)
         PASS_REGULAR_EXPRESSION "targets run:[a-z0-9 ]* sse41\n[^|]*PASSED" FAIL_REGULAR_EXPRESSION "FAILED")
     endif()
   endforeach()
+  # A CPU with AVX2 and no AVX-512 gets the former.
+  if(TARGET test_vectors)
+    add_test(NAME emulation.haswell.dispatch COMMAND ${TEXTPLANE_QEMU_X86_64} -cpu Haswell $<TARGET_FILE:test_vectors> --gtest_brief=1 --gtest_filter=Dispatch.*)
+    set_tests_properties(emulation.haswell.dispatch PROPERTIES LABELS emulation TIMEOUT 600
+      PASS_REGULAR_EXPRESSION "targets run: scalar sse41 avx2\n[^|]*PASSED" FAIL_REGULAR_EXPRESSION "FAILED")
+  endif()
 else()
   message(STATUS "no qemu-x86_64: nothing is run on an old CPU")
 endif()

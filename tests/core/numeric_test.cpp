@@ -34,29 +34,59 @@ class Numeric : public testing::Test {};
 using Scalars = testing::Types<float, double, Dual<6>>;
 TYPED_TEST_SUITE(Numeric, Scalars, );
 
-template <int N>
-Eigen::Matrix<double, N, N> random_matrix(Random& random) {
-  Eigen::Matrix<double, N, N> m;
-  for (int i = 0; i < N * N; ++i) m(i / N, i % N) = random.uniform(-1, 1);
+// What the tests compute themselves is of any size: the compiler then meets each expression of Eigen once.
+Eigen::MatrixXd random_matrix(Random& random, int n) {
+  Eigen::MatrixXd m(n, n);
+  for (int i = 0; i < n * n; ++i) m(i / n, i % n) = random.uniform(-1, 1);
   return m;
+}
+
+Eigen::MatrixXd definite_matrix(Random& random, int n) {
+  const Eigen::MatrixXd root = random_matrix(random, n);
+  return root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
+}
+
+Eigen::MatrixXd symmetric_matrix(Random& random, int n) {
+  const Eigen::MatrixXd m = random_matrix(random, n);
+  return m + m.transpose();
+}
+
+// |a b - c|
+double product_error(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen::MatrixXd& c) {
+  return (a * b - c).norm();
+}
+
+template <class S, int Rows, int Cols>
+Eigen::Matrix<S, Rows, Cols> as(const Eigen::MatrixXd& m) {
+  Eigen::Matrix<S, Rows, Cols> out;
+  for (int i = 0; i < Rows * Cols; ++i)
+    out(i / Cols, i % Cols) =
+        S(static_cast<std::conditional_t<std::is_same_v<S, float>, float, double>>(m(i / Cols, i % Cols)));
+  return out;
+}
+
+template <class S, int Rows, int Cols>
+Eigen::MatrixXd any_size(const Eigen::Matrix<S, Rows, Cols>& m) {
+  Eigen::MatrixXd out(Rows, Cols);
+  for (int i = 0; i < Rows * Cols; ++i) out(i / Cols, i % Cols) = value(m(i / Cols, i % Cols));
+  return out;
 }
 
 template <class S, int N>
 void check_ldlt(Random& random) {
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const Eigen::Matrix<double, N, N> root = random_matrix<N>(random);
-    const Eigen::Matrix<double, N, N> full = root * root.transpose() + 0.1 * Eigen::Matrix<double, N, N>::Identity();
-    Eigen::Matrix<S, N, N> a = full.template cast<S>();
+    const Eigen::MatrixXd full = definite_matrix(random, N);
+    Eigen::Matrix<S, N, N> a = as<S, N, N>(full);
     // What lies above the diagonal is never read.
     for (int i = 0; i < N; ++i)
       for (int j = i + 1; j < N; ++j) a(i, j) = S(1e30);
     const tp::Ldlt<S, N> ldlt(a);
     ASSERT_TRUE(ldlt.ok());
-    Eigen::Matrix<double, N, 1> b = random.vector<N>(1);
-    const auto x = values(ldlt.solve(b.template cast<S>()));
-    EXPECT_LT((full * x - b).norm(), tolerance<S>(1e-4, 1e-12)) << N;
-    const auto identity = Eigen::Matrix<double, N, N>(full * values(ldlt.inverse()));
-    EXPECT_LT((identity - Eigen::Matrix<double, N, N>::Identity()).norm(), tolerance<S>(1e-4, 1e-12)) << N;
+    const Eigen::MatrixXd b = random_matrix(random, N).col(0);
+    EXPECT_LT(product_error(full, any_size<S, N, 1>(ldlt.solve(as<S, N, 1>(b))), b), tolerance<S>(1e-4, 1e-12)) << N;
+    EXPECT_LT(product_error(full, any_size<S, N, N>(ldlt.inverse()), Eigen::MatrixXd::Identity(N, N)),
+              tolerance<S>(1e-4, 1e-12))
+        << N;
   }
 }
 
@@ -98,7 +128,7 @@ TEST(LdltTest, PivotsAreJudgedRelatively) {
 
 TEST(LdltTest, DualsThroughSolve) {
   Random random(2);
-  const Eigen::Matrix3d root = random_matrix<3>(random), base = root * root.transpose() + Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d root = random_matrix(random, 3), base = root * root.transpose() + Eigen::Matrix3d::Identity();
   const Eigen::Vector3d b = random.vector<3>(1);
   // x as a function of six entries of the matrix.
   const auto f = [&](const auto& x) {
@@ -114,28 +144,23 @@ TEST(LdltTest, DualsThroughSolve) {
 }
 
 template <class S, int N>
-void check_eigen(const Eigen::Matrix<double, N, N>& a) {
-  using M = Eigen::Matrix<double, N, N>;
-  const auto e = tp::symmetric_eigen<S, N>(a.template cast<S>());
-  const M vectors = values(e.vectors);
-  const Eigen::Matrix<double, N, 1> eigenvalues = values(e.values);
+void check_eigen(const Eigen::MatrixXd& a) {
+  const auto e = tp::symmetric_eigen<S, N>(as<S, N, N>(a));
+  const Eigen::MatrixXd vectors = any_size<S, N, N>(e.vectors), eigenvalues = any_size<S, N, 1>(e.values);
   const double scale = 1e-300 + a.norm(), bound = tolerance<S>(2e-6, 1e-14);
-  EXPECT_LT((vectors.transpose() * vectors - M::Identity()).norm(), N * bound);
-  EXPECT_LT((vectors * eigenvalues.asDiagonal() * vectors.transpose() - a).norm(), N * bound * scale);
+  EXPECT_LT(product_error(vectors.transpose(), vectors, Eigen::MatrixXd::Identity(N, N)), N * bound);
+  EXPECT_LT(product_error(vectors * eigenvalues.col(0).asDiagonal(), vectors.transpose(), a), N * bound * scale);
   EXPECT_LT((eigenvalues - textplane_test::symmetric_eigenvalues(a)).norm(), N * bound * scale);
-  for (int i = 0; i + 1 < N; ++i) EXPECT_LE(eigenvalues[i], eigenvalues[i + 1]);
+  for (int i = 0; i + 1 < N; ++i) EXPECT_LE(eigenvalues(i, 0), eigenvalues(i + 1, 0));
 }
 
 TYPED_TEST(Numeric, EigenOfRandomMatrices) {
   using S = TypeParam;
   Random random(3);
   for (int repeat = 0; repeat < 50; ++repeat) {
-    const auto a = random_matrix<3>(random);
-    check_eigen<S, 3>(Eigen::Matrix3d(a + a.transpose()));
-    const auto b = random_matrix<6>(random);
-    check_eigen<S, 6>(Eigen::Matrix<double, 6, 6>(b + b.transpose()));
-    const auto c = random_matrix<2>(random);
-    check_eigen<S, 2>(Eigen::Matrix2d(c + c.transpose()));
+    check_eigen<S, 3>(symmetric_matrix(random, 3));
+    check_eigen<S, 6>(symmetric_matrix(random, 6));
+    check_eigen<S, 2>(symmetric_matrix(random, 2));
   }
 }
 
@@ -144,7 +169,7 @@ TYPED_TEST(Numeric, EigenOfSpecialMatrices) {
   const Eigen::Vector3d v(0.25, -0.5, 1.5), w(2, 0.5, -1);
   check_eigen<S, 3>(Eigen::Matrix3d::Zero());
   check_eigen<S, 3>(Eigen::Matrix3d::Identity());
-  check_eigen<S, 3>(Eigen::Vector3d(3, -1, 2).asDiagonal());
+  check_eigen<S, 3>(Eigen::Matrix3d(Eigen::Vector3d(3, -1, 2).asDiagonal()));
   check_eigen<S, 3>(v * v.transpose());
   check_eigen<S, 3>(v * v.transpose() + w * w.transpose());
   check_eigen<S, 3>(Eigen::Matrix3d::Ones());
@@ -157,7 +182,7 @@ TYPED_TEST(Numeric, EigenOfSpecialMatrices) {
 // d lambda_i = v_i^T dA v_i. The second matrix is diagonal: its off-diagonal zeros carry derivatives.
 TEST(EigenTest, DualsThroughValuesAndVectors) {
   Random random(4);
-  const Eigen::Matrix3d root = random_matrix<3>(random);
+  const Eigen::Matrix3d root = random_matrix(random, 3);
   for (const Eigen::Matrix3d& base :
        {Eigen::Matrix3d(root + root.transpose()), Eigen::Matrix3d(Eigen::Vector3d(1, 4, 2).asDiagonal())}) {
     const auto perturbed = [&](const auto& x) {

@@ -128,7 +128,7 @@ TEST(PlaneFitTest, AgreesWithThePrintedSystem) {
     A.middleRows<3>(3 * i) = mx * scene.T_t_h.t * scene.host[k].transpose();
     b.segment<3>(3 * i) = -mx * scene.T_t_h.R * scene.host[k];
   }
-  const Vector3d theta = textplane_test::least_squares(A, b);
+  const Vector3d theta = textplane_test::dense_solve(A, b);
   const auto fit = tp::plane_from_matches(scene.host, scene.target, scene.T_t_h);
   EXPECT_LT((fit.value - theta).norm(), 1e-11);
   EXPECT_NEAR(fit.condition, condition_of(A.transpose() * A), 1e-6 * fit.condition);

@@ -306,7 +306,7 @@ RC_GTEST_PROP(Windows, TheReducedSystemIsTheFullOne, ()) {
   damped.diagonal() *= 1 + lambda;
   for (int i = 0; i < size; ++i)
     if (damped(i, i) == 0) damped(i, i) = 1;  // What is fixed or unused.
-  const Eigen::VectorXd step = -definite_solve(damped, g);
+  const Eigen::VectorXd step = -dense_solve(damped, g);
   RC_ASSERT(system.reduce(lambda));
   RC_ASSERT(system.solve());
   const double bound = 1e-9 * (1 + step.norm());

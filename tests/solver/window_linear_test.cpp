@@ -166,7 +166,7 @@ TEST(WindowLinear, ReducedStepIsTheDenseStep) {
     // Rows of what is fixed are zero: identity there.
     for (int i = 0; i < p.size(); ++i)
       if (damped(i, i) == 0) damped(i, i) = 1;
-    const Eigen::VectorXd step = -definite_solve(damped, g);
+    const Eigen::VectorXd step = -dense_solve(damped, g);
     ASSERT_TRUE(p.system.reduce(lambda));
     ASSERT_TRUE(p.system.solve());
     for (int c = 0; c < p.s.cameras(); ++c)
@@ -188,7 +188,7 @@ TEST(WindowLinear, CovarianceIsTheBlockOfTheDenseInverse) {
   p.dense(&H, &g);
   for (int i = 0; i < p.size(); ++i)
     if (H(i, i) == 0) H(i, i) = 1;
-  const Dense inverse = definite_solve(H, Dense::Identity(p.size(), p.size()));
+  const Dense inverse = dense_solve(H, Dense::Identity(p.size(), p.size()));
   ASSERT_TRUE(p.system.reduce(0));
   for (int t = 0; t < 2; ++t) {
     const int l = static_cast<int>(p.w.points.size()) + t, i = p.cameras() + 3 * l;
@@ -217,7 +217,7 @@ TEST(WindowLinear, ScaleRowIsTheConstrainedSolution) {
     kkt.topLeftCorner(n, n).diagonal() *= 1 + lambda;
     kkt.col(n).head(n) = row;
     kkt.row(n).head(n) = row.transpose();
-    const Dense inverse = full_inverse(kkt);
+    const Dense inverse = dense_solve(kkt, Dense::Identity(kkt.rows(), kkt.cols()));
     const Eigen::VectorXd step = -(inverse.topLeftCorner(n, n) * g);
     ASSERT_TRUE(p.system.reduce(lambda));
     ASSERT_TRUE(p.system.solve());
@@ -257,7 +257,7 @@ TEST(BlockCholesky, SolvesABandAndASparseMatrix) {
       scale[i] = a(i, i);
       x[i] = noise();
     }
-    const Eigen::VectorXd expected = definite_solve(a, x);
+    const Eigen::VectorXd expected = dense_solve(a, x);
     EXPECT_EQ(cholesky.factorise(scale.data(), 1e-12), 0);
     cholesky.solve(x.data());
     EXPECT_LT((x - expected).norm(), 1e-13 * expected.norm());
