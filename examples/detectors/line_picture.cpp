@@ -6,19 +6,14 @@
 
 #include "io/text_file.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textplane/photometry/sample.hpp"
 
 namespace textslam {
 
 std::uint8_t grey_at(ImageView8 image, double x, double y) {
-  x = std::clamp(x, 0.0, image.width() - 1.0);
-  y = std::clamp(y, 0.0, image.height() - 1.0);
-  const int x0 = std::min(static_cast<int>(x), std::max(0, image.width() - 2));
-  const int y0 = std::min(static_cast<int>(y), std::max(0, image.height() - 2));
-  const int x1 = std::min(x0 + 1, image.width() - 1), y1 = std::min(y0 + 1, image.height() - 1);
-  const double u = x - x0, v = y - y0;
-  const double upper = (1 - u) * image(x0, y0) + u * image(x1, y0);
-  const double lower = (1 - u) * image(x0, y1) + u * image(x1, y1);
-  return static_cast<std::uint8_t>(std::lround((1 - v) * upper + v * lower));
+  double value = 0;
+  textplane::sample_bilinear(image, std::clamp(x, 0.0, image.width() - 1.0), std::clamp(y, 0.0, image.height() - 1.0), &value);
+  return static_cast<std::uint8_t>(std::lround(value));
 }
 
 Image<std::uint8_t> line_picture(ImageView8 image, const Quad<double>& quad, int height, double margin,
