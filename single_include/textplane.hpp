@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 116 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: f2071c50b9491a7f
+// Hash of these files: 814a0fde2f59451f
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 f2071c50b9491a7f"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 814a0fde2f59451f"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -211,7 +211,7 @@ inline std::uint64_t not_finite_bit(double x) noexcept {
   std::memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7ff0000000000000ULL) + 0x0010000000000000ULL;
 }
-/// Other scalars (dual numbers): x - x is zero exactly for finite x.
+/// Other scalars (dual numbers): x - x is zero exactly for finite x. Has no bits to look at: -ffast-math folds it away.
 template <class S>
 bool is_finite(const S& x) noexcept {
   return x - x == S(0);
@@ -571,7 +571,7 @@ class ImageView {
   /// (x, y) has a pixel on each side to interpolate between: inside [0, width - 1] x [0, height - 1]. False for NaN.
   template <class S>
   bool contains(const S& x, const S& y) const noexcept {
-    return x >= S(0) && y >= S(0) && x <= S(width_ - 1) && y <= S(height_ - 1);
+    return is_finite(x) && is_finite(y) && x >= S(0) && y >= S(0) && x <= S(width_ - 1) && y <= S(height_ - 1);
   }
 
  private:
@@ -1547,7 +1547,7 @@ bool contains(const Quad<S>& quad, const Vector2<S>& p) noexcept {
   if (!(orientation > S(0)) && !(orientation < S(0))) return false;
   for (std::size_t i = 0; i < 4; ++i) {
     const S t = detail::turn(quad.corner[i], quad.corner[(i + 1) % 4], p);
-    if (!(orientation > S(0) ? t >= S(0) : t <= S(0))) return false;
+    if (!is_finite(t) || !(orientation > S(0) ? t >= S(0) : t <= S(0))) return false;
   }
   return true;
 }
@@ -1555,8 +1555,10 @@ bool contains(const Quad<S>& quad, const Vector2<S>& p) noexcept {
 /// p lies in the polygon or on its edge.
 template <class S>
 bool contains(const ConvexPolygon<S>& polygon, const Vector2<S>& p) noexcept {
-  for (int i = 0; i < polygon.size(); ++i)
-    if (!(detail::turn(polygon[i], polygon[(i + 1) % polygon.size()], p) >= S(0))) return false;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const S t = detail::turn(polygon[i], polygon[(i + 1) % polygon.size()], p);
+    if (!is_finite(t) || !(t >= S(0))) return false;
+  }
   return polygon.size() >= 3;
 }
 
@@ -1587,7 +1589,8 @@ Bounds<S> bounds(const Quad<S>& quad) noexcept {
 template <class S>
 bool inside_image(const Quad<S>& quad, int width, int height, const S& margin = S(0)) noexcept {
   for (const auto& c : quad.corner)
-    if (!(c[0] >= margin && c[1] >= margin && c[0] <= S(width - 1) - margin && c[1] <= S(height - 1) - margin))
+    if (!all_finite(c) || !is_finite(margin) ||
+        !(c[0] >= margin && c[1] >= margin && c[0] <= S(width - 1) - margin && c[1] <= S(height - 1) - margin))
       return false;
   return true;
 }
@@ -3337,7 +3340,7 @@ void sample_inside(const ImageView<const T>& image, const S& x, const S& y, S* v
 /// the interpolant. Non-finite pixels of a float image give a non-finite value.
 template <class T, class S>
 bool sample_bilinear(const ImageView<const T>& image, S x, S y, S* value, S* gx = nullptr, S* gy = nullptr) noexcept {
-  if (!image.valid() || !is_finite(x) || !is_finite(y) || !image.contains(x, y)) return false;
+  if (!image.valid() || !image.contains(x, y)) return false;
   detail::sample_inside(image, x, y, value, gx, gy);
   return true;
 }
@@ -6742,8 +6745,8 @@ class BlurFilter {
     const std::size_t n = level->x.size();
     int x0 = host.width(), y0 = host.height(), x1 = 0, y1 = 0;
     for (std::size_t i = 0; i < n; ++i) {
+      if (!host.contains(level->x[i], level->y[i])) continue;
       const int x = static_cast<int>(level->x[i]), y = static_cast<int>(level->y[i]);
-      if (x < 0 || y < 0 || x >= host.width() || y >= host.height()) continue;
       x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x + 1), y1 = std::max(y1, y + 1);
     }
     if (x0 >= x1) return Status::ok;
@@ -6754,8 +6757,8 @@ class BlurFilter {
       for (int x = 0; x < across; x += kBlock)
         block(kernel, x, y - y0, &filtered_[static_cast<std::size_t>((y - y0) * across + x)]);
     for (std::size_t i = 0; i < n; ++i) {
+      if (!host.contains(level->x[i], level->y[i])) continue;
       const int x = static_cast<int>(level->x[i]) - x0, y = static_cast<int>(level->y[i]) - y0;
-      if (x < 0 || y < 0 || x >= x1 - x0 || y >= y1 - y0) continue;
       level->intensity[i] = filtered_[static_cast<std::size_t>(y * across + x)];
     }
     return Status::ok;
@@ -27497,8 +27500,8 @@ struct CellGrid {
 
   std::size_t size() const noexcept { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
   bool contains(float x, float y) const noexcept {
-    return x >= static_cast<float>(x0) && y >= static_cast<float>(y0) && x < static_cast<float>(x0 + columns * cell) &&
-           y < static_cast<float>(y0 + rows * cell);
+    return is_finite(x) && is_finite(y) && x >= static_cast<float>(x0) && y >= static_cast<float>(y0) &&
+           x < static_cast<float>(x0 + columns * cell) && y < static_cast<float>(y0 + rows * cell);
   }
   // The caller has checked contains().
   std::size_t index(float x, float y) const noexcept {
@@ -27946,9 +27949,12 @@ namespace detail {
 constexpr double kFirstGrowth = 8.0;
 
 inline bool valid(const SolveOptions& o) noexcept {
+  for (const double x : {o.step_tolerance, o.cost_tolerance, o.stall_tolerance, o.initial_lambda, o.min_lambda,
+                         o.max_lambda, o.diagonal_floor, o.rank_tolerance, o.max_lost_fraction})
+    if (!is_finite(x)) return false;
   return o.max_iterations >= 0 && o.step_tolerance >= 0 && o.cost_tolerance >= 0 && o.stall_tolerance >= 0 &&
-         o.initial_lambda > 0 && is_finite(o.initial_lambda) && o.min_lambda > 0 && o.max_lambda > o.min_lambda &&
-         o.diagonal_floor >= 0 && o.rank_tolerance >= 0 && o.max_lost_fraction >= 0;
+         o.initial_lambda > 0 && o.min_lambda > 0 && o.max_lambda > o.min_lambda && o.diagonal_floor >= 0 &&
+         o.rank_tolerance >= 0 && o.max_lost_fraction >= 0;
 }
 
 // Status of a linearisation: its own, or non_finite or rank_deficient as found here. The pivot test of Ldlt does not

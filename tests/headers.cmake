@@ -8,6 +8,10 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   add_test(NAME headers.compile_failures COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_CXX_COMPILER}
     "-DFLAGS=-DTEXTPLANE_EXTERN_KERNELS -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cpp
     -P ${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cmake)
+  # As robots are built: without exceptions and run-time types, from the image to pose and plane.
+  add_test(NAME headers.no_exceptions COMMAND ${CMAKE_COMMAND} -DMODE=variants -DVARIANTS=no_exceptions -DCOMPILER=${CMAKE_CXX_COMPILER}
+    "-DFLAGS=-O0 -Wall -Wextra -Werror -fno-exceptions -fno-rtti -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
+    -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
 endif()
 if(NOT TEXTPLANE_TEST_INCLUDE_ALONE)
   return()

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "textplane/config.hpp"
+#include "textplane/core/numeric.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -60,7 +61,7 @@ class ImageView {
   /// (x, y) has a pixel on each side to interpolate between: inside [0, width - 1] x [0, height - 1]. False for NaN.
   template <class S>
   bool contains(const S& x, const S& y) const noexcept {
-    return x >= S(0) && y >= S(0) && x <= S(width_ - 1) && y <= S(height_ - 1);
+    return is_finite(x) && is_finite(y) && x >= S(0) && y >= S(0) && x <= S(width_ - 1) && y <= S(height_ - 1);
   }
 
  private:

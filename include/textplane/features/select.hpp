@@ -40,8 +40,8 @@ struct CellGrid {
 
   std::size_t size() const noexcept { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
   bool contains(float x, float y) const noexcept {
-    return x >= static_cast<float>(x0) && y >= static_cast<float>(y0) && x < static_cast<float>(x0 + columns * cell) &&
-           y < static_cast<float>(y0 + rows * cell);
+    return is_finite(x) && is_finite(y) && x >= static_cast<float>(x0) && y >= static_cast<float>(y0) &&
+           x < static_cast<float>(x0 + columns * cell) && y < static_cast<float>(y0 + rows * cell);
   }
   // The caller has checked contains().
   std::size_t index(float x, float y) const noexcept {

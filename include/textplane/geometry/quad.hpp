@@ -129,7 +129,7 @@ bool contains(const Quad<S>& quad, const Vector2<S>& p) noexcept {
   if (!(orientation > S(0)) && !(orientation < S(0))) return false;
   for (std::size_t i = 0; i < 4; ++i) {
     const S t = detail::turn(quad.corner[i], quad.corner[(i + 1) % 4], p);
-    if (!(orientation > S(0) ? t >= S(0) : t <= S(0))) return false;
+    if (!is_finite(t) || !(orientation > S(0) ? t >= S(0) : t <= S(0))) return false;
   }
   return true;
 }
@@ -137,8 +137,10 @@ bool contains(const Quad<S>& quad, const Vector2<S>& p) noexcept {
 /// p lies in the polygon or on its edge.
 template <class S>
 bool contains(const ConvexPolygon<S>& polygon, const Vector2<S>& p) noexcept {
-  for (int i = 0; i < polygon.size(); ++i)
-    if (!(detail::turn(polygon[i], polygon[(i + 1) % polygon.size()], p) >= S(0))) return false;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const S t = detail::turn(polygon[i], polygon[(i + 1) % polygon.size()], p);
+    if (!is_finite(t) || !(t >= S(0))) return false;
+  }
   return polygon.size() >= 3;
 }
 
@@ -169,7 +171,8 @@ Bounds<S> bounds(const Quad<S>& quad) noexcept {
 template <class S>
 bool inside_image(const Quad<S>& quad, int width, int height, const S& margin = S(0)) noexcept {
   for (const auto& c : quad.corner)
-    if (!(c[0] >= margin && c[1] >= margin && c[0] <= S(width - 1) - margin && c[1] <= S(height - 1) - margin))
+    if (!all_finite(c) || !is_finite(margin) ||
+        !(c[0] >= margin && c[1] >= margin && c[0] <= S(width - 1) - margin && c[1] <= S(height - 1) - margin))
       return false;
   return true;
 }

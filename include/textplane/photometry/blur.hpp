@@ -155,8 +155,8 @@ class BlurFilter {
     const std::size_t n = level->x.size();
     int x0 = host.width(), y0 = host.height(), x1 = 0, y1 = 0;
     for (std::size_t i = 0; i < n; ++i) {
+      if (!host.contains(level->x[i], level->y[i])) continue;
       const int x = static_cast<int>(level->x[i]), y = static_cast<int>(level->y[i]);
-      if (x < 0 || y < 0 || x >= host.width() || y >= host.height()) continue;
       x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x + 1), y1 = std::max(y1, y + 1);
     }
     if (x0 >= x1) return Status::ok;
@@ -167,8 +167,8 @@ class BlurFilter {
       for (int x = 0; x < across; x += kBlock)
         block(kernel, x, y - y0, &filtered_[static_cast<std::size_t>((y - y0) * across + x)]);
     for (std::size_t i = 0; i < n; ++i) {
+      if (!host.contains(level->x[i], level->y[i])) continue;
       const int x = static_cast<int>(level->x[i]) - x0, y = static_cast<int>(level->y[i]) - y0;
-      if (x < 0 || y < 0 || x >= x1 - x0 || y >= y1 - y0) continue;
       level->intensity[i] = filtered_[static_cast<std::size_t>(y * across + x)];
     }
     return Status::ok;

@@ -50,7 +50,7 @@ void sample_inside(const ImageView<const T>& image, const S& x, const S& y, S* v
 /// the interpolant. Non-finite pixels of a float image give a non-finite value.
 template <class T, class S>
 bool sample_bilinear(const ImageView<const T>& image, S x, S y, S* value, S* gx = nullptr, S* gy = nullptr) noexcept {
-  if (!image.valid() || !is_finite(x) || !is_finite(y) || !image.contains(x, y)) return false;
+  if (!image.valid() || !image.contains(x, y)) return false;
   detail::sample_inside(image, x, y, value, gx, gy);
   return true;
 }

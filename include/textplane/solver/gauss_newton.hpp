@@ -76,9 +76,12 @@ namespace detail {
 constexpr double kFirstGrowth = 8.0;
 
 inline bool valid(const SolveOptions& o) noexcept {
+  for (const double x : {o.step_tolerance, o.cost_tolerance, o.stall_tolerance, o.initial_lambda, o.min_lambda,
+                         o.max_lambda, o.diagonal_floor, o.rank_tolerance, o.max_lost_fraction})
+    if (!is_finite(x)) return false;
   return o.max_iterations >= 0 && o.step_tolerance >= 0 && o.cost_tolerance >= 0 && o.stall_tolerance >= 0 &&
-         o.initial_lambda > 0 && is_finite(o.initial_lambda) && o.min_lambda > 0 && o.max_lambda > o.min_lambda &&
-         o.diagonal_floor >= 0 && o.rank_tolerance >= 0 && o.max_lost_fraction >= 0;
+         o.initial_lambda > 0 && o.min_lambda > 0 && o.max_lambda > o.min_lambda && o.diagonal_floor >= 0 &&
+         o.rank_tolerance >= 0 && o.max_lost_fraction >= 0;
 }
 
 // Status of a linearisation: its own, or non_finite or rank_deficient as found here. The pivot test of Ldlt does not

@@ -3,9 +3,11 @@
 #   MODE=object   OBJECT, HEADERS, EXPECT   checks an object that the build has made
 #   MODE=shared   SOURCE, WIDE, EXPECT      compiles SOURCE for the baseline and with the flags WIDE, and checks what they share
 #   MODE=mixed    SOURCE, MAIN, EMULATOR    links SOURCE for three CPUs with MAIN, runs it here and, if given, in the EMULATOR
-#   MODE=variants SOURCE, MAIN, OTHER       links SOURCE at other levels, standards and assertions, and by the compiler OTHER if given
+#   MODE=variants SOURCE, MAIN, VARIANTS, OTHER   links SOURCE as the names of VARIANTS say (all, if none), and by the compiler OTHER
+#                                           if given, with MAIN, and runs it
 #   MODE=refused  SOURCE                    does not link where the flags of its two halves differ
 # EXPECT is the exit code of the checker that makes the test pass.
+cmake_minimum_required(VERSION 3.21)
 separate_arguments(FLAGS)
 separate_arguments(WIDE)
 separate_arguments(EMULATOR)
@@ -57,6 +59,9 @@ elseif(MODE STREQUAL "variants")
   set(objects)
   set(units)
   function(variant name)
+    if(VARIANTS AND NOT name IN_LIST VARIANTS)
+      return()
+    endif()
     compile(${SOURCE} ${name}.o -DTEXTPLANE_TEST_UNIT=${name} ${ARGN})
     set(objects ${objects} ${OBJECTS}${name}.o PARENT_SCOPE)
     set(units "${units} UNIT(${name})" PARENT_SCOPE)
@@ -66,6 +71,7 @@ elseif(MODE STREQUAL "variants")
   variant(optimised_most -O3)
   variant(cxx20 -std=c++20)
   variant(cxx23 -std=c++2b)
+  variant(no_exceptions -fno-exceptions -fno-rtti)
   variant(no_eigen_assertions -DNDEBUG)
   variant(assertions "-DTEXTPLANE_ASSERT(...)=((__VA_ARGS__)?(void)0:__builtin_trap())")
   if(OTHER)
