@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 116 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 814a0fde2f59451f
+// Hash of these files: 199b3f4c48a4b0f0
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 814a0fde2f59451f"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 199b3f4c48a4b0f0"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -15069,6 +15069,11 @@ inline int scale_shift(double host_area, double target_area, int limit = 1) noex
   return octaves > limit ? limit : octaves < -limit ? -limit : static_cast<int>(octaves);
 }
 
+namespace detail {
+// E of a sum of squares: what rounding adds does not lead out of [0, 4].
+inline double range_error(double sum) noexcept { return sum < 0.0 ? 0.0 : sum > 4.0 ? 4.0 : sum; }
+}  // namespace detail
+
 /// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P), and
 /// the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless is_ok(status).
 template <int P>
@@ -15079,7 +15084,7 @@ struct NormalEquations {
   Eigen::Matrix<double, P, 1> b;
   double cost = 0.0;   ///< Sum of rho(N r^2) / N.
   double error = 0.0;  ///< E = sum of r^2, in [0, 4].
-  double zncc = 0.0;   ///< 1 - E / 2.
+  double zncc = 0.0;   ///< 1 - E / 2, in [-1, 1].
   int visible = 0;     ///< N.
   double mean = 0.0;   ///< Of the target intensities of the visible pixels.
   double s = 0.0;      ///< ||I - mean|| of the same.
@@ -15100,7 +15105,7 @@ struct NormalEquations {
 struct PhotometricCost {
   double cost = 0.0;   ///< Sum of rho(N r^2) / N over the visible pixels, plus the charge for the lost ones.
   double error = 0.0;  ///< E = sum of r^2 over the visible pixels, in [0, 4].
-  double zncc = 0.0;   ///< 1 - E / 2.
+  double zncc = 0.0;   ///< 1 - E / 2, in [-1, 1].
   int visible = 0;     ///< N.
   int lost = 0;        ///< Pixels of the given set that are not visible now.
   /// Whether the cost can be used.
@@ -15571,8 +15576,8 @@ NormalEquations<P> linearise_by(LinearisePolicy policy, const BasicPhotometricIn
     return out;
   }
   out.cost = sum.cost;
-  out.error = sum.error;
-  out.zncc = 1.0 - 0.5 * sum.error;
+  out.error = detail::range_error(sum.error);
+  out.zncc = 1.0 - 0.5 * out.error;
   out.visible = seen.visible;
   out.mean = stats.mean;
   out.s = stats.s;
@@ -15755,8 +15760,8 @@ void take_info(const simd::ResidualInfo& info, int min_visible, NormalEquations<
   out->status = kernel_status(info, min_visible);
   if (!is_ok(out->status)) return;
   out->cost = info.cost;
-  out->error = info.error;
-  out->zncc = 1.0 - 0.5 * info.error;
+  out->error = range_error(info.error);
+  out->zncc = 1.0 - 0.5 * out->error;
   out->visible = info.visible;
   out->mean = info.mean;
   out->s = info.s;
@@ -15795,8 +15800,8 @@ inline bool kernel_evaluate(const PhotometricInput& in, const Vector3<double>& t
   if (!is_ok(out->status)) return true;
   if (!is_finite(info.cost) || !is_finite(info.error)) return false;
   out->cost = info.cost + options.robust.rho(2.0) * out->lost / info.candidates;
-  out->error = info.error;
-  out->zncc = 1.0 - 0.5 * info.error;
+  out->error = range_error(info.error);
+  out->zncc = 1.0 - 0.5 * out->error;
   return true;
 }
 
@@ -15831,8 +15836,8 @@ NormalEquations<P> linearise(const BasicPhotometricInput<T>& in, const Vector3<d
     return out;
   }
   out.cost = sum.cost;
-  out.error = sum.error;
-  out.zncc = 1.0 - 0.5 * sum.error;
+  out.error = detail::range_error(sum.error);
+  out.zncc = 1.0 - 0.5 * out.error;
   out.visible = seen.visible;
   out.mean = stats.mean;
   out.s = stats.s;
@@ -15965,8 +15970,8 @@ PhotometricCost evaluate(const BasicPhotometricInput<T>& input, const Vector3<do
   if (!is_ok(out.status)) return out;
   const detail::WeightedCost sum = detail::weigh(seen.visible, options.robust, workspace);
   out.cost = sum.cost + options.robust.rho(2.0) * out.lost / seen.candidates;
-  out.error = sum.error;
-  out.zncc = 1.0 - 0.5 * sum.error;
+  out.error = detail::range_error(sum.error);
+  out.zncc = 1.0 - 0.5 * out.error;
   return out;
 }
 
@@ -20286,7 +20291,8 @@ TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
     }
     simd::ResidualInfo info = simd::ResidualInfo();
     template_any(*z.model, a, z.values, false, &info, nullptr, nullptr);
-    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(1.0 - 0.5 * info.error)
+    const double half = 0.5 * info.error;  // in [0, 2] but for rounding
+    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(half < 0.0 ? 1.0 : half > 2.0 ? -1.0 : 1.0 - half)
                 : info.status == Status::no_contrast || info.status == Status::too_few ? -1.0F
                                                      : simd::kZnccUnknown;
   }
@@ -20318,7 +20324,8 @@ TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
     }
     simd::ResidualInfo info = simd::ResidualInfo();
     template_any(*z.model, a, z.values, false, &info, nullptr, nullptr);
-    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(1.0 - 0.5 * info.error)
+    const double half = 0.5 * info.error;
+    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(half < 0.0 ? 1.0 : half > 2.0 ? -1.0 : 1.0 - half)
                 : info.status == Status::no_contrast || info.status == Status::too_few ? -1.0F
                                                      : simd::kZnccUnknown;
   }
@@ -20356,7 +20363,8 @@ TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
     }
     simd::ResidualInfo info = simd::ResidualInfo();
     template_any(*z.model, a, z.values, false, &info, nullptr, nullptr);
-    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(1.0 - 0.5 * info.error)
+    const double half = 0.5 * info.error;
+    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(half < 0.0 ? 1.0 : half > 2.0 ? -1.0 : 1.0 - half)
                 : info.status == Status::no_contrast || info.status == Status::too_few ? -1.0F
                                                      : simd::kZnccUnknown;
   }
@@ -20401,7 +20409,8 @@ TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
     }
     simd::ResidualInfo info = simd::ResidualInfo();
     template_any(*z.model, a, z.values, false, &info, nullptr, nullptr);
-    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(1.0 - 0.5 * info.error)
+    const double half = 0.5 * info.error;
+    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(half < 0.0 ? 1.0 : half > 2.0 ? -1.0 : 1.0 - half)
                 : info.status == Status::no_contrast || info.status == Status::too_few ? -1.0F
                                                      : simd::kZnccUnknown;
   }
@@ -20433,7 +20442,8 @@ TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
     }
     simd::ResidualInfo info = simd::ResidualInfo();
     template_any(*z.model, a, z.values, false, &info, nullptr, nullptr);
-    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(1.0 - 0.5 * info.error)
+    const double half = 0.5 * info.error;
+    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(half < 0.0 ? 1.0 : half > 2.0 ? -1.0 : 1.0 - half)
                 : info.status == Status::no_contrast || info.status == Status::too_few ? -1.0F
                                                      : simd::kZnccUnknown;
   }
@@ -23574,7 +23584,8 @@ class TextBatch {
 
  private:
   static bool usable(const PatchView& patch, int i) noexcept {
-    return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) && is_finite(patch.intensity[i]);
+    return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) &&
+           is_finite(patch.intensity[i]);
   }
 
   // Floats that a group needs.
@@ -23670,7 +23681,7 @@ class TextBatchResult {
   /// Robust cost of object i.
   double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
   /// E of object i: sum of r^2 over its visible pixels, in [0, 4].
-  double error(int i) const noexcept { return tail(i, simd::BatchEntry::error); }
+  double error(int i) const noexcept { return detail::range_error(tail(i, simd::BatchEntry::error)); }
   /// ZNCC of object i, 0 unless its status is ok.
   double zncc(int i) const noexcept { return is_ok(status(i)) ? 1.0 - 0.5 * error(i) : 0.0; }
   /// Visible pixels of object i.
@@ -23726,8 +23737,8 @@ class TextBatchResult {
 /// then all statuses are that: null poses, a target below 2 x 2, a camera that is not valid(), robust costs other than l2 and
 /// Huber, other bad options, a result without room.
 template <int P>
-Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera, const SE3d* T_t_h,
-                      const PhotometricOptions& options, TextBatchResult& result) noexcept {
+Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
+                      const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
   static_assert(P == 0 || P == 6 || P == 9, "costs, pose, or pose and theta");
   if (!result.fits(batch)) return Status::invalid_argument;
   simd::BatchArgs args;
@@ -23741,7 +23752,10 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() || !robust ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
-    std::fill_n(args.out, simd::kBatchLanes * simd::batch_entries(P) * ((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes), 0.0F);
+    std::fill_n(
+        args.out,
+        simd::kBatchLanes * simd::batch_entries(P) * ((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes),
+        0.0F);
     return Status::invalid_argument;
   }
   if (batch.size() == 0) return Status::ok;

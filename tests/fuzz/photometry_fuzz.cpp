@@ -94,8 +94,7 @@ bool sound(const tp::NormalEquations<P>& e) {
     for (int j = 0; j < P; ++j)
       if (!tp::is_finite(e.H(i, j))) return false;
   }
-  return e.cost >= 0 && tp::is_finite(e.cost) && e.error >= -1e-9 && e.error <= 4 + 1e-6 && e.zncc >= -1 - 1e-6 &&
-         e.zncc <= 1 + 1e-6;
+  return e.cost >= 0 && tp::is_finite(e.cost) && e.error >= 0 && e.error <= 4 && e.zncc >= -1 && e.zncc <= 1;
 }
 
 template <int P>

@@ -126,8 +126,8 @@ NormalEquations<P> linearise_by(LinearisePolicy policy, const BasicPhotometricIn
     return out;
   }
   out.cost = sum.cost;
-  out.error = sum.error;
-  out.zncc = 1.0 - 0.5 * sum.error;
+  out.error = detail::range_error(sum.error);
+  out.zncc = 1.0 - 0.5 * out.error;
   out.visible = seen.visible;
   out.mean = stats.mean;
   out.s = stats.s;

@@ -54,8 +54,8 @@ NormalEquations<P> linearise(const BasicPhotometricInput<T>& in, const Vector3<d
     return out;
   }
   out.cost = sum.cost;
-  out.error = sum.error;
-  out.zncc = 1.0 - 0.5 * sum.error;
+  out.error = detail::range_error(sum.error);
+  out.zncc = 1.0 - 0.5 * out.error;
   out.visible = seen.visible;
   out.mean = stats.mean;
   out.s = stats.s;
@@ -188,8 +188,8 @@ PhotometricCost evaluate(const BasicPhotometricInput<T>& input, const Vector3<do
   if (!is_ok(out.status)) return out;
   const detail::WeightedCost sum = detail::weigh(seen.visible, options.robust, workspace);
   out.cost = sum.cost + options.robust.rho(2.0) * out.lost / seen.candidates;
-  out.error = sum.error;
-  out.zncc = 1.0 - 0.5 * sum.error;
+  out.error = detail::range_error(sum.error);
+  out.zncc = 1.0 - 0.5 * out.error;
   return out;
 }
 

@@ -82,8 +82,8 @@ void take_info(const simd::ResidualInfo& info, int min_visible, NormalEquations<
   out->status = kernel_status(info, min_visible);
   if (!is_ok(out->status)) return;
   out->cost = info.cost;
-  out->error = info.error;
-  out->zncc = 1.0 - 0.5 * info.error;
+  out->error = range_error(info.error);
+  out->zncc = 1.0 - 0.5 * out->error;
   out->visible = info.visible;
   out->mean = info.mean;
   out->s = info.s;
@@ -122,8 +122,8 @@ inline bool kernel_evaluate(const PhotometricInput& in, const Vector3<double>& t
   if (!is_ok(out->status)) return true;
   if (!is_finite(info.cost) || !is_finite(info.error)) return false;
   out->cost = info.cost + options.robust.rho(2.0) * out->lost / info.candidates;
-  out->error = info.error;
-  out->zncc = 1.0 - 0.5 * info.error;
+  out->error = range_error(info.error);
+  out->zncc = 1.0 - 0.5 * out->error;
   return true;
 }
 

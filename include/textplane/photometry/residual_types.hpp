@@ -102,6 +102,11 @@ inline int scale_shift(double host_area, double target_area, int limit = 1) noex
   return octaves > limit ? limit : octaves < -limit ? -limit : static_cast<int>(octaves);
 }
 
+namespace detail {
+// E of a sum of squares: what rounding adds does not lead out of [0, 4].
+inline double range_error(double sum) noexcept { return sum < 0.0 ? 0.0 : sum > 4.0 ? 4.0 : sum; }
+}  // namespace detail
+
 /// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P), and
 /// the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless is_ok(status).
 template <int P>
@@ -112,7 +117,7 @@ struct NormalEquations {
   Eigen::Matrix<double, P, 1> b;
   double cost = 0.0;   ///< Sum of rho(N r^2) / N.
   double error = 0.0;  ///< E = sum of r^2, in [0, 4].
-  double zncc = 0.0;   ///< 1 - E / 2.
+  double zncc = 0.0;   ///< 1 - E / 2, in [-1, 1].
   int visible = 0;     ///< N.
   double mean = 0.0;   ///< Of the target intensities of the visible pixels.
   double s = 0.0;      ///< ||I - mean|| of the same.
@@ -133,7 +138,7 @@ struct NormalEquations {
 struct PhotometricCost {
   double cost = 0.0;   ///< Sum of rho(N r^2) / N over the visible pixels, plus the charge for the lost ones.
   double error = 0.0;  ///< E = sum of r^2 over the visible pixels, in [0, 4].
-  double zncc = 0.0;   ///< 1 - E / 2.
+  double zncc = 0.0;   ///< 1 - E / 2, in [-1, 1].
   int visible = 0;     ///< N.
   int lost = 0;        ///< Pixels of the given set that are not visible now.
   /// Whether the cost can be used.

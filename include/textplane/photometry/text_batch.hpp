@@ -77,7 +77,8 @@ class TextBatch {
 
  private:
   static bool usable(const PatchView& patch, int i) noexcept {
-    return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) && is_finite(patch.intensity[i]);
+    return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) &&
+           is_finite(patch.intensity[i]);
   }
 
   // Floats that a group needs.
@@ -173,7 +174,7 @@ class TextBatchResult {
   /// Robust cost of object i.
   double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
   /// E of object i: sum of r^2 over its visible pixels, in [0, 4].
-  double error(int i) const noexcept { return tail(i, simd::BatchEntry::error); }
+  double error(int i) const noexcept { return detail::range_error(tail(i, simd::BatchEntry::error)); }
   /// ZNCC of object i, 0 unless its status is ok.
   double zncc(int i) const noexcept { return is_ok(status(i)) ? 1.0 - 0.5 * error(i) : 0.0; }
   /// Visible pixels of object i.
@@ -229,8 +230,8 @@ class TextBatchResult {
 /// then all statuses are that: null poses, a target below 2 x 2, a camera that is not valid(), robust costs other than l2 and
 /// Huber, other bad options, a result without room.
 template <int P>
-Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera, const SE3d* T_t_h,
-                      const PhotometricOptions& options, TextBatchResult& result) noexcept {
+Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
+                      const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
   static_assert(P == 0 || P == 6 || P == 9, "costs, pose, or pose and theta");
   if (!result.fits(batch)) return Status::invalid_argument;
   simd::BatchArgs args;
@@ -244,7 +245,10 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() || !robust ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
-    std::fill_n(args.out, simd::kBatchLanes * simd::batch_entries(P) * ((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes), 0.0F);
+    std::fill_n(
+        args.out,
+        simd::kBatchLanes * simd::batch_entries(P) * ((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes),
+        0.0F);
     return Status::invalid_argument;
   }
   if (batch.size() == 0) return Status::ok;
