@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 116 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 199b3f4c48a4b0f0
+// Hash of these files: 20033c04f5afe9cd
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 199b3f4c48a4b0f0"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 20033c04f5afe9cd"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -1377,7 +1377,9 @@ PlaneFit<S> plane_from_points(const Vector3<S>* p, int n,
   }
   if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::behind_camera);
   const Vector3<W> normal = e.vectors.col(0);
-  const Vector3<W> theta = normal / normal.dot(centre);
+  const W distance = normal.dot(centre);
+  if (distance == W(0)) return detail::with_status(fit, Status::behind_camera);
+  const Vector3<W> theta = normal / distance;
   if (!all_finite(theta)) return detail::with_status(fit, Status::behind_camera);
   W chi2 = W(0);
   for (int i = 0; i < n; ++i) {
@@ -28174,11 +28176,14 @@ enum class Weighting {
              ///< chi-square.
 };
 
+/// Whether a standard deviation is finite and in [1e-50, 1e50], so that its square, its inverse and the ratio of two are numbers.
+inline bool valid_sigma(double sigma) noexcept { return is_finite(sigma) && sigma >= 1e-50 && sigma <= 1e50; }
+
 /// lambda_w of an observation with `visible` pixels. `sigma_rep`: standard deviation of a reprojection error whose own
-/// sigma is 1, px. `sigma_photo`: standard deviation of a pixel's residual, in units of 1/sqrt(N). Zero for arguments
-/// that are not positive.
+/// sigma is 1, px. `sigma_photo`: standard deviation of a pixel's residual, in units of 1/sqrt(N). Zero for deviations
+/// that are not valid_sigma(), and without pixels.
 inline double text_weight(Weighting weighting, double sigma_rep, double sigma_photo, int visible) noexcept {
-  if (!(sigma_rep > 0) || !(sigma_photo > 0) || visible <= 0) return 0;
+  if (!valid_sigma(sigma_rep) || !valid_sigma(sigma_photo) || visible <= 0) return 0;
   const double ratio = sigma_rep / sigma_photo;
   return weighting == Weighting::paper ? ratio : ratio * ratio * visible;
 }
@@ -28206,7 +28211,7 @@ struct PosePointTerm {
   /// In the world.
   Vector3<double> p_w = Vector3<double>::Zero();
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
-  double sigma = 1;                              ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep.
+  double sigma = 1;                              ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
 };
 
 /// Settings of refine_pose() and align_pose().
@@ -28307,7 +28312,7 @@ inline bool reproject(const PosePointTerm& term, const SE3d& T_t_w, const Pinhol
   const double z = (*p)[2];
   if (!(z > 0) || !(z * z > 1e-6 * p->squaredNorm())) return false;
   *e = camera.project(*p) - term.px;
-  return is_finite((*e)[0]) && is_finite((*e)[1]) && term.sigma > 0 && is_finite(term.sigma);
+  return is_finite((*e)[0]) && is_finite((*e)[1]) && valid_sigma(term.sigma);
 }
 
 template <class View>
@@ -28513,8 +28518,8 @@ namespace detail {
 constexpr double kChiSquare95TwoDof = 5.991464547107979;
 
 inline bool valid(const PoseOptions& o) noexcept {
-  return o.photometric.valid() && o.point_robust.valid() && is_finite(o.sigma_photo) && is_finite(o.sigma_rep) &&
-         o.sigma_photo > 0 && o.sigma_rep > 0 && o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
+  return o.photometric.valid() && o.point_robust.valid() && valid_sigma(o.sigma_photo) && valid_sigma(o.sigma_rep) &&
+         o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
          (o.weighting == Weighting::paper || o.weighting == Weighting::variance) &&
          o.policy <= LinearisePolicy::automatic && valid(o.solve);
 }
@@ -29161,7 +29166,7 @@ struct WindowPointObservation {
   /// Index into Window::points.
   int point = -1;
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
-  double sigma = 1;  ///< Standard deviation, px (1.2^octave or 2^level for points from coarser levels).
+  double sigma = 1;  ///< Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
 
   /// Out: |e|^2 / sigma^2 at the final state, without the robust function, for observations that were left out too.
   /// The largest double where there is no projection.
@@ -29399,7 +29404,7 @@ class WindowStructure {
     for (double x : {o.sigma_rep, o.sigma_photo, o.initial_lambda, o.max_lambda, o.min_depth, o.cost_tolerance,
                      o.step_tolerance, o.max_lost_fraction})
       if (!is_finite(x)) return Status::non_finite;
-    if (!o.point_robust.valid() || !(o.sigma_rep > 0) || !(o.sigma_photo > 0) || !(o.initial_lambda > 0) ||
+    if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) || !(o.initial_lambda > 0) ||
         !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 || o.text_level < 0 ||
         o.text_level >= kMaxPyramidLevels)
       return Status::invalid_argument;
@@ -29910,7 +29915,7 @@ class BasicWindowTerms {
       k.chi2 = 0;
       if (!all_finite(k.px) || !is_finite(k.sigma))
         k.status = Status::non_finite;
-      else if (!(k.sigma > 0))
+      else if (!valid_sigma(k.sigma))
         k.status = Status::invalid_argument;
       else if (at(w.points, k.point).status != Status::ok)
         k.status = Status::too_few;

@@ -8,7 +8,9 @@
 
 namespace weighting_test {
 
+using textplane::is_finite;
 using textplane::text_weight;
+using textplane::valid_sigma;
 using textplane::Weighting;
 
 TEST(TextWeight, PaperIsThePrintedRatio) {
@@ -32,6 +34,19 @@ TEST(TextWeight, ZeroForWhatIsNotPositive) {
     EXPECT_EQ(text_weight(weighting, 1.0, -0.3, 40), 0.0);
     EXPECT_EQ(text_weight(weighting, 1.0, nan, 40), 0.0);
     EXPECT_EQ(text_weight(weighting, 1.0, 0.3, 0), 0.0);
+  }
+}
+
+TEST(ValidSigma, ItsSquareAndTheSquaresInverseAreNumbers) {
+  for (const double sigma : {1e-50, 1.0, 1e50}) {
+    EXPECT_TRUE(valid_sigma(sigma));
+    EXPECT_TRUE(is_finite(1 / (sigma * sigma)));
+    EXPECT_TRUE(is_finite(text_weight(Weighting::variance, sigma, 1e-50, 100)));
+  }
+  for (const double sigma : {0.0, -1.0, 1e-300, 1e300, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE(valid_sigma(sigma));
+    EXPECT_EQ(text_weight(Weighting::variance, sigma, 1, 100), 0);
+    EXPECT_EQ(text_weight(Weighting::variance, 1, sigma, 100), 0);
   }
 }
 

@@ -286,7 +286,9 @@ PlaneFit<S> plane_from_points(const Vector3<S>* p, int n,
   }
   if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::behind_camera);
   const Vector3<W> normal = e.vectors.col(0);
-  const Vector3<W> theta = normal / normal.dot(centre);
+  const W distance = normal.dot(centre);
+  if (distance == W(0)) return detail::with_status(fit, Status::behind_camera);
+  const Vector3<W> theta = normal / distance;
   if (!all_finite(theta)) return detail::with_status(fit, Status::behind_camera);
   W chi2 = W(0);
   for (int i = 0; i < n; ++i) {

@@ -49,8 +49,8 @@ namespace detail {
 constexpr double kChiSquare95TwoDof = 5.991464547107979;
 
 inline bool valid(const PoseOptions& o) noexcept {
-  return o.photometric.valid() && o.point_robust.valid() && is_finite(o.sigma_photo) && is_finite(o.sigma_rep) &&
-         o.sigma_photo > 0 && o.sigma_rep > 0 && o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
+  return o.photometric.valid() && o.point_robust.valid() && valid_sigma(o.sigma_photo) && valid_sigma(o.sigma_rep) &&
+         o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
          (o.weighting == Weighting::paper || o.weighting == Weighting::variance) &&
          o.policy <= LinearisePolicy::automatic && valid(o.solve);
 }

@@ -39,7 +39,7 @@ struct PosePointTerm {
   /// In the world.
   Vector3<double> p_w = Vector3<double>::Zero();
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
-  double sigma = 1;                              ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep.
+  double sigma = 1;                              ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
 };
 
 /// Settings of refine_pose() and align_pose().
@@ -140,7 +140,7 @@ inline bool reproject(const PosePointTerm& term, const SE3d& T_t_w, const Pinhol
   const double z = (*p)[2];
   if (!(z > 0) || !(z * z > 1e-6 * p->squaredNorm())) return false;
   *e = camera.project(*p) - term.px;
-  return is_finite((*e)[0]) && is_finite((*e)[1]) && term.sigma > 0 && is_finite(term.sigma);
+  return is_finite((*e)[0]) && is_finite((*e)[1]) && valid_sigma(term.sigma);
 }
 
 template <class View>

@@ -6,6 +6,7 @@
 #define TEXTPLANE_SOLVER_WEIGHTING_HPP
 
 #include "textplane/config.hpp"
+#include "textplane/core/numeric.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -16,11 +17,14 @@ enum class Weighting {
              ///< chi-square.
 };
 
+/// Whether a standard deviation is finite and in [1e-50, 1e50], so that its square, its inverse and the ratio of two are numbers.
+inline bool valid_sigma(double sigma) noexcept { return is_finite(sigma) && sigma >= 1e-50 && sigma <= 1e50; }
+
 /// lambda_w of an observation with `visible` pixels. `sigma_rep`: standard deviation of a reprojection error whose own
-/// sigma is 1, px. `sigma_photo`: standard deviation of a pixel's residual, in units of 1/sqrt(N). Zero for arguments
-/// that are not positive.
+/// sigma is 1, px. `sigma_photo`: standard deviation of a pixel's residual, in units of 1/sqrt(N). Zero for deviations
+/// that are not valid_sigma(), and without pixels.
 inline double text_weight(Weighting weighting, double sigma_rep, double sigma_photo, int visible) noexcept {
-  if (!(sigma_rep > 0) || !(sigma_photo > 0) || visible <= 0) return 0;
+  if (!valid_sigma(sigma_rep) || !valid_sigma(sigma_photo) || visible <= 0) return 0;
   const double ratio = sigma_rep / sigma_photo;
   return weighting == Weighting::paper ? ratio : ratio * ratio * visible;
 }

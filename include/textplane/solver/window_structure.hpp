@@ -51,7 +51,7 @@ class WindowStructure {
     for (double x : {o.sigma_rep, o.sigma_photo, o.initial_lambda, o.max_lambda, o.min_depth, o.cost_tolerance,
                      o.step_tolerance, o.max_lost_fraction})
       if (!is_finite(x)) return Status::non_finite;
-    if (!o.point_robust.valid() || !(o.sigma_rep > 0) || !(o.sigma_photo > 0) || !(o.initial_lambda > 0) ||
+    if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) || !(o.initial_lambda > 0) ||
         !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 || o.text_level < 0 ||
         o.text_level >= kMaxPyramidLevels)
       return Status::invalid_argument;

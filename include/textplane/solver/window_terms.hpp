@@ -35,7 +35,7 @@ class BasicWindowTerms {
       k.chi2 = 0;
       if (!all_finite(k.px) || !is_finite(k.sigma))
         k.status = Status::non_finite;
-      else if (!(k.sigma > 0))
+      else if (!valid_sigma(k.sigma))
         k.status = Status::invalid_argument;
       else if (at(w.points, k.point).status != Status::ok)
         k.status = Status::too_few;
