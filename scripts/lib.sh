@@ -9,10 +9,11 @@ if [ -z "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] && command -v ccache >/dev/null 2>&
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
 
-# Debian and Ubuntu package names. "a|b": either will do, a is the one that gets installed.
+# Debian and Ubuntu package names. "a|b": either will do, a is the one that gets installed. Both packages of fonts, as a rendered
+# room has the faces that it finds on its signs: tests and measurements are of rooms with all four.
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
-  nlohmann-json3-dev libyaml-cpp-dev fonts-dejavu-core"
+  nlohmann-json3-dev libyaml-cpp-dev fonts-dejavu-core fonts-dejavu-extra"
 packages_test="$packages_demo libgtest-dev"
 packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen"
