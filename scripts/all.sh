@@ -80,8 +80,7 @@ all_stages() {
   if needs cppcheck cppcheck; then checked cppcheck cpp_check; fi
   if needs coverage gcovr; then
     stage coverage "$library_only" "$library_filter" "$library_tests"
-    only="$only${only:+ coverage-of-include}"
-    checked coverage-of-include coverage
+    checked coverage coverage
   fi
   checked mutants "$root/tests/mutants/run"
   if needs fuzz-fast clang++; then checked fuzz-fast "$root/tests/fuzz/run" --fast --seconds "$fuzz_seconds"; fi

@@ -56,36 +56,19 @@ double product_error(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const E
   return (a * b - c).norm();
 }
 
-template <class S, int Rows, int Cols>
-Eigen::Matrix<S, Rows, Cols> as(const Eigen::MatrixXd& m) {
-  Eigen::Matrix<S, Rows, Cols> out;
-  for (int i = 0; i < Rows * Cols; ++i)
-    out(i / Cols, i % Cols) =
-        S(static_cast<std::conditional_t<std::is_same_v<S, float>, float, double>>(m(i / Cols, i % Cols)));
-  return out;
-}
-
-template <class S, int Rows, int Cols>
-Eigen::MatrixXd any_size(const Eigen::Matrix<S, Rows, Cols>& m) {
-  Eigen::MatrixXd out(Rows, Cols);
-  for (int i = 0; i < Rows * Cols; ++i) out(i / Cols, i % Cols) = value(m(i / Cols, i % Cols));
-  return out;
-}
-
 template <class S, int N>
 void check_ldlt(Random& random) {
   for (int repeat = 0; repeat < 20; ++repeat) {
     const Eigen::MatrixXd full = definite_matrix(random, N);
-    Eigen::Matrix<S, N, N> a = as<S, N, N>(full);
+    Eigen::Matrix<S, N, N> a = full.cast<S>();
     // What lies above the diagonal is never read.
     for (int i = 0; i < N; ++i)
       for (int j = i + 1; j < N; ++j) a(i, j) = S(1e30);
     const tp::Ldlt<S, N> ldlt(a);
     ASSERT_TRUE(ldlt.ok());
     const Eigen::MatrixXd b = random_matrix(random, N).col(0);
-    EXPECT_LT(product_error(full, any_size<S, N, 1>(ldlt.solve(as<S, N, 1>(b))), b), tolerance<S>(1e-4, 1e-12)) << N;
-    EXPECT_LT(product_error(full, any_size<S, N, N>(ldlt.inverse()), Eigen::MatrixXd::Identity(N, N)),
-              tolerance<S>(1e-4, 1e-12))
+    EXPECT_LT(product_error(full, values(ldlt.solve(b.cast<S>())), b), tolerance<S>(1e-4, 1e-12)) << N;
+    EXPECT_LT(product_error(full, values(ldlt.inverse()), Eigen::MatrixXd::Identity(N, N)), tolerance<S>(1e-4, 1e-12))
         << N;
   }
 }
@@ -145,8 +128,8 @@ TEST(LdltTest, DualsThroughSolve) {
 
 template <class S, int N>
 void check_eigen(const Eigen::MatrixXd& a) {
-  const auto e = tp::symmetric_eigen<S, N>(as<S, N, N>(a));
-  const Eigen::MatrixXd vectors = any_size<S, N, N>(e.vectors), eigenvalues = any_size<S, N, 1>(e.values);
+  const auto e = tp::symmetric_eigen<S, N>(a.cast<S>());
+  const Eigen::MatrixXd vectors = values(e.vectors), eigenvalues = values(e.values);
   const double scale = 1e-250 + a.norm(), bound = tolerance<S>(2e-6, 1e-14);
   EXPECT_LT(product_error(vectors.transpose(), vectors, Eigen::MatrixXd::Identity(N, N)), N * bound);
   EXPECT_LT(product_error(vectors * eigenvalues.col(0).asDiagonal(), vectors.transpose(), a), N * bound * scale);
