@@ -9,6 +9,7 @@
 #ifndef TEXTSLAM_REPORT_HPP
 #define TEXTSLAM_REPORT_HPP
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,11 @@ struct ReportInput {
   const Parameters& parameters;
   const Sequence& sequence;
   const RunSummary& summary;
-  const std::vector<TrueSign>& signs;                     ///< Empty where they are not known.
-  const std::vector<std::vector<Detection>>& detections;  ///< Of each frame processed, undistorted px.
-  ImageSource image;                                      ///< Called once for each picture.
-  const std::vector<std::string>& command;                ///< The command line, the program's name first.
-  int first = 0;                                          ///< Index in the sequence of the first frame.
+  const std::vector<TrueSign>& signs;                       ///< Empty where they are not known.
+  const std::map<int, std::vector<Detection>>& detections;  ///< By the frames that may be shown; undistorted px.
+  ImageSource image;                                        ///< Called once for each picture.
+  const std::vector<std::string>& command;                  ///< The command line, the program's name first.
+  int first = 0;                                            ///< Index in the sequence of the first frame.
 };
 
 /// The page. Throws what `image` throws.

@@ -97,17 +97,18 @@ std::vector<SeenPoint> points_of(const System& system, std::size_t index) {
 }
 
 Json frames_json(const System& system, const Parameters& parameters,
-                 const std::vector<std::vector<Detection>>& detections, const ImageSource& image) {
+                 const std::map<int, std::vector<Detection>>& detections, const ImageSource& image) {
   const Map& map = system.map();
-  std::vector<int> all;
-  for (std::size_t i = 0; i < system.records().size(); ++i) all.push_back(static_cast<int>(i));
+  std::vector<int> processed;
+  for (const auto& entry : detections)
+    if (entry.first < static_cast<int>(system.records().size())) processed.push_back(entry.first);
   Json frames = Json::array();
-  for (const int index : spread(all, kReportFrames)) {
+  for (const int index : spread(processed, kReportFrames)) {
     const auto i = static_cast<std::size_t>(index);
     const FrameRecord& record = system.records()[i];
     const std::shared_ptr<const Pyramid> pyramid = image(index);
     Json found = Json::array(), points = Json::array(), texts = Json::array();
-    for (const Detection& detection : detections[i])
+    for (const Detection& detection : detections.at(index))
       found.push_back({{"quad", short_quad(detection.quad)}, {"text", detection.text}});
     for (const SeenPoint& seen : points_of(system, i))
       for (const float value : {seen.px.x(), seen.px.y()}) points.push_back(std::lround(value));

@@ -3,6 +3,7 @@
 #define TEXTSLAM_REPORT_FRAMES_HPP
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,9 +30,10 @@ std::string frame_jpeg(const Pyramid& image);
 std::string text_jpeg(const Map& map, const TextObject& text);
 
 /// The frames shown, [{"frame", "image", "detections":[{"quad","text"}], "points":[x,y,...], "texts":[{"id","quad","zncc"}]}]:
-/// px of the whole image, the texts of the final map under the frame's final pose. `detections`: of each frame processed.
+/// px of the whole image, the texts of the final map under the frame's final pose. `detections`: by the
+/// frames that may be shown; of these, those that were processed are.
 Json frames_json(const System& system, const Parameters& parameters,
-                 const std::vector<std::vector<Detection>>& detections, const ImageSource& image);
+                 const std::map<int, std::vector<Detection>>& detections, const ImageSource& image);
 
 /// Map points that the pose of a frame rests on, with where they were seen.
 std::vector<SeenPoint> points_of(const System& system, std::size_t index);

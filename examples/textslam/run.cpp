@@ -13,7 +13,9 @@
 #include "textslam/frame_line.hpp"
 #include "textslam/progress.hpp"
 #include "textslam/report.hpp"
+#include "textslam/report_frames.hpp"
 #include "textslam/text_detector.hpp"
+#include "textslam/thinned.hpp"
 #include "textslam/undistorter.hpp"
 
 namespace textslam {
@@ -112,16 +114,18 @@ class Detections {
 
   /// Before the frame is processed. Returns the ms it took.
   double before(Frame& frame, const Image<std::uint8_t>& raw, System& system) {
-    of_frames_.emplace_back();
+    of_frames_.add({});
     if (thread_)
       for (DetectionThread::Result& result : thread_->collect()) {
-        of_frames_[static_cast<std::size_t>(result.frame)] = result.detections;
+        remember(result.frame, result.detections);
         system.add_detections(result.frame, std::move(result.detections), result.ms);
       }
     if (!in_step_) return 0;
     const double start = now_ms();
-    frame.detections = of_frames_.back() = source_.detect(frame.index, raw);
-    return now_ms() - start;
+    frame.detections = source_.detect(frame.index, raw);
+    const double ms = now_ms() - start;
+    remember(frame.index, frame.detections);
+    return ms;
   }
   void after(int index, const RawImage& raw, const Map& map) {
     if (!thread_) return;
@@ -129,13 +133,17 @@ class Detections {
     thread_->offer(index, raw, keyframe);
   }
   void end() { thread_.reset(); }
-  /// By the index of the frame.
-  const std::vector<std::vector<Detection>>& of_frames() const { return of_frames_; }
+  /// By the index of the frame, of as many as a report can show.
+  const std::map<int, std::vector<Detection>>& of_frames() const { return of_frames_.kept(); }
 
  private:
+  void remember(int frame, const std::vector<Detection>& detections) {
+    if (std::vector<Detection>* kept = of_frames_.find(frame)) *kept = detections;
+  }
+
   FrameSource& source_;
   bool in_step_ = false;
-  std::vector<std::vector<Detection>> of_frames_;
+  Thinned<std::vector<Detection>> of_frames_{2 * kReportFrames};
   std::unique_ptr<DetectionThread> thread_;
 };
 

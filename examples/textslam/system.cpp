@@ -26,8 +26,7 @@ System::System(const Pinhole<double>& camera, int width, int height, const Param
 }
 
 const FrameRecord& System::process(const Frame& frame, double detect_ms) {
-  records_.emplace_back();
-  FrameRecord& record = records_.back();
+  FrameRecord& record = records_.emplace_back();
   record.timestamp = frame.timestamp;
   record.detect_ms = detect_ms;
   const double start = now_ms();
@@ -180,8 +179,9 @@ void System::cull_keyframes() {
     const KeyFrame& keyframe = map_.keyframe(id);
     const int before = keyframe_before(map_, id);
     const SE3d T_before_id = map_.keyframe(before).T_w_c.inverse() * keyframe.T_w_c;
-    records_[static_cast<std::size_t>(keyframe.frame.index)].seen =
-        seen_by_keyframe(map_, id, static_cast<std::size_t>(parameters_.refit_max_points));
+    const auto frame = static_cast<std::size_t>(keyframe.frame.index);
+    if (records_.size() - frame <= static_cast<std::size_t>(parameters_.refit_frames))
+      records_[frame].seen = seen_by_keyframe(map_, id, static_cast<std::size_t>(parameters_.refit_max_points));
     for (FrameRecord& record : records_) {
       if (record.map != map_.number || record.keyframe != id) continue;
       record.keyframe = before;

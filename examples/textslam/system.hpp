@@ -12,6 +12,7 @@
 #ifndef TEXTSLAM_SYSTEM_HPP
 #define TEXTSLAM_SYSTEM_HPP
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -85,7 +86,7 @@ class System {
   const Map& map() const { return map_; }
   /// Frames tracked in each map, those of map() first, then by size.
   std::vector<std::size_t> map_frames() const;
-  const std::vector<FrameRecord>& records() const { return records_; }
+  const std::deque<FrameRecord>& records() const { return records_; }
   const std::vector<LoopRecord>& loops() const { return loops_; }
   /// Final pose of a tracked frame.
   SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
@@ -128,7 +129,7 @@ class System {
   TextMapper text_mapper_;
   Adjuster adjuster_;
   std::unique_ptr<Tracker> tracker_;  // null until the map begins
-  std::vector<FrameRecord> records_;
+  std::deque<FrameRecord> records_;   // grows without copies of itself
   std::vector<LoopRecord> loops_;
   int last_keyframe_ = -1;        // id of the newest
   int last_keyframe_points_ = 0;  // tracked in it
