@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 116 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 20033c04f5afe9cd
+// Hash of these files: 1f45cc34224ea2aa
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 20033c04f5afe9cd"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 1f45cc34224ea2aa"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -6631,7 +6631,7 @@ struct BlurMatch {
 ///
 /// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1; *out is then
 /// untouched.
-template <class = void>  // instantiated where it is called: including the header costs little
+template <class S = double>  // instantiated where it is called: including the header costs little
 Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
                   BlurMatch* out) noexcept {
   if (!all_finite(A) || !is_finite(host_variance) || !is_finite(target_variance) || !is_finite(spread))
@@ -6639,18 +6639,19 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
   if (!(host_variance >= 0) || !(target_variance >= 0) || !(spread >= 1)) return Status::invalid_argument;
   const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
   if (!(std::abs(det) > 1e-9) || !is_finite(1 / (det * det))) return Status::degenerate;
-  Matrix2d inverse;
+  using Matrix = Eigen::Matrix<S, 2, 2>;
+  Matrix inverse, A_transposed;
   inverse << A(1, 1) / det, -A(0, 1) / det, -A(1, 0) / det, A(0, 0) / det;
-  const Matrix2d transposed = inverse.transpose();
-  const SymmetricEigen<double, 2> seen = symmetric_eigen<double, 2>(product(inverse, transposed));
-  Matrix2d common = Matrix2d::Zero();
+  const Matrix transposed = inverse.transpose();
+  const SymmetricEigen<S, 2> seen = symmetric_eigen<S, 2>(product(inverse, transposed));
+  Matrix common = Matrix::Zero();
   for (int k = 0; k < 2; ++k) {
     const double variance = spread * std::max(host_variance, target_variance * seen.values[k]);
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) common(i, j) += variance * seen.vectors(i, k) * seen.vectors(j, k);
   }
-  const Matrix2d A_transposed = A.transpose();
-  BlurMatch match{common, product(product(A, common), A_transposed)};
+  A_transposed << A(0, 0), A(1, 0), A(0, 1), A(1, 1);
+  BlurMatch match{common, product(product<S>(A, common), A_transposed)};
   for (int i = 0; i < 2; ++i) {
     match.host(i, i) -= host_variance;
     match.target(i, i) -= target_variance;
@@ -6669,9 +6670,11 @@ class BlurKernel {
   static constexpr double kMaxVariance = 9.0;
 
   /// The kernel of a covariance in px^2.
+  template <class S = double>  // instantiated where it is called: including the header costs little
   explicit BlurKernel(const Matrix2d& covariance) noexcept {
-    const SymmetricEigen<double, 2> axes =
-        symmetric_eigen<double, 2>(all_finite(covariance) ? covariance : Matrix2d::Zero());
+    Eigen::Matrix<S, 2, 2> finite = covariance;
+    if (!all_finite(finite)) finite.setZero();
+    const SymmetricEigen<S, 2> axes = symmetric_eigen(finite);
     // The mean over a pixel is a blur, too.
     constexpr double kPixel = 1.0 / 12, kLeast = 1e-3;
     double precision[2];
@@ -6696,7 +6699,8 @@ class BlurKernel {
 
   int index(int x, int y) const noexcept { return (y + radius_) * width() + x + radius_; }
 
-  static double mean(int x, int y, const SymmetricEigen<double, 2>& axes, const double* precision) noexcept {
+  template <class S>
+  static double mean(int x, int y, const SymmetricEigen<S, 2>& axes, const double* precision) noexcept {
     constexpr int kParts = 4;
     double sum = 0;
     for (int j = 0; j < kParts; ++j)
@@ -15321,9 +15325,8 @@ template <int P, class T>
 Collected collect(const BasicPhotometricInput<T>& in, const Vector3<double>& theta, const SE3d& T_t_h,
                   const std::uint8_t* on_set, std::uint8_t* flags, PhotometricWorkspace& workspace) noexcept {
   // Plain locals: the compiler must not fear that a store to the workspace changes them.
-  const Matrix3<double> homography = T_t_h.R + T_t_h.t * theta.transpose();
-  const double H[9] = {homography(0, 0), homography(0, 1), homography(0, 2), homography(1, 0), homography(1, 1),
-                       homography(1, 2), homography(2, 0), homography(2, 1), homography(2, 2)};
+  double H[9];
+  for (int k = 0; k < 9; ++k) H[k] = T_t_h.R(k / 3, k % 3) + T_t_h.t[k / 3] * theta[k % 3];
   const double t[3] = {T_t_h.t[0], T_t_h.t[1], T_t_h.t[2]}, p[3] = {theta[0], theta[1], theta[2]};
   const Pinhole<double> h = in.host_camera, c = in.target_camera;
   const PatchView patch = in.patch;
@@ -25373,7 +25376,8 @@ WarpSummary warp_patch(const ImageView<const S>& source, const Matrix3<double>& 
   if (!is_ok(summary.status)) return summary;
   for (int y = 0; y < out.height(); ++y)
     for (int x = 0; x < out.width(); ++x) {
-      const Vector3<double> q = H * Vector3<double>(x, y, 1.0);
+      double q[3];
+      for (int k = 0; k < 3; ++k) q[k] = H(k, 0) * x + H(k, 1) * y + H(k, 2);
       double value = fill;
       const bool inside = q[2] > 0.0 && sample_bilinear(source, q[0] / q[2], q[1] / q[2], &value);
       out(x, y) = detail::warp_pixel<D>(value);
@@ -26285,19 +26289,20 @@ inline Status extract_upright_template(const ImageView8& image, float x, float y
 
 // Samples at centre + A (i, j), |i|, |j| <= reach, all of which lie inside the image or a hair outside. `out` begins
 // with that of (-reach, -reach), its rows are simd::kKltStride floats apart.
-template <class = void>  // instantiated where it is called: including the header costs little
-void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int reach,
+template <class S = double>  // instantiated where it is called: including the header costs little
+void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A_, int reach,
                    float* out) noexcept {
   const int side = 2 * reach + 1;
-  const Vector2<double> first = centre.cast<double>() - A.cast<double>() * Vector2<double>::Constant(reach);
-  Matrix3<double> H = Matrix3<double>::Identity();
-  H.topLeftCorner<2, 2>() = A.cast<double>();
-  H.topRightCorner<2, 1>() = first;
+  const Eigen::Matrix<S, 2, 2> A = A_.template cast<S>();
+  const Vector2<S> first = centre.template cast<S>() - A * Vector2<S>::Constant(reach);
+  Matrix3<S> H = Matrix3<S>::Identity();
+  H.template topLeftCorner<2, 2>() = A;
+  H.template topRightCorner<2, 1>() = first;
   constexpr std::ptrdiff_t kStride = simd::kKltStride * sizeof(float);
   if (warp_patch(image, H, ImageView<float>(out, side, side, kStride)).inside == side * side) return;
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
-      const Vector2<double> p = first + A.cast<double>() * Vector2<double>(i, j);
+      const Vector2<S> p = first + A * Vector2<S>(i, j);
       const double x = p[0] > 0 ? p[0] : 0, y = p[1] > 0 ? p[1] : 0;  // beyond the far ones the last cell is extended
       double v = 0;
       sample_inside(image, x, y, &v, static_cast<double*>(nullptr), static_cast<double*>(nullptr));
@@ -26356,7 +26361,7 @@ struct KltOptions {
 
 /// A tracked or aligned point. Never holds a NaN.
 struct KltResult {
-  Vector2<float> px = Vector2<float>::Zero();  ///< Level-0 px for track_klt(); the guess where no estimate exists.
+  Vector2<float> px = {0, 0};  ///< Level-0 px for track_klt(); the guess where no estimate exists.
   float zncc = 0;      ///< Correlation of the patch on the finest level, at px to within the last step; 0 if unknown.
   float fb_error = 0;  ///< Forward-backward error, px; 0 where no backward pass was run.
   /// Why it ended.
@@ -27463,7 +27468,7 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
     }
     if (!(options.max_forward_backward > 0.0F)) continue;
     // The way back starts as far from its goal as the way forth did, so that it is a test of its own.
-    const Vector2<float> back_start = result.px - (start - source);
+    const Vector2<float> back_start(result.px[0] - (start[0] - source[0]), result.px[1] - (start[1] - source[1]));
     const detail::Alignment backward = detail::track_one(to, from, result.px, back_start, levels, options);
     const float dx = backward.x - source[0], dy = backward.y - source[1];
     result.fb_error = std::sqrt(dx * dx + dy * dy);
@@ -27546,8 +27551,10 @@ PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
   if (polygon.empty()) return {};
   Bounds<double> b{polygon[0], polygon[0]};
   for (int i = 1; i < polygon.size(); ++i) {
-    b.min = b.min.cwiseMin(polygon[i]);
-    b.max = b.max.cwiseMax(polygon[i]);
+    for (int k = 0; k < 2; ++k) {
+      b.min[k] = std::min(b.min[k], polygon[i][k]);
+      b.max[k] = std::max(b.max[k], polygon[i][k]);
+    }
   }
   return {static_cast<int>(std::ceil(b.min[0])), static_cast<int>(std::ceil(b.min[1])),
           static_cast<int>(std::floor(b.max[0])) + 1, static_cast<int>(std::floor(b.max[1])) + 1};
@@ -27742,28 +27749,31 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 // c -= a b^T for column-major c (6 x 6), a and b (6 x n). Half of c at a time, which stays in registers over all of n.
-inline void subtract_outer(const double* a, const double* b, int n, double* c) noexcept {
-  using Column = Vector6<double>;
+template <class S>
+void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
+  using Column = Vector6<S>;
   for (int half = 0; half < 6; half += 3) {
     Column s0 = Column::Zero(), s1 = Column::Zero(), s2 = Column::Zero();
     for (int k = 0; k < 6 * n; k += 6) {
       const Eigen::Map<const Column> column(a + k);
-      const double* row = b + k + half;
+      const S* row = b + k + half;
       s0 += row[0] * column;
       s1 += row[1] * column;
       s2 += row[2] * column;
     }
-    double* out = c + 6 * half;
+    S* out = c + 6 * half;
     Eigen::Map<Column>{out} -= s0;
     Eigen::Map<Column>{out + 6} -= s1;
     Eigen::Map<Column>{out + 12} -= s2;
   }
 }
 
-/// Lower block triangle of an n x n block matrix, blocks column-major.
-class BlockCholesky {
+/// Lower block triangle of an n x n block matrix, blocks column-major. S is double: a template, so that including the header
+/// costs little.
+template <class S>
+class BasicBlockCholesky {
  public:
-  using Block = Eigen::Matrix<double, 6, 6>;
+  using Block = Eigen::Matrix<S, 6, 6>;
 
   /// n block rows of zeros. Allocates where n exceeds every earlier one.
   void reset(int n) {
@@ -27885,6 +27895,8 @@ class BlockCholesky {
   std::vector<int> first_;
   std::vector<std::uint8_t> deficient_;
 };
+
+using BlockCholesky = BasicBlockCholesky<double>;
 
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE
@@ -28306,8 +28318,9 @@ namespace detail {
 
 /// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than
 /// 89.9 degrees off the optical axis).
-inline bool reproject(const PosePointTerm& term, const SE3d& T_t_w, const Pinhole<double>& camera, Vector3<double>* p,
-                      Vector2<double>* e) noexcept {
+template <class S>
+bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const Pinhole<S>& camera, Vector3<S>* p,
+               Vector2<S>* e) noexcept {
   *p = T_t_w * term.p_w;
   const double z = (*p)[2];
   if (!(z > 0) || !(z * z > 1e-6 * p->squaredNorm())) return false;
@@ -28826,7 +28839,7 @@ class PlaneProblem {
   }
 
   Vector3<double> retract(const Vector3<double>& theta, const Vector3<double>& step) const noexcept {
-    return theta + step;
+    return {theta[0] + step[0], theta[1] + step[1], theta[2] + step[2]};
   }
 
   /// Of the last linearisation.
@@ -29367,7 +29380,9 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-class WindowStructure {
+/// S is double: a template, so that including the header costs little.
+template <class S>
+class BasicWindowStructure {
  public:
   std::vector<std::uint8_t> point_active;   ///< A flag each point observation.
   std::vector<std::uint8_t> text_active;    ///< A flag each text observation.
@@ -29404,9 +29419,9 @@ class WindowStructure {
     for (double x : {o.sigma_rep, o.sigma_photo, o.initial_lambda, o.max_lambda, o.min_depth, o.cost_tolerance,
                      o.step_tolerance, o.max_lost_fraction})
       if (!is_finite(x)) return Status::non_finite;
-    if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) || !(o.initial_lambda > 0) ||
-        !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 || o.text_level < 0 ||
-        o.text_level >= kMaxPyramidLevels)
+    if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) ||
+        !(o.initial_lambda > 0) || !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 ||
+        o.text_level < 0 || o.text_level >= kMaxPyramidLevels)
       return Status::invalid_argument;
     for (const WindowFrame& f : w.frames)
       if (!all_finite(f.T_w_c)) return Status::non_finite;
@@ -29529,8 +29544,8 @@ class WindowStructure {
       if (at(camera_of_frame, f) >= 0) anchor.free = true;
       if (!at(w.frames, f).fixed || at(equations_, f) == 0) continue;
       if (anchor.fixed_frame >= 0) {
-        const Vector3<double>& a = at(w.frames, anchor.fixed_frame).T_w_c.t;
-        const Vector3<double>& b = at(w.frames, f).T_w_c.t;
+        const Vector3<S>& a = at(w.frames, anchor.fixed_frame).T_w_c.t;
+        const Vector3<S>& b = at(w.frames, f).T_w_c.t;
         if ((a - b).norm() > 1e-9 * (a.norm() + b.norm())) anchor.scale = true;
       } else {
         anchor.fixed_frame = f;
@@ -29549,7 +29564,8 @@ class WindowStructure {
     if (a >= 0 && (at(camera_of_frame, a) >= 0 || at(camera_of_frame, b) >= 0) && root(a) == root(b)) {
       scale_a = a;
       scale_b = b;
-      scale_distance = (at(w.frames, b).T_w_c.t - at(w.frames, a).T_w_c.t).norm();
+      const Vector3<S>&from = at(w.frames, a).T_w_c.t, &to = at(w.frames, b).T_w_c.t;
+      scale_distance = (to - from).norm();
       at(anchors_, root(a)).scale = true;
     }
     gauge_freedom = 0;
@@ -29632,6 +29648,8 @@ class WindowStructure {
   std::vector<Anchor> anchors_;
 };
 
+using WindowStructure = BasicWindowStructure<double>;
+
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE
 
@@ -29651,7 +29669,7 @@ class BasicWindowSchur {
   static constexpr double kRankTolerance = 1e-11;
 
   /// Zeroes the sums for the pattern of `structure`, which must outlive the use.
-  void begin(const WindowStructure& structure) {
+  void begin(const BasicWindowStructure<S>& structure) {
     structure_ = &structure;
     const auto slots = structure.slot_camera.size(), landmarks = static_cast<std::size_t>(structure.landmarks());
     camera_.reset(structure.cameras());
@@ -29695,7 +29713,7 @@ class BasicWindowSchur {
   /// lambda 0 landmarks and cameras that the system does not determine are marked (landmark_deficient(),
   /// camera_deficient()) and held in those directions.
   bool reduce(double lambda) {
-    const WindowStructure& s = *structure_;
+    const BasicWindowStructure<S>& s = *structure_;
     const int cameras = s.cameras(), landmarks = s.landmarks();
     lambda_ = lambda;
     reduced_ = camera_;
@@ -29729,7 +29747,7 @@ class BasicWindowSchur {
 
   /// After reduce(): the step of all parameters. False where it is not finite.
   bool solve() {
-    const WindowStructure& s = *structure_;
+    const BasicWindowStructure<S>& s = *structure_;
     reduced_.solve(camera_step_.data());
     if (!scale_row_.empty()) {
       scale_solution_ = scale_row_;
@@ -29781,7 +29799,7 @@ class BasicWindowSchur {
   /// After reduce(0): the landmark's 3 x 3 block of the inverse of the whole system (under the scale gauge):
   /// V^-1 + V^-1 W^T S^-1 W V^-1.
   Matrix3<S> covariance(int landmark) {
-    const WindowStructure& s = *structure_;
+    const BasicWindowStructure<S>& s = *structure_;
     const int begin = at(s.slot_begin, landmark), end = at(s.slot_begin, landmark + 1);
     Matrix3<S> out = at(inverse_, landmark);
     if (!scale_row_.empty()) {
@@ -29862,9 +29880,9 @@ class BasicWindowSchur {
     for (std::size_t i = 0; i < scale_row_.size(); ++i) x[i] -= scale_solution_[i] * (nx / nn);
   }
 
-  const WindowStructure* structure_ = nullptr;
+  const BasicWindowStructure<S>* structure_ = nullptr;
   double lambda_ = 0;
-  BlockCholesky camera_, reduced_;
+  BasicBlockCholesky<S> camera_, reduced_;
   std::vector<double> camera_gradient_, camera_step_, diagonal_, column_;
   std::vector<double> scale_row_, scale_solution_;
   int scale_cameras_[2] = {-1, -1};
@@ -29957,7 +29975,7 @@ class BasicWindowTerms {
 
   /// Text normal equations at x, for the active observations; those that fail are taken out for good, with their
   /// status.
-  void linearise_texts(Window& w, const WindowOptions& o, const WindowState& x, WindowStructure& s) {
+  void linearise_texts(Window& w, const WindowOptions& o, const WindowState& x, BasicWindowStructure<S>& s) {
     for (int k = 0; k < count(s.text_active); ++k) {
       if (!at(s.text_active, k)) continue;
       at(w.text_observations, k).status = linearise_text(w, o, x, k);
@@ -29966,7 +29984,7 @@ class BasicWindowTerms {
   }
 
   /// All sums at x, with the texts as linearised last. Returns the cost.
-  double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
+  double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                     BasicWindowSchur<S>& out) const {
     out.begin(s);
     double cost = 0;
@@ -29985,7 +30003,7 @@ class BasicWindowTerms {
 
   /// Cost of the trial y. A point that would go behind one of its cameras takes back its position in x: one such point
   /// must not spoil the step of all others.
-  WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
+  WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                        WindowState& y) {
     WindowTrial trial;
     bool taken_back = true;
@@ -30024,7 +30042,7 @@ class BasicWindowTerms {
   }
 
   /// Writes chi2, zncc and visible counts of all observations at x; texts as linearised last.
-  void report(Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s) {
+  void report(Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s) {
     for (WindowPointObservation& k : w.point_observations) {
       Vector3<S> p_c;
       const bool usable = k.status != Status::non_finite && k.status != Status::invalid_argument;
@@ -30046,7 +30064,8 @@ class BasicWindowTerms {
   }
 
   /// Mean distance from the cameras of what the active observations see: the length that steps are compared with.
-  double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s) const {
+  double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x,
+                    const BasicWindowStructure<S>& s) const {
     double sum = 0;
     int n = 0;
     for (int k = 0; k < count(s.point_active); ++k) {
@@ -30057,7 +30076,8 @@ class BasicWindowTerms {
     }
     for (int k = 0; k < count(s.text_active); ++k) {
       if (!at(s.text_active, k)) continue;
-      sum += 1 / at(x.landmark, count(w.points) + at(w.text_observations, k).text).norm();
+      const Vector3<S>& theta = at(x.landmark, count(w.points) + at(w.text_observations, k).text);
+      sum += 1 / theta.norm();
       ++n;
     }
     return n > 0 ? sum / n : 1;
@@ -30070,7 +30090,8 @@ class BasicWindowTerms {
   static bool in_front(const WindowPointObservation& k, const WindowState& x, const WindowOptions& o,
                        Vector3<S>* p_c) noexcept {
     const SE3<S>& T = at(x.T_w_c, k.frame);
-    *p_c = T.R.transpose() * (at(x.landmark, k.point) - T.t);
+    const Vector3<S>& p_w = at(x.landmark, k.point);
+    *p_c = T.R.transpose() * (p_w - T.t);
     return (*p_c)[2] > o.min_depth && all_finite(*p_c);
   }
   static double chi2(const Window& w, const WindowPointObservation& k, const Vector3<S>& p_c) noexcept {
@@ -30099,8 +30120,8 @@ class BasicWindowTerms {
   }
 
   // p_c = T_w_c^-1 p_w: d p_c = -v + [p_c]x omega for T_w_c <- T_w_c Exp(v, omega), and R_w_c^T d p_w.
-  static double add_point(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
-                          int k, BasicWindowSchur<S>& out) noexcept {
+  static double add_point(const Window& w, const WindowOptions& o, const WindowState& x,
+                          const BasicWindowStructure<S>& s, int k, BasicWindowSchur<S>& out) noexcept {
     const WindowPointObservation& ob = at(w.point_observations, k);
     Vector3<S> p_c;
     in_front(ob, x, o, &p_c);
@@ -30118,7 +30139,8 @@ class BasicWindowTerms {
       out.add_camera(camera, wJt * J_camera, wJt * e);
     }
     if (free) {
-      J_point = J * at(x.T_w_c, ob.frame).R.transpose();
+      const SE3<S>& T_w_c = at(x.T_w_c, ob.frame);
+      J_point = J * T_w_c.R.transpose();
       const Eigen::Matrix<S, 3, 2> wJt = weight * J_point.transpose();
       out.add_landmark(ob.point, wJt * J_point, wJt * e);
     }
@@ -30127,23 +30149,25 @@ class BasicWindowTerms {
   }
 
   // The 9 parameters (xi of T_t_h, left; theta) seen from the two world poses: host = Ad(T_t_h), target = -1.
-  double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s, int k,
-                  BasicWindowSchur<S>& out) const noexcept {
+  double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
+                  int k, BasicWindowSchur<S>& out) const noexcept {
     const WindowTextObservation& ob = at(w.text_observations, k);
     const WindowText& t = at(w.texts, ob.text);
     const NormalEquations<9>& ne = at(text_, k);
-    const double scale = weight(o, ob, ne.visible);
+    const Eigen::Matrix<S, 9, 9>& H = ne.H;
+    const Eigen::Matrix<S, 9, 1>& b = ne.b;
+    const S scale = weight(o, ob, ne.visible);
     const int landmark = count(w.points) + ob.text;
     const int host = at(s.camera_of_frame, t.host), target = at(s.camera_of_frame, ob.frame);
     const Matrix6 A = adjoint(relative_pose(t, ob, x));
-    const Matrix6 pose = scale * ne.H.template topLeftCorner<6, 6>();
-    const Vector6<S> g = scale * ne.b.template head<6>();
-    const Matrix63 cross = scale * ne.H.template topRightCorner<6, 3>();
+    const Matrix6 pose = scale * H.template topLeftCorner<6, 6>();
+    const Vector6<S> g = scale * b.template head<6>();
+    const Matrix63 cross = scale * H.template topRightCorner<6, 3>();
     if (host >= 0) out.add_camera(host, A.transpose() * pose * A, A.transpose() * g);
     if (target >= 0) out.add_camera(target, pose, -g);
     if (host >= 0 && target >= 0) out.add_cameras(host, target, -(A.transpose() * pose));
     if (at(s.landmark_free, landmark))
-      out.add_landmark(landmark, scale * ne.H.template bottomRightCorner<3, 3>(), scale * ne.b.template tail<3>());
+      out.add_landmark(landmark, scale * H.template bottomRightCorner<3, 3>(), scale * b.template tail<3>());
     if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), A.transpose() * cross);
     if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), -cross);
     return scale * ne.cost;

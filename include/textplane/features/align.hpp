@@ -26,7 +26,7 @@ struct KltOptions {
 
 /// A tracked or aligned point. Never holds a NaN.
 struct KltResult {
-  Vector2<float> px = Vector2<float>::Zero();  ///< Level-0 px for track_klt(); the guess where no estimate exists.
+  Vector2<float> px = {0, 0};  ///< Level-0 px for track_klt(); the guess where no estimate exists.
   float zncc = 0;      ///< Correlation of the patch on the finest level, at px to within the last step; 0 if unknown.
   float fb_error = 0;  ///< Forward-backward error, px; 0 where no backward pass was run.
   /// Why it ended.

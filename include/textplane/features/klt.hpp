@@ -146,7 +146,7 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
     }
     if (!(options.max_forward_backward > 0.0F)) continue;
     // The way back starts as far from its goal as the way forth did, so that it is a test of its own.
-    const Vector2<float> back_start = result.px - (start - source);
+    const Vector2<float> back_start(result.px[0] - (start[0] - source[0]), result.px[1] - (start[1] - source[1]));
     const detail::Alignment backward = detail::track_one(to, from, result.px, back_start, levels, options);
     const float dx = backward.x - source[0], dy = backward.y - source[1];
     result.fb_error = std::sqrt(dx * dx + dy * dy);

@@ -146,19 +146,20 @@ inline Status extract_upright_template(const ImageView8& image, float x, float y
 
 // Samples at centre + A (i, j), |i|, |j| <= reach, all of which lie inside the image or a hair outside. `out` begins
 // with that of (-reach, -reach), its rows are simd::kKltStride floats apart.
-template <class = void>  // instantiated where it is called: including the header costs little
-void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int reach,
+template <class S = double>  // instantiated where it is called: including the header costs little
+void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A_, int reach,
                    float* out) noexcept {
   const int side = 2 * reach + 1;
-  const Vector2<double> first = centre.cast<double>() - A.cast<double>() * Vector2<double>::Constant(reach);
-  Matrix3<double> H = Matrix3<double>::Identity();
-  H.topLeftCorner<2, 2>() = A.cast<double>();
-  H.topRightCorner<2, 1>() = first;
+  const Eigen::Matrix<S, 2, 2> A = A_.template cast<S>();
+  const Vector2<S> first = centre.template cast<S>() - A * Vector2<S>::Constant(reach);
+  Matrix3<S> H = Matrix3<S>::Identity();
+  H.template topLeftCorner<2, 2>() = A;
+  H.template topRightCorner<2, 1>() = first;
   constexpr std::ptrdiff_t kStride = simd::kKltStride * sizeof(float);
   if (warp_patch(image, H, ImageView<float>(out, side, side, kStride)).inside == side * side) return;
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
-      const Vector2<double> p = first + A.cast<double>() * Vector2<double>(i, j);
+      const Vector2<S> p = first + A * Vector2<S>(i, j);
       const double x = p[0] > 0 ? p[0] : 0, y = p[1] > 0 ? p[1] : 0;  // beyond the far ones the last cell is extended
       double v = 0;
       sample_inside(image, x, y, &v, static_cast<double*>(nullptr), static_cast<double*>(nullptr));

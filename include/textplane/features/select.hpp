@@ -70,8 +70,10 @@ PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
   if (polygon.empty()) return {};
   Bounds<double> b{polygon[0], polygon[0]};
   for (int i = 1; i < polygon.size(); ++i) {
-    b.min = b.min.cwiseMin(polygon[i]);
-    b.max = b.max.cwiseMax(polygon[i]);
+    for (int k = 0; k < 2; ++k) {
+      b.min[k] = std::min(b.min[k], polygon[i][k]);
+      b.max[k] = std::max(b.max[k], polygon[i][k]);
+    }
   }
   return {static_cast<int>(std::ceil(b.min[0])), static_cast<int>(std::ceil(b.min[1])),
           static_cast<int>(std::floor(b.max[0])) + 1, static_cast<int>(std::floor(b.max[1])) + 1};

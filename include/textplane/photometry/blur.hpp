@@ -39,7 +39,7 @@ struct BlurMatch {
 ///
 /// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1; *out is then
 /// untouched.
-template <class = void>  // instantiated where it is called: including the header costs little
+template <class S = double>  // instantiated where it is called: including the header costs little
 Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
                   BlurMatch* out) noexcept {
   if (!all_finite(A) || !is_finite(host_variance) || !is_finite(target_variance) || !is_finite(spread))
@@ -47,18 +47,19 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
   if (!(host_variance >= 0) || !(target_variance >= 0) || !(spread >= 1)) return Status::invalid_argument;
   const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
   if (!(std::abs(det) > 1e-9) || !is_finite(1 / (det * det))) return Status::degenerate;
-  Matrix2d inverse;
+  using Matrix = Eigen::Matrix<S, 2, 2>;
+  Matrix inverse, A_transposed;
   inverse << A(1, 1) / det, -A(0, 1) / det, -A(1, 0) / det, A(0, 0) / det;
-  const Matrix2d transposed = inverse.transpose();
-  const SymmetricEigen<double, 2> seen = symmetric_eigen<double, 2>(product(inverse, transposed));
-  Matrix2d common = Matrix2d::Zero();
+  const Matrix transposed = inverse.transpose();
+  const SymmetricEigen<S, 2> seen = symmetric_eigen<S, 2>(product(inverse, transposed));
+  Matrix common = Matrix::Zero();
   for (int k = 0; k < 2; ++k) {
     const double variance = spread * std::max(host_variance, target_variance * seen.values[k]);
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) common(i, j) += variance * seen.vectors(i, k) * seen.vectors(j, k);
   }
-  const Matrix2d A_transposed = A.transpose();
-  BlurMatch match{common, product(product(A, common), A_transposed)};
+  A_transposed << A(0, 0), A(1, 0), A(0, 1), A(1, 1);
+  BlurMatch match{common, product(product<S>(A, common), A_transposed)};
   for (int i = 0; i < 2; ++i) {
     match.host(i, i) -= host_variance;
     match.target(i, i) -= target_variance;
@@ -77,9 +78,11 @@ class BlurKernel {
   static constexpr double kMaxVariance = 9.0;
 
   /// The kernel of a covariance in px^2.
+  template <class S = double>  // instantiated where it is called: including the header costs little
   explicit BlurKernel(const Matrix2d& covariance) noexcept {
-    const SymmetricEigen<double, 2> axes =
-        symmetric_eigen<double, 2>(all_finite(covariance) ? covariance : Matrix2d::Zero());
+    Eigen::Matrix<S, 2, 2> finite = covariance;
+    if (!all_finite(finite)) finite.setZero();
+    const SymmetricEigen<S, 2> axes = symmetric_eigen(finite);
     // The mean over a pixel is a blur, too.
     constexpr double kPixel = 1.0 / 12, kLeast = 1e-3;
     double precision[2];
@@ -104,7 +107,8 @@ class BlurKernel {
 
   int index(int x, int y) const noexcept { return (y + radius_) * width() + x + radius_; }
 
-  static double mean(int x, int y, const SymmetricEigen<double, 2>& axes, const double* precision) noexcept {
+  template <class S>
+  static double mean(int x, int y, const SymmetricEigen<S, 2>& axes, const double* precision) noexcept {
     constexpr int kParts = 4;
     double sum = 0;
     for (int j = 0; j < kParts; ++j)

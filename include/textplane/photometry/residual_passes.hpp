@@ -77,9 +77,8 @@ template <int P, class T>
 Collected collect(const BasicPhotometricInput<T>& in, const Vector3<double>& theta, const SE3d& T_t_h,
                   const std::uint8_t* on_set, std::uint8_t* flags, PhotometricWorkspace& workspace) noexcept {
   // Plain locals: the compiler must not fear that a store to the workspace changes them.
-  const Matrix3<double> homography = T_t_h.R + T_t_h.t * theta.transpose();
-  const double H[9] = {homography(0, 0), homography(0, 1), homography(0, 2), homography(1, 0), homography(1, 1),
-                       homography(1, 2), homography(2, 0), homography(2, 1), homography(2, 2)};
+  double H[9];
+  for (int k = 0; k < 9; ++k) H[k] = T_t_h.R(k / 3, k % 3) + T_t_h.t[k / 3] * theta[k % 3];
   const double t[3] = {T_t_h.t[0], T_t_h.t[1], T_t_h.t[2]}, p[3] = {theta[0], theta[1], theta[2]};
   const Pinhole<double> h = in.host_camera, c = in.target_camera;
   const PatchView patch = in.patch;

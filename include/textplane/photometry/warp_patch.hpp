@@ -64,7 +64,8 @@ WarpSummary warp_patch(const ImageView<const S>& source, const Matrix3<double>& 
   if (!is_ok(summary.status)) return summary;
   for (int y = 0; y < out.height(); ++y)
     for (int x = 0; x < out.width(); ++x) {
-      const Vector3<double> q = H * Vector3<double>(x, y, 1.0);
+      double q[3];
+      for (int k = 0; k < 3; ++k) q[k] = H(k, 0) * x + H(k, 1) * y + H(k, 2);
       double value = fill;
       const bool inside = q[2] > 0.0 && sample_bilinear(source, q[0] / q[2], q[1] / q[2], &value);
       out(x, y) = detail::warp_pixel<D>(value);

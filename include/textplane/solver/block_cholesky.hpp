@@ -17,28 +17,31 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 // c -= a b^T for column-major c (6 x 6), a and b (6 x n). Half of c at a time, which stays in registers over all of n.
-inline void subtract_outer(const double* a, const double* b, int n, double* c) noexcept {
-  using Column = Vector6<double>;
+template <class S>
+void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
+  using Column = Vector6<S>;
   for (int half = 0; half < 6; half += 3) {
     Column s0 = Column::Zero(), s1 = Column::Zero(), s2 = Column::Zero();
     for (int k = 0; k < 6 * n; k += 6) {
       const Eigen::Map<const Column> column(a + k);
-      const double* row = b + k + half;
+      const S* row = b + k + half;
       s0 += row[0] * column;
       s1 += row[1] * column;
       s2 += row[2] * column;
     }
-    double* out = c + 6 * half;
+    S* out = c + 6 * half;
     Eigen::Map<Column>{out} -= s0;
     Eigen::Map<Column>{out + 6} -= s1;
     Eigen::Map<Column>{out + 12} -= s2;
   }
 }
 
-/// Lower block triangle of an n x n block matrix, blocks column-major.
-class BlockCholesky {
+/// Lower block triangle of an n x n block matrix, blocks column-major. S is double: a template, so that including the header
+/// costs little.
+template <class S>
+class BasicBlockCholesky {
  public:
-  using Block = Eigen::Matrix<double, 6, 6>;
+  using Block = Eigen::Matrix<S, 6, 6>;
 
   /// n block rows of zeros. Allocates where n exceeds every earlier one.
   void reset(int n) {
@@ -160,6 +163,8 @@ class BlockCholesky {
   std::vector<int> first_;
   std::vector<std::uint8_t> deficient_;
 };
+
+using BlockCholesky = BasicBlockCholesky<double>;
 
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE

@@ -177,7 +177,7 @@ class PlaneProblem {
   }
 
   Vector3<double> retract(const Vector3<double>& theta, const Vector3<double>& step) const noexcept {
-    return theta + step;
+    return {theta[0] + step[0], theta[1] + step[1], theta[2] + step[2]};
   }
 
   /// Of the last linearisation.

@@ -134,8 +134,9 @@ namespace detail {
 
 /// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than
 /// 89.9 degrees off the optical axis).
-inline bool reproject(const PosePointTerm& term, const SE3d& T_t_w, const Pinhole<double>& camera, Vector3<double>* p,
-                      Vector2<double>* e) noexcept {
+template <class S>
+bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const Pinhole<S>& camera, Vector3<S>* p,
+               Vector2<S>* e) noexcept {
   *p = T_t_w * term.p_w;
   const double z = (*p)[2];
   if (!(z > 0) || !(z * z > 1e-6 * p->squaredNorm())) return false;

@@ -30,7 +30,7 @@ class BasicWindowSchur {
   static constexpr double kRankTolerance = 1e-11;
 
   /// Zeroes the sums for the pattern of `structure`, which must outlive the use.
-  void begin(const WindowStructure& structure) {
+  void begin(const BasicWindowStructure<S>& structure) {
     structure_ = &structure;
     const auto slots = structure.slot_camera.size(), landmarks = static_cast<std::size_t>(structure.landmarks());
     camera_.reset(structure.cameras());
@@ -74,7 +74,7 @@ class BasicWindowSchur {
   /// lambda 0 landmarks and cameras that the system does not determine are marked (landmark_deficient(),
   /// camera_deficient()) and held in those directions.
   bool reduce(double lambda) {
-    const WindowStructure& s = *structure_;
+    const BasicWindowStructure<S>& s = *structure_;
     const int cameras = s.cameras(), landmarks = s.landmarks();
     lambda_ = lambda;
     reduced_ = camera_;
@@ -108,7 +108,7 @@ class BasicWindowSchur {
 
   /// After reduce(): the step of all parameters. False where it is not finite.
   bool solve() {
-    const WindowStructure& s = *structure_;
+    const BasicWindowStructure<S>& s = *structure_;
     reduced_.solve(camera_step_.data());
     if (!scale_row_.empty()) {
       scale_solution_ = scale_row_;
@@ -160,7 +160,7 @@ class BasicWindowSchur {
   /// After reduce(0): the landmark's 3 x 3 block of the inverse of the whole system (under the scale gauge):
   /// V^-1 + V^-1 W^T S^-1 W V^-1.
   Matrix3<S> covariance(int landmark) {
-    const WindowStructure& s = *structure_;
+    const BasicWindowStructure<S>& s = *structure_;
     const int begin = at(s.slot_begin, landmark), end = at(s.slot_begin, landmark + 1);
     Matrix3<S> out = at(inverse_, landmark);
     if (!scale_row_.empty()) {
@@ -241,9 +241,9 @@ class BasicWindowSchur {
     for (std::size_t i = 0; i < scale_row_.size(); ++i) x[i] -= scale_solution_[i] * (nx / nn);
   }
 
-  const WindowStructure* structure_ = nullptr;
+  const BasicWindowStructure<S>* structure_ = nullptr;
   double lambda_ = 0;
-  BlockCholesky camera_, reduced_;
+  BasicBlockCholesky<S> camera_, reduced_;
   std::vector<double> camera_gradient_, camera_step_, diagonal_, column_;
   std::vector<double> scale_row_, scale_solution_;
   int scale_cameras_[2] = {-1, -1};

@@ -14,7 +14,9 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-class WindowStructure {
+/// S is double: a template, so that including the header costs little.
+template <class S>
+class BasicWindowStructure {
  public:
   std::vector<std::uint8_t> point_active;   ///< A flag each point observation.
   std::vector<std::uint8_t> text_active;    ///< A flag each text observation.
@@ -51,9 +53,9 @@ class WindowStructure {
     for (double x : {o.sigma_rep, o.sigma_photo, o.initial_lambda, o.max_lambda, o.min_depth, o.cost_tolerance,
                      o.step_tolerance, o.max_lost_fraction})
       if (!is_finite(x)) return Status::non_finite;
-    if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) || !(o.initial_lambda > 0) ||
-        !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 || o.text_level < 0 ||
-        o.text_level >= kMaxPyramidLevels)
+    if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) ||
+        !(o.initial_lambda > 0) || !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 ||
+        o.text_level < 0 || o.text_level >= kMaxPyramidLevels)
       return Status::invalid_argument;
     for (const WindowFrame& f : w.frames)
       if (!all_finite(f.T_w_c)) return Status::non_finite;
@@ -176,8 +178,8 @@ class WindowStructure {
       if (at(camera_of_frame, f) >= 0) anchor.free = true;
       if (!at(w.frames, f).fixed || at(equations_, f) == 0) continue;
       if (anchor.fixed_frame >= 0) {
-        const Vector3<double>& a = at(w.frames, anchor.fixed_frame).T_w_c.t;
-        const Vector3<double>& b = at(w.frames, f).T_w_c.t;
+        const Vector3<S>& a = at(w.frames, anchor.fixed_frame).T_w_c.t;
+        const Vector3<S>& b = at(w.frames, f).T_w_c.t;
         if ((a - b).norm() > 1e-9 * (a.norm() + b.norm())) anchor.scale = true;
       } else {
         anchor.fixed_frame = f;
@@ -196,7 +198,8 @@ class WindowStructure {
     if (a >= 0 && (at(camera_of_frame, a) >= 0 || at(camera_of_frame, b) >= 0) && root(a) == root(b)) {
       scale_a = a;
       scale_b = b;
-      scale_distance = (at(w.frames, b).T_w_c.t - at(w.frames, a).T_w_c.t).norm();
+      const Vector3<S>&from = at(w.frames, a).T_w_c.t, &to = at(w.frames, b).T_w_c.t;
+      scale_distance = (to - from).norm();
       at(anchors_, root(a)).scale = true;
     }
     gauge_freedom = 0;
@@ -278,6 +281,8 @@ class WindowStructure {
   std::vector<int> observations_, equations_, parent_, cursor_, slot_unique_;
   std::vector<Anchor> anchors_;
 };
+
+using WindowStructure = BasicWindowStructure<double>;
 
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE

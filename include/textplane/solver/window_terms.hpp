@@ -77,7 +77,7 @@ class BasicWindowTerms {
 
   /// Text normal equations at x, for the active observations; those that fail are taken out for good, with their
   /// status.
-  void linearise_texts(Window& w, const WindowOptions& o, const WindowState& x, WindowStructure& s) {
+  void linearise_texts(Window& w, const WindowOptions& o, const WindowState& x, BasicWindowStructure<S>& s) {
     for (int k = 0; k < count(s.text_active); ++k) {
       if (!at(s.text_active, k)) continue;
       at(w.text_observations, k).status = linearise_text(w, o, x, k);
@@ -86,7 +86,7 @@ class BasicWindowTerms {
   }
 
   /// All sums at x, with the texts as linearised last. Returns the cost.
-  double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
+  double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                     BasicWindowSchur<S>& out) const {
     out.begin(s);
     double cost = 0;
@@ -105,7 +105,7 @@ class BasicWindowTerms {
 
   /// Cost of the trial y. A point that would go behind one of its cameras takes back its position in x: one such point
   /// must not spoil the step of all others.
-  WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
+  WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                        WindowState& y) {
     WindowTrial trial;
     bool taken_back = true;
@@ -144,7 +144,7 @@ class BasicWindowTerms {
   }
 
   /// Writes chi2, zncc and visible counts of all observations at x; texts as linearised last.
-  void report(Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s) {
+  void report(Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s) {
     for (WindowPointObservation& k : w.point_observations) {
       Vector3<S> p_c;
       const bool usable = k.status != Status::non_finite && k.status != Status::invalid_argument;
@@ -166,7 +166,8 @@ class BasicWindowTerms {
   }
 
   /// Mean distance from the cameras of what the active observations see: the length that steps are compared with.
-  double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s) const {
+  double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x,
+                    const BasicWindowStructure<S>& s) const {
     double sum = 0;
     int n = 0;
     for (int k = 0; k < count(s.point_active); ++k) {
@@ -177,7 +178,8 @@ class BasicWindowTerms {
     }
     for (int k = 0; k < count(s.text_active); ++k) {
       if (!at(s.text_active, k)) continue;
-      sum += 1 / at(x.landmark, count(w.points) + at(w.text_observations, k).text).norm();
+      const Vector3<S>& theta = at(x.landmark, count(w.points) + at(w.text_observations, k).text);
+      sum += 1 / theta.norm();
       ++n;
     }
     return n > 0 ? sum / n : 1;
@@ -190,7 +192,8 @@ class BasicWindowTerms {
   static bool in_front(const WindowPointObservation& k, const WindowState& x, const WindowOptions& o,
                        Vector3<S>* p_c) noexcept {
     const SE3<S>& T = at(x.T_w_c, k.frame);
-    *p_c = T.R.transpose() * (at(x.landmark, k.point) - T.t);
+    const Vector3<S>& p_w = at(x.landmark, k.point);
+    *p_c = T.R.transpose() * (p_w - T.t);
     return (*p_c)[2] > o.min_depth && all_finite(*p_c);
   }
   static double chi2(const Window& w, const WindowPointObservation& k, const Vector3<S>& p_c) noexcept {
@@ -219,8 +222,8 @@ class BasicWindowTerms {
   }
 
   // p_c = T_w_c^-1 p_w: d p_c = -v + [p_c]x omega for T_w_c <- T_w_c Exp(v, omega), and R_w_c^T d p_w.
-  static double add_point(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s,
-                          int k, BasicWindowSchur<S>& out) noexcept {
+  static double add_point(const Window& w, const WindowOptions& o, const WindowState& x,
+                          const BasicWindowStructure<S>& s, int k, BasicWindowSchur<S>& out) noexcept {
     const WindowPointObservation& ob = at(w.point_observations, k);
     Vector3<S> p_c;
     in_front(ob, x, o, &p_c);
@@ -238,7 +241,8 @@ class BasicWindowTerms {
       out.add_camera(camera, wJt * J_camera, wJt * e);
     }
     if (free) {
-      J_point = J * at(x.T_w_c, ob.frame).R.transpose();
+      const SE3<S>& T_w_c = at(x.T_w_c, ob.frame);
+      J_point = J * T_w_c.R.transpose();
       const Eigen::Matrix<S, 3, 2> wJt = weight * J_point.transpose();
       out.add_landmark(ob.point, wJt * J_point, wJt * e);
     }
@@ -247,23 +251,25 @@ class BasicWindowTerms {
   }
 
   // The 9 parameters (xi of T_t_h, left; theta) seen from the two world poses: host = Ad(T_t_h), target = -1.
-  double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const WindowStructure& s, int k,
-                  BasicWindowSchur<S>& out) const noexcept {
+  double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
+                  int k, BasicWindowSchur<S>& out) const noexcept {
     const WindowTextObservation& ob = at(w.text_observations, k);
     const WindowText& t = at(w.texts, ob.text);
     const NormalEquations<9>& ne = at(text_, k);
-    const double scale = weight(o, ob, ne.visible);
+    const Eigen::Matrix<S, 9, 9>& H = ne.H;
+    const Eigen::Matrix<S, 9, 1>& b = ne.b;
+    const S scale = weight(o, ob, ne.visible);
     const int landmark = count(w.points) + ob.text;
     const int host = at(s.camera_of_frame, t.host), target = at(s.camera_of_frame, ob.frame);
     const Matrix6 A = adjoint(relative_pose(t, ob, x));
-    const Matrix6 pose = scale * ne.H.template topLeftCorner<6, 6>();
-    const Vector6<S> g = scale * ne.b.template head<6>();
-    const Matrix63 cross = scale * ne.H.template topRightCorner<6, 3>();
+    const Matrix6 pose = scale * H.template topLeftCorner<6, 6>();
+    const Vector6<S> g = scale * b.template head<6>();
+    const Matrix63 cross = scale * H.template topRightCorner<6, 3>();
     if (host >= 0) out.add_camera(host, A.transpose() * pose * A, A.transpose() * g);
     if (target >= 0) out.add_camera(target, pose, -g);
     if (host >= 0 && target >= 0) out.add_cameras(host, target, -(A.transpose() * pose));
     if (at(s.landmark_free, landmark))
-      out.add_landmark(landmark, scale * ne.H.template bottomRightCorner<3, 3>(), scale * ne.b.template tail<3>());
+      out.add_landmark(landmark, scale * H.template bottomRightCorner<3, 3>(), scale * b.template tail<3>());
     if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), A.transpose() * cross);
     if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), -cross);
     return scale * ne.cost;
