@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/plane_fit_scene.hpp"
 #include "support/calculus.hpp"
 #include "support/dense.hpp"
 #include "textplane/geometry/homography.hpp"
@@ -17,12 +18,10 @@ namespace tp = textplane;
 using textplane_test::central_difference;
 using textplane_test::Dual;
 using textplane_test::dual_derivative;
-using textplane_test::Random;
 using textplane_test::relative_error;
 using textplane_test::tolerance;
 using textplane_test::value;
 using textplane_test::values;
-using Vector3d = Eigen::Vector3d;
 
 #define TEXTPLANE_INSTANTIATE(S)                                                                             \
   template struct tp::PlaneFit<S>;                                                                           \
@@ -36,40 +35,6 @@ TEXTPLANE_INSTANTIATE(Dual<6>)
 #undef TEXTPLANE_INSTANTIATE
 
 namespace plane_fit_test {
-
-const double kNan = std::nan(""), kInf = std::numeric_limits<double>::infinity();
-
-// A sign of about a tenth of a radian, somewhere in view, seen from a second pose.
-template <class S>
-struct Scene {
-  Vector3d theta;
-  tp::SE3<S> T_t_h;
-  std::vector<tp::Vector3<S>> host, target, points;
-  std::vector<S> rho;
-};
-
-Vector3d facing_plane(Random& random) {
-  const Vector3d n(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), -1);
-  return -n.normalized() / random.uniform(0.8, 4);
-}
-
-template <class S>
-Scene<S> make_scene(Random& random, int n, double half_width = 0.1, double half_height = 0.04) {
-  Scene<S> scene;
-  scene.theta = facing_plane(random);
-  const tp::SE3d T = random.pose(0.15, 0.1);
-  scene.T_t_h = T.cast<S>();
-  const double u = random.uniform(-0.3, 0.3), v = random.uniform(-0.2, 0.2);
-  for (int i = 0; i < n; ++i) {
-    const Vector3d m(u + random.uniform(-half_width, half_width), v + random.uniform(-half_height, half_height), 1);
-    const Vector3d p = m / scene.theta.dot(m), q = T * p;
-    scene.host.push_back(m.cast<S>());
-    scene.target.push_back(Vector3d(q / q[2]).cast<S>());
-    scene.points.push_back(p.cast<S>());
-    scene.rho.push_back(S(scene.theta.dot(m)));
-  }
-  return scene;
-}
 
 template <class S>
 class PlaneFits : public testing::Test {};
@@ -273,157 +238,6 @@ TEST(PlaneFitTest, MatchesMinimiseTheReprojectionError) {
     const Vector3d step = fit.covariance * gradient / 2;
     EXPECT_LT(std::sqrt(step.dot(fit.covariance.llt().solve(step))) / 0.0005, 1e-3);
   }
-}
-
-TYPED_TEST(PlaneFits, TooFewStillReportTheRank) {
-  using S = TypeParam;
-  Random random(9);
-  const Scene<S> scene = make_scene<S>(random, 3);
-  for (int n = 0; n < 3; ++n) {
-    const auto by_depth = tp::plane_from_inverse_depths(scene.host.data(), scene.rho.data(), nullptr, n);
-    const auto by_match = tp::plane_from_matches(scene.host.data(), scene.target.data(), n, scene.T_t_h);
-    const auto by_point = tp::plane_from_points(scene.points.data(), n);
-    for (const auto& fit : {by_depth, by_match, by_point}) {
-      EXPECT_EQ(fit.status, tp::Status::too_few);
-      EXPECT_EQ(fit.rank, n);
-      EXPECT_TRUE(values(fit.value).isZero());
-      EXPECT_TRUE(values(fit.covariance).isZero());
-      EXPECT_EQ(fit.condition, S(std::numeric_limits<S>::max()));
-    }
-  }
-  // A weight of zero takes a row out.
-  const S weight[3] = {S(1), S(0), S(1)};
-  EXPECT_EQ(tp::plane_from_inverse_depths(scene.host.data(), scene.rho.data(), weight, 3).status, tp::Status::too_few);
-  EXPECT_EQ(tp::plane_from_matches(scene.host.data(), scene.target.data(), 3, scene.T_t_h, weight).rank, 2);
-  EXPECT_EQ(tp::plane_from_points(scene.points.data(), 3, weight).status, tp::Status::too_few);
-}
-
-TYPED_TEST(PlaneFits, CollinearAndCoincidentPointsAreRankDeficient) {
-  using S = TypeParam;
-  Random random(10);
-  for (int repeat = 0; repeat < 30; ++repeat) {
-    const Vector3d theta = facing_plane(random);
-    const tp::SE3d T = random.pose(0.2, 0.2);
-    const Eigen::Vector2d a = random.vector<2>(0.3),
-                          b = repeat % 3 == 2 ? Eigen::Vector2d(0, 0) : random.vector<2>(0.3);
-    const int rank = repeat % 3 == 2 ? 1 : 2;
-    Scene<S> scene;
-    for (int i = 0; i < 10; ++i) {
-      const Eigen::Vector2d uv = a + random.uniform(-1, 1) * b;
-      const Vector3d m(uv[0], uv[1], 1), p = m / theta.dot(m), q = T * p;
-      scene.host.push_back(m.cast<S>());
-      scene.rho.push_back(S(theta.dot(m)));
-      scene.points.push_back(p.cast<S>());
-      scene.target.push_back(Vector3d(q / q[2]).cast<S>());
-    }
-    const auto by_depth = tp::plane_from_inverse_depths(scene.host, scene.rho);
-    const auto by_match = tp::plane_from_matches(scene.host, scene.target, tp::SE3<S>(T.cast<S>()));
-    const auto by_point = tp::plane_from_points(scene.points);
-    for (const auto& fit : {by_depth, by_match, by_point}) {
-      EXPECT_EQ(fit.status, tp::Status::rank_deficient) << repeat;
-      EXPECT_EQ(fit.rank, rank) << repeat;
-      EXPECT_TRUE(values(fit.value).isZero());
-      EXPECT_EQ(fit.condition, S(std::numeric_limits<S>::max()));
-    }
-  }
-}
-
-TYPED_TEST(PlaneFits, NoBaselineIsDegenerate) {
-  using S = TypeParam;
-  Random random(11);
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    Scene<S> scene = make_scene<S>(random, 10);
-    tp::SE3d turn;
-    if (repeat > 0) turn.R = tp::so3_exp<double>(random.vector<3>(0.2));
-    // No motion; a pure rotation; a pure rotation whose translation is rounding noise.
-    if (repeat > 10) turn.t = random.vector<3>(1e-17);
-    for (std::size_t i = 0; i < 10; ++i) {
-      const Vector3d q = turn.R * values(scene.host[i]);
-      scene.target[i] = Vector3d(q / q[2]).cast<S>();
-    }
-    const auto fit = tp::plane_from_matches(scene.host, scene.target, tp::SE3<S>(turn.cast<S>()));
-    EXPECT_FALSE(tp::is_ok(fit.status)) << repeat;
-    if (repeat <= 10) {
-      EXPECT_EQ(fit.status, tp::Status::degenerate) << repeat;
-      EXPECT_EQ(fit.rank, 0);
-      EXPECT_TRUE(values(fit.value).isZero());
-    } else {
-      EXPECT_TRUE(fit.status == tp::Status::degenerate || fit.status == tp::Status::behind_camera)
-          << tp::to_string(fit.status);
-    }
-  }
-}
-
-TEST(PlaneFitTest, PlanesThroughOrBehindTheCameraAreNamed) {
-  // Points on the plane x = 0, which holds the camera centre.
-  const std::vector<Vector3d> through = {{0, 0, 1}, {0, 1, 2}, {0, -1, 3}, {0, 0.5, 1}};
-  EXPECT_EQ(tp::plane_from_points(through).status, tp::Status::behind_camera);
-  // Inverse depths that change sign inside the sign.
-  const std::vector<Vector3d> m = {{-0.1, 0, 1}, {0.1, 0, 1}, {0, 0.1, 1}, {0, -0.1, 1}};
-  const std::vector<double> rho = {-0.5, 0.7, 0.1, 0.1};
-  const auto fit = tp::plane_from_inverse_depths(m, rho);
-  EXPECT_EQ(fit.status, tp::Status::behind_camera);
-  EXPECT_LT((fit.value - Vector3d(6, 0, 0.1)).norm(), 1e-12) << "the algebraic solution is kept";
-  // A baseline of the wrong sign mirrors the plane behind the cameras.
-  Random random(12);
-  auto scene = make_scene<double>(random, 10);
-  scene.T_t_h.t = -scene.T_t_h.t;
-  EXPECT_EQ(tp::plane_from_matches(scene.host, scene.target, scene.T_t_h).status, tp::Status::behind_camera);
-}
-
-TEST(PlaneFitTest, BrokenInputGivesAStatus) {
-  Random random(13);
-  const auto scene = make_scene<double>(random, 5);
-  for (const double bad : {kNan, kInf, -kInf}) {
-    for (std::size_t i = 0; i < 5; ++i) {
-      auto broken = scene;
-      broken.rho[i] = bad;
-      EXPECT_EQ(tp::plane_from_inverse_depths(broken.host, broken.rho).status, tp::Status::non_finite);
-      broken.host[i][1] = bad;
-      EXPECT_EQ(tp::plane_from_inverse_depths(broken.host, scene.rho).status, tp::Status::non_finite);
-      EXPECT_EQ(tp::plane_from_matches(broken.host, scene.target, scene.T_t_h).status, tp::Status::non_finite);
-      broken.target[i][0] = bad;
-      EXPECT_EQ(tp::plane_from_matches(scene.host, broken.target, scene.T_t_h).status, tp::Status::non_finite);
-      broken.points[i][2] = bad;
-      EXPECT_EQ(tp::plane_from_points(broken.points).status, tp::Status::non_finite);
-      std::array<double, 5> weight = {1, 1, 1, 1, 1};
-      weight[i] = bad;
-      EXPECT_EQ(tp::plane_from_points(scene.points.data(), 5, weight.data()).status, tp::Status::non_finite);
-    }
-    auto T = scene.T_t_h;
-    T.R(1, 1) = bad;
-    EXPECT_EQ(tp::plane_from_matches(scene.host, scene.target, T).status, tp::Status::non_finite);
-  }
-  const std::array<double, 5> negative = {1, 1, -1, 1, 1};
-  EXPECT_EQ(tp::plane_from_matches(scene.host.data(), scene.target.data(), 5, scene.T_t_h, negative.data()).status,
-            tp::Status::invalid_argument);
-  const Vector3d* null = nullptr;
-  EXPECT_EQ(tp::plane_from_points(null, 3).status, tp::Status::invalid_argument);
-  EXPECT_EQ(tp::plane_from_points(scene.points.data(), -1).status, tp::Status::invalid_argument);
-  EXPECT_EQ(tp::plane_from_matches(scene.host.data(), null, 5, scene.T_t_h).status, tp::Status::invalid_argument);
-  const std::vector<double> short_rho(4, 1.0);
-  EXPECT_EQ(tp::plane_from_inverse_depths(scene.host, short_rho).status, tp::Status::invalid_argument);
-}
-
-// Huge and tiny coordinates neither overflow into a NaN nor pass for a plane without a status.
-TEST(PlaneFitTest, ExtremeValuesNeverGiveNanWithAnOkStatus) {
-  Random random(14);
-  for (const double scale : {1e-300, 1e-160, 1e-80, 1e80, 1e160, 1e300})
-    for (int repeat = 0; repeat < 10; ++repeat) {
-      auto scene = make_scene<double>(random, 6);
-      for (std::size_t i = 0; i < 6; ++i) {
-        scene.rho[i] *= scale;
-        scene.points[i] *= scale;
-      }
-      scene.T_t_h.t *= scale;
-      for (const auto& fit :
-           {tp::plane_from_inverse_depths(scene.host, scene.rho),
-            tp::plane_from_matches(scene.host, scene.target, scene.T_t_h), tp::plane_from_points(scene.points)}) {
-        EXPECT_TRUE(tp::all_finite(fit.value) || !tp::is_ok(fit.status)) << scale;
-        EXPECT_TRUE(tp::all_finite(fit.covariance) || !tp::is_ok(fit.status)) << scale;
-        EXPECT_TRUE(tp::is_finite(fit.sigma) || !tp::is_ok(fit.status)) << scale;
-      }
-    }
 }
 
 // Dual numbers pass through each fit: d theta by the measurements of two of the matches.
