@@ -12,6 +12,7 @@
 #include "textslam/loose_planes.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/statistics.hpp"
+#include "textslam/text_words.hpp"
 
 namespace textslam {
 namespace {
@@ -72,7 +73,7 @@ void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vec
     for (const Detection& detection : frame.detections) {
       if (textplane::iou(quad, detection.quad) < kItsOutline) continue;
       ++text.detections;
-      if (is_read(detection.text)) text.votes[detection.text] += detection.score;
+      if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score);
       break;
     }
   }
@@ -110,7 +111,7 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
                                        select_options(parameters_));
     if (!textplane::is_ok(text.patch.status)) continue;
     text.detections = 1;
-    if (is_read(detection.text)) text.votes[detection.text] += detection.score;
+    if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score);
     map_.texts.push_back(std::move(text));
   }
 }

@@ -48,7 +48,7 @@ bool words_agree(const TextObject& a, const TextObject& b) {
 void add_sightings(TextObject& kept, const TextObject& other, int first_keyframe) {
   kept.targets.push_back(first_keyframe + other.host);
   for (const int id : other.targets) kept.targets.push_back(first_keyframe + id);
-  for (const auto& [word, count] : other.votes) kept.votes[word] += count;
+  for (const auto& [word, count] : other.votes) vote(&kept.votes, word, count);
   kept.detections += other.detections;
 }
 

@@ -5,6 +5,7 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/sample.hpp"
+#include "textslam/text_words.hpp"
 
 namespace textslam {
 namespace {
@@ -121,7 +122,8 @@ void read_texts(Map& map, const Parameters& parameters, TextReader& reader) {
     for (const SquareView& view : views) {
       if (!(view.sharpness > 0)) continue;
       const TextReader::Reading reading = read_either_way(reader, view);
-      if (is_read(reading.text)) text.votes[reading.text] += reading.score * view.sharpness / views.front().sharpness;
+      if (is_read(reading.text))
+        vote(&text.votes, reading.text, reading.score * view.sharpness / views.front().sharpness);
     }
   }
 }

@@ -31,6 +31,15 @@ double likeness(const std::string& a, const std::string& b) {
   return longer > 0 ? std::max(0.0, 1 - 2 * static_cast<double>(edit_distance(a, b)) / longer) : 1;
 }
 
+void vote(std::map<std::string, double>* votes, const std::string& word, double score) {
+  (*votes)[word] += score;
+  if (votes->size() <= kMostReadings) return;
+  auto fewest = votes->end();
+  for (auto entry = votes->begin(); entry != votes->end(); ++entry)
+    if (entry->first != word && (fewest == votes->end() || entry->second < fewest->second)) fewest = entry;
+  votes->erase(fewest);
+}
+
 std::string consensus(const std::map<std::string, double>& votes) {
   std::string best = kUnreadText;
   double most = 0;

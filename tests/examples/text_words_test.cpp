@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+
 #include "io/detections.hpp"
 
 namespace textslam {
@@ -23,6 +26,20 @@ TEST(TextWords, NoiseThatDiffersDoesNotSplitTheVotes) {
   // Each misread once, in another letter; a wrong word, read twice the same way, has more votes than any of them.
   EXPECT_EQ(consensus({{"Computer", 0.9}, {"Comquter", 0.8}, {"Computez", 0.8}, {"Gomputer", 0.8}, {"we", 1.4}}),
             "Computer");
+}
+
+TEST(TextWords, ReadingsAreBounded) {
+  std::map<std::string, double> votes;
+  for (int i = 0; i < 1000; ++i) {
+    vote(&votes, "noise" + std::to_string(i), 0.5 + 0.001 * (i % 7));
+    if (i % 5 == 0) vote(&votes, "EXIT", 0.4);
+    if (i >= 600) vote(&votes, "MARKET", 0.9);
+    ASSERT_LE(votes.size(), kMostReadings);
+  }
+  EXPECT_NEAR(votes.at("EXIT"), 200 * 0.4, 1e-9) << "the word that is read most is never left out";
+  EXPECT_NEAR(votes.at("MARKET"), 400 * 0.9, 1e-9) << "one that comes late is heard";
+  EXPECT_EQ(consensus(votes), "MARKET");
+  EXPECT_EQ(votes.count("noise999"), 1u) << "the newest stays, else none could begin";
 }
 
 TEST(TextWords, AmongWordsThatAreNotAlikeTheVotesDecide) {
