@@ -31,7 +31,7 @@ void count_visible(const std::string& folder, const std::vector<std::string>& st
       const double id = require_number(line.text.substr(before + 1, last - before - 1), path, line.number, "a sign");
       const double visible = require_number(line.text.substr(last + 1), path, line.number, "a visible share");
       for (TrueSign& sign : signs)
-        if (sign.id == static_cast<int>(id) && visible > kWhole) ++sign.visible_frames;
+        if (sign.id == id && visible > kWhole) ++sign.visible_frames;
     }
   }
 }
@@ -40,7 +40,7 @@ void count_visible(const std::string& folder, const std::vector<std::string>& st
 template <class Sign>
 Sign read_sign(const nlohmann::json& json) {
   Sign sign;
-  sign.id = json.at("id").get<int>();
+  sign.id = to_int(json.at("id"));
   sign.word = json.at("text").get<std::string>();
   for (std::size_t i = 0; i < 4; ++i) sign.corners[i] = to_vector3(json.at("corners").at(i));
   sign.normal = to_vector3(json.at("normal"));

@@ -1,7 +1,9 @@
 #include "io/json_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "io/text_file.hpp"
 
@@ -18,6 +20,13 @@ nlohmann::json read_json(const std::string& path) {
   } catch (const nlohmann::json::exception& error) {  // a number too large for a double
     throw InputError(path, 0, error.what());
   }
+}
+
+int to_int(const nlohmann::json& json) {
+  const auto number = json.get<double>();
+  if (!(std::abs(number) <= std::numeric_limits<int>::max()) || number != std::floor(number))
+    throw std::out_of_range("a whole number expected, not " + json.dump());
+  return static_cast<int>(number);
 }
 
 Vector3<double> to_vector3(const nlohmann::json& json) {

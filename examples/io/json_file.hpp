@@ -3,6 +3,7 @@
 #define TEXTSLAM_IO_JSON_FILE_HPP
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "io/input_error.hpp"
@@ -12,6 +13,9 @@ namespace textslam {
 
 /// The document. Throws InputError with the line for text that is no JSON, without one for a file that cannot be read.
 nlohmann::json read_json(const std::string& path);
+
+/// A whole number that an int holds. Throws std::out_of_range for another number, nlohmann::json::exception for anything else.
+int to_int(const nlohmann::json& json);
 
 /// Three finite numbers. Throws nlohmann::json::exception for anything else.
 Vector3<double> to_vector3(const nlohmann::json& json);
@@ -26,6 +30,8 @@ void for_each_entry(const nlohmann::json& document, const std::string& name, con
     try {
       read((*list)[i]);
     } catch (const nlohmann::json::exception& error) {
+      throw InputError(path, 0, name + "[" + std::to_string(i) + "]: " + error.what());
+    } catch (const std::out_of_range& error) {
       throw InputError(path, 0, name + "[" + std::to_string(i) + "]: " + error.what());
     }
   }

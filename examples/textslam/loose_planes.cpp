@@ -159,7 +159,7 @@ void update_loose_planes(Map& map, const Parameters& parameters, int id) {
       text.state = TextState::mapped;
     const bool waited = (text.state == TextState::candidate && age > parameters.text_patience) ||
                         (text.state == TextState::tentative && age > 2 * parameters.text_patience);
-    if (waited || text.failures >= kMostFailures) text.state = TextState::dropped;
+    if (waited || text.failures >= kMostFailures) drop(text);
   }
 }
 

@@ -60,4 +60,11 @@ double normal_sigma(const TextObject& text) {
   return std::sqrt(std::max(0.0, textplane::symmetric_eigen<double, 3>(covariance).values[2]));
 }
 
+void drop(TextObject& text) {
+  text.state = TextState::dropped;
+  text.patch = textplane::TextPatch();
+  std::vector<int>().swap(text.targets);
+  text.votes.clear();
+}
+
 }  // namespace textslam

@@ -138,6 +138,9 @@ double facing(const Map& map, const TextObject& text, const SE3d& T_c_w);
 /// Largest standard deviation of the direction of a text's normal, radians: n = -theta / |theta|.
 double normal_sigma(const TextObject& text);
 
+/// Takes a text out of the map. Its number stays; its patch and what was seen of it, most of its memory, go.
+void drop(TextObject& text);
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_MAP_HPP

@@ -102,7 +102,7 @@ std::vector<IndexedText> read_text_index(const std::string& path) {
   std::vector<IndexedText> texts;
   for_each_entry(read_json(path), "texts", path, [&](const nlohmann::json& entry) {
     IndexedText text;
-    entry.at("id").get_to(text.id);
+    text.id = to_int(entry.at("id"));
     entry.at("text").get_to(text.text);
     entry.at("score").get_to(text.score);
     entry.at("readings").get_to(text.readings);

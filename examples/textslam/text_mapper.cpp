@@ -262,7 +262,7 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
       if (near && find_plane(text, id, tracks)) {
         text.state = TextState::tentative;
       } else if (id - text.host > parameters_.text_patience || corners(text, id, tracks).host.size() < kFewestCorners) {
-        text.state = TextState::dropped;  // where it is seen again, another candidate has new corners
+        drop(text);  // where it is seen again, another candidate has new corners
       }
     } else if (near) {
       observe(text, id, 1);
@@ -277,9 +277,9 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     if (text.state == TextState::tentative && observations >= parameters_.text_min_observations &&
         text.detections >= parameters_.text_min_detections)
       text.state = TextState::mapped;
-    if (text.failures >= 5 && text.failures > static_cast<int>(text.targets.size())) text.state = TextState::dropped;
+    if (text.failures >= 5 && text.failures > static_cast<int>(text.targets.size())) drop(text);
     if (text.state == TextState::tentative && id - text.host > 2 * parameters_.text_patience)
-      text.state = TextState::dropped;
+      drop(text);
   }
 }
 

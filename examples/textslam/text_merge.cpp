@@ -64,7 +64,7 @@ void merge_texts(Map& map, int kept, int other) {
   to.targets.erase(std::unique(to.targets.begin(), to.targets.end()), to.targets.end());
   to.targets.erase(std::remove(to.targets.begin(), to.targets.end(), to.host), to.targets.end());
   to.failures = 0;
-  from.state = TextState::dropped;
+  drop(from);
 }
 
 int merge_duplicate_texts(Map& map, const Parameters& parameters) {

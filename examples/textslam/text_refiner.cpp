@@ -171,7 +171,7 @@ void TextRefiner::refine(TextObject& text) {
   if (normal_sigma(text) <= parameters_.refine_max_sigma * M_PI / 180)
     fit_to_surface(map_, parameters_, text);
   else
-    text.state = TextState::dropped;
+    drop(text);
 }
 
 void TextRefiner::refine() {

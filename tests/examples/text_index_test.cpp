@@ -65,6 +65,10 @@ TEST(TextIndex, SurvivesTheFile) {
   expect_input_error([&] { read_text_index(folder.path("none.json")); }, folder.path("none.json"), 0, "");
   const std::string broken = folder.write("broken.json", "{\"texts\": [{\"id\": 1}]}");
   expect_input_error([&] { read_text_index(broken); }, broken, 0, "texts[0]");
+  for (const char* id : {"1.5", "1e44", "3000000000", "-1e44"}) {
+    const std::string numbered = folder.write("numbered.json", "{\"texts\": [{\"id\": " + std::string(id) + "}]}");
+    expect_input_error([&] { read_text_index(numbered); }, numbered, 0, "texts[0]: a whole number expected");
+  }
 }
 
 TEST(TextIndex, QueriesFindWordsAndReadings) {

@@ -79,6 +79,7 @@ TEST_F(TextMergeTest, TheOneObservedMoreIsKeptAndGetsAll) {
   text(few).failures = text(many).failures = 2;
   EXPECT_EQ(merge_duplicate_texts(map, parameters), 1);
   EXPECT_EQ(text(few).state, TextState::dropped);
+  EXPECT_TRUE(text(few).targets.empty()) << "what was seen of it is given back";
   EXPECT_EQ(text(apart).state, TextState::mapped);
   const TextObject& kept = text(many);
   EXPECT_EQ(kept.state, TextState::mapped);
