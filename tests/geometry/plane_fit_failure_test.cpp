@@ -12,7 +12,6 @@
 #include "geometry/plane_fit_scene.hpp"
 #include "support/calculus.hpp"
 
-using textplane_test::Dual;
 using textplane_test::value;
 using textplane_test::values;
 
@@ -22,8 +21,7 @@ const double kNan = std::nan(""), kInf = std::numeric_limits<double>::infinity()
 
 template <class S>
 class PlaneFitFailures : public testing::Test {};
-using FailureScalars = testing::Types<float, double, Dual<6>>;
-TYPED_TEST_SUITE(PlaneFitFailures, FailureScalars, );
+TYPED_TEST_SUITE(PlaneFitFailures, Scalars, );
 
 TYPED_TEST(PlaneFitFailures, TooFewStillReportTheRank) {
   using S = TypeParam;

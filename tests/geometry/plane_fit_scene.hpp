@@ -2,8 +2,11 @@
 #ifndef TEXTPLANE_TESTS_GEOMETRY_PLANE_FIT_SCENE_HPP
 #define TEXTPLANE_TESTS_GEOMETRY_PLANE_FIT_SCENE_HPP
 
+#include <gtest/gtest.h>
+
 #include <vector>
 
+#include "support/calculus.hpp"
 #include "support/random.hpp"
 #include "textplane/geometry/plane_fit.hpp"
 
@@ -11,6 +14,7 @@ namespace plane_fit_test {
 namespace tp = textplane;
 using textplane_test::Random;
 using Vector3d = Eigen::Vector3d;
+using Scalars = testing::Types<float, double, textplane_test::Dual<6>>;
 
 // A sign of about a tenth of a radian, somewhere in view, seen from a second pose.
 template <class S>

@@ -38,7 +38,6 @@ namespace plane_fit_test {
 
 template <class S>
 class PlaneFits : public testing::Test {};
-using Scalars = testing::Types<float, double, Dual<6>>;
 TYPED_TEST_SUITE(PlaneFits, Scalars, );
 
 TYPED_TEST(PlaneFits, ExactDataGiveThetaBack) {
