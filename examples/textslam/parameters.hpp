@@ -28,12 +28,15 @@ struct Parameters {
   float min_track_zncc = 0.7F;     ///< Of a corner's window in two neighbouring frames.
 
   // Two-view initialisation
-  int init_min_matches = 80;         ///< Fewer tracks since the reference frame start anew.
+  int init_min_matches = 80;         ///< Fewer tracks since the reference frame start anew,
+  int init_min_text_matches = 40;    ///< unless as many are on texts: two signs on a blank wall may start the map.
   double init_min_parallax = 1.2;    ///< Degrees, median over the matches, rotation removed.
   double init_max_direction = 0.06;  ///< Radians: standard deviation of the direction of translation.
   double init_max_rms = 1.0;         ///< px, epipolar distance of the inliers.
-  double init_ambiguity = 1.3;       ///< A second solution must cost this much more.
-  int init_patience = 60;            ///< Frames after which the better of two ambiguous solutions is taken.
+  double init_clear = 5;             ///< Standard deviations of noise by which the best of several motions must be better.
+  int init_views = 8;                ///< That rival motions are adjusted over; then the newest takes the last one's place.
+  double init_view_flow = 10;        ///< px: median motion of the corners between two of them.
+  int init_patience = 60;            ///< Frames after which the best of several motions is taken all the same.
 
   // Pose of a frame
   double point_sigma = 1.0;         ///< px: sigma_rep of the paper, for a corner on level 0.

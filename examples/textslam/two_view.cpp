@@ -192,12 +192,8 @@ TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b
   const Hypothesis* chosen = nullptr;
   for (const Hypothesis& h : found) {
     if (h.in_front < enough) continue;
-    if (!chosen) {
-      chosen = &h;
-    } else {
-      best.ambiguity = h.cost / std::max(chosen->cost, 1e-9);
-      break;
-    }
+    if (!chosen) chosen = &h;
+    best.motions.push_back({SE3d{h.R, h.t}, h.cost});
   }
   if (!chosen) return best;
 

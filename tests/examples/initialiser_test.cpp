@@ -1,0 +1,116 @@
+// Initialisation of textslam on images made by formula: signs on one blank wall, which is all that there is to see.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "textplane/geometry/plane.hpp"
+#include "textplane/geometry/plane_fit.hpp"
+#include "textslam/initialiser.hpp"
+
+namespace textslam {
+namespace initialiser_test {
+
+SE3d moved(const Vec3& t, const Vec3& w) { return {textplane::so3_exp<double>(w), t}; }
+
+// A wall with boards of random spots, all in its plane; the camera at the origin sees it at a slant.
+class InitialiserTest : public testing::Test {
+ protected:
+  InitialiserTest() {
+    map.camera = {420, 420, 239.5, 179.5};
+    map.width = 480;
+    map.height = 360;
+  }
+
+  static double spot(int i, int j) {
+    std::uint32_t h = static_cast<std::uint32_t>(i) * 2654435761U ^ static_cast<std::uint32_t>(j) * 2246822519U;
+    h = (h ^ (h >> 15)) * 739982445U;
+    h = (h ^ (h >> 12)) * 695872825U;
+    return (h ^ (h >> 15)) % 2 == 0 ? 40 : 210;
+  }
+  static double ink(double x, double y) {
+    const double u = x / 0.05, v = y / 0.05;
+    const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
+    const double a = u - i, b = v - j;
+    return (1 - b) * ((1 - a) * spot(i, j) + a * spot(i + 1, j)) +
+           b * ((1 - a) * spot(i, j + 1) + a * spot(i + 1, j + 1));
+  }
+
+  // Camera `index` on its way, with the boards' detections.
+  Frame frame_at(int index) const {
+    const double way = 0.03 * index;
+    const SE3d T_w_c = moved({way, -0.3 * way, 0.4 * way}, {0.1 * way, -0.15 * way, 0.05 * way});
+    const SE3d T_b_c = T_w_b.inverse() * T_w_c;
+    Image<std::uint8_t> image(map.width, map.height, 128);
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x) {
+        const Vec3 ray = T_b_c.R * map.camera.unproject(Vec2(x, y));
+        const Vec3 p = T_b_c.t - T_b_c.t.z() / ray.z() * ray;
+        for (const Vec2& board : boards)
+          if (std::abs(p.x() - board.x()) < kHalfWidth && std::abs(p.y() - board.y()) < kHalfHeight)
+            image(x, y) = static_cast<std::uint8_t>(std::lround(ink(p.x(), p.y())));
+      }
+    Frame frame;
+    frame.index = index;
+    frame.timestamp = 0.04 * index;
+    frame.image = std::make_shared<const Pyramid>(image.view(), parameters.pyramid_levels);
+    for (const Vec2& board : boards) {
+      Detection detection;
+      const double signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3 corner(board.x() + signs[i][0] * kHalfWidth, board.y() + signs[i][1] * kHalfHeight, 0);
+        detection.quad.corner[i] = map.camera.project(T_b_c.inverse() * corner);
+      }
+      frame.detections.push_back(detection);
+    }
+    return frame;
+  }
+
+  // The frame at which the map began; -1: at none of the first 60.
+  int begin() {
+    Initialiser initialiser(parameters);
+    for (int index = 0; index < 60; ++index)
+      if (initialiser.add(frame_at(index), map, &tracks)) return index;
+    return -1;
+  }
+
+  static constexpr double kHalfWidth = 0.4, kHalfHeight = 0.16;
+  const SE3d T_w_b = moved({0, 0, 2}, {0.25, 0.45, 0});  // z of the wall away from the reader
+  std::vector<Vec2> boards = {{-0.35, -0.4}, {0.2, 0.3}};
+  Parameters parameters;
+  Map map;
+  std::vector<Track> tracks;
+};
+
+TEST_F(InitialiserTest, TwoSignsOnAWallStartTheMapAndGiveItsPlane) {
+  const int frame = begin();
+  ASSERT_GT(frame, 0);
+  ASSERT_EQ(map.keyframes.size(), 2U);
+  EXPECT_EQ(map.keyframe(0).frame.index, 0);
+  EXPECT_EQ(map.keyframe(1).frame.index, frame);
+  const double way = 0.03 * frame;
+  const Vec3 t(way, -0.3 * way, 0.4 * way);
+  EXPECT_GT(map.keyframe(1).T_w_c.t.normalized().dot(t.normalized()), std::cos(4 * M_PI / 180));
+  std::vector<Vec3> points;
+  for (const MapPoint& point : map.points)
+    if (!point.bad) points.push_back(point.p_w);
+  ASSERT_GE(points.size(), 30U);
+  const auto plane = textplane::plane_from_points(points);
+  ASSERT_TRUE(textplane::is_ok(plane.status));
+  EXPECT_LT(degrees_between(-textplane::plane_normal(plane.value), T_w_b.R.col(2)), 3);
+  for (const Track& track : tracks) EXPECT_LE(track.observations.size(), 2U);
+}
+
+TEST_F(InitialiserTest, AsManyCornersWithoutAWordThatTheyAreTextDoNot) {
+  parameters.mode = Mode::points;
+  EXPECT_EQ(begin(), -1);
+  EXPECT_TRUE(map.keyframes.empty());
+}
+
+TEST_F(InitialiserTest, OneSignAloneDoesNot) {
+  boards.pop_back();
+  EXPECT_EQ(begin(), -1);
+  EXPECT_TRUE(map.keyframes.empty());
+}
+
+}  // namespace initialiser_test
+}  // namespace textslam
