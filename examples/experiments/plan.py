@@ -5,6 +5,8 @@ A case is rendered once and run in every mode, so that the modes meet the same i
 MODES = ("text", "points", "loose")
 KINDS = ("room", "corridor", "rapid", "lights", "sparse", "loop", "notext")
 SEEDS = (1, 2, 3)
+# First frames of the runs on a real sequence: there is one of it, and where it begins changes every number by chance.
+STARTS = (0, 3, 6, 9, 12, 15, 18, 21)
 
 # Sweeps vary one condition of the room; each: the option of textslam, its unit, and the values.
 SWEEPS = {
@@ -20,7 +22,8 @@ SWEEP_SEED = 1
 
 
 class Case:
-    """name: its folder in the output; group: `kinds`, `sequence` or a sweep's name; value: of the sweep."""
+    """name: its folder in the output; group: `kinds`, `sequence` or a sweep's name; value: of the sweep. arguments: of the
+    rendering, or of every run on a given sequence."""
 
     def __init__(self, name, group, kind, arguments=(), seed=None, value=None, sequence=None):
         self.name, self.group, self.kind = name, group, kind
@@ -36,7 +39,9 @@ def cases(kinds, seeds, sweeps, frames, sequence):
             arguments = ["--render", kind, "--seed", str(seed), *length]
             out.append(Case(f"{kind}-{seed}", "kinds", kind, arguments, seed=seed))
     if sequence:
-        out.append(Case("sequence", "sequence", sequence.resolve().name, sequence=sequence))
+        for first in STARTS:
+            arguments = ["--first", str(first)] if first else []
+            out.append(Case(f"sequence-{first}", "sequence", sequence.resolve().name, arguments, sequence=sequence))
     for sweep in sweeps:
         option, _, values = SWEEPS[sweep]
         for value in values:

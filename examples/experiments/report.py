@@ -16,8 +16,9 @@ from figures import (
     trajectory_value,
     written,
 )
-from plan import MODES, SWEEP_KIND, SWEEP_SEED, SWEEPS
+from plan import MODES, STARTS, SWEEP_KIND, SWEEP_SEED, SWEEPS
 from plot import plot
+from to_date import STEP
 
 WITH_PLANES = ("text", "loose")
 
@@ -62,7 +63,7 @@ class Report:
         return mapped, visible or None, strays
 
     def text(self):
-        parts = [self.head(), self.accuracy(), self.planes(), self.angle_histogram(), self.time()]
+        parts = [self.head(), self.accuracy(), self.to_date(), self.planes(), self.angle_histogram(), self.time()]
         parts += [self.sweep(name) for name in SWEEPS if self.sweep_cases(name)]
         return "\n".join(part for part in parts + [self.failures()] if part)
 
@@ -72,7 +73,7 @@ class Report:
         return f"""# Experiments
 
 Written by `examples/experiments/run`; do not edit. The modes of `textslam` on rendered sequences of {length}
-(640x480, exact truth), seeds {", ".join(map(str, setting["seeds"]))}, and on a real one where its folder was given:
+(640x480, exact truth), seeds {", ".join(map(str, setting["seeds"]))}, and on a real one where its folder was given, from its frames {", ".join(map(str, STARTS))} on:
 
 - `text`: points and text planes in one cost, the paper's method;
 - `points`: points alone;
@@ -93,6 +94,24 @@ signs count as not mapped, and it is listed at the end.
             return ""
         head = ["sequence", "mode", "ATE, mm", "mean", "% of path", "live", "RPE, mm", "RPE, deg", "frames with a pose", "failed"]
         return "## Trajectories (the paper's Table I)\n\n" + table(head, rows, 2)
+
+    def to_date(self):
+        """ATE of each run's final, live and to-date poses, mode `text`."""
+        rows = []
+        for kind, cases in by_kind(self.cases):
+            for case in cases:
+                text, known = self.results(case, "text"), self.results(case, "to_date")
+                if not text or not known:
+                    continue
+                final, live = trajectory_value(text, "ate_rmse"), trajectory_value(text, "ate_rmse", live=True)
+                ratio = live / final if live and final else None
+                rows.append([f"`{kind}`", "-" if case.seed is None else str(case.seed), millimetres(final), millimetres(live),
+                             millimetres(known["ate_rmse"]), written(ratio, 2)])
+        if not rows:
+            return ""
+        return ("## Live poses\n\nWhat a live pose is off that could not have been known at its time: `to date` is the ATE of the newest poses of "
+                f"runs that end every {STEP} frames\nand adjust everything seen until then (`--to-date`). Mode `text`, mm.\n\n"
+                + table(["sequence", "seed", "final", "live", "to date", "live / final"], rows, 1))
 
     @staticmethod
     def accuracy_row(kind, mode, runs):

@@ -14,6 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "examples/experiments"))
 import figures  # noqa: E402
 import plan  # noqa: E402
+import to_date  # noqa: E402
 
 # Renders a file that holds its arguments, and finds errors that depend on mode, seed and condition; seed 3 fails in mode points.
 STAND_IN = """#!/usr/bin/env python3
@@ -28,6 +29,8 @@ if "--render-only" in arguments:
     json.dump({"seed": int(value("--seed")), "blur": float(value("--blur") or 0)}, open(output + "/sequence/frames", "w"))
     sys.exit(0)
 frames = json.load(open(arguments[0] + "/frames"))
+if "--last" in arguments:
+    sys.exit(0)
 mode = value("--mode")
 if frames["seed"] == 3 and mode == "points":
     sys.exit("textslam: out of luck")
@@ -58,6 +61,29 @@ class Figures(unittest.TestCase):
 
     def test_bins_hold_their_upper_end(self):
         self.assertEqual(figures.histogram([0.1, 0.25, 0.3, 10, 11]), [2, 1, 0, 0, 0, 1, 1])
+
+
+class ToDate(unittest.TestCase):
+    def test_each_run_gives_its_newest_poses(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            evaluation = folder / "textslam-eval"
+            evaluation.write_text("#!/bin/sh\necho run,status,ate_rmse\necho $1,ok,0.$(wc -l < $1/trajectory.txt)\n")
+            evaluation.chmod(0o755)
+            ends = []
+
+            def call(command):  # runs of up to 20 frames have no map; later ones have poses from their second frame on
+                end, output = int(command[command.index("--last") + 1]) + 1, Path(command[-1])
+                ends.append(end)
+                if end > 20:
+                    output.mkdir(parents=True)
+                    (output / "trajectory.txt").write_text("# made by a test\n" + "".join(f"{t} {end}\n" for t in range(1, end)))
+
+            ate = to_date.measure(folder / "textslam", folder / "sequence", 50, folder / "out", call)
+            poses = (folder / "out/whole/trajectory.txt").read_text().splitlines()
+        self.assertEqual(ends, [20, 40, 50])
+        self.assertEqual(poses, [f"{t} 40" for t in range(1, 40)] + [f"{t} 50" for t in range(40, 50)])
+        self.assertEqual(ate, 0.49)
 
 
 class Experiments(unittest.TestCase):
@@ -92,6 +118,17 @@ class Experiments(unittest.TestCase):
         self.assertIn("| up to 0.25 | 3 | 50 % ██████████ | 0 | 0 %  |", report)
         self.assertIn("| `room` | text | 250 |", report)  # 4 ms a frame
         self.assertEqual(list((self.folder / "out").glob("frames/*")), [], "rendered frames are deleted")
+
+    def test_poses_to_date_stand_beside_live_and_final_ones(self):
+        evaluation = self.folder / "textslam-eval"
+        evaluation.write_text("#!/bin/sh\necho run,status,ate_rmse\necho $1,ok,0.0015\n")
+        evaluation.chmod(0o755)
+        part = ("--kinds", "room", "--seeds", "1", "2", "--sweeps", "--frames", "10", "--to-date")
+        report = self.run_part(*part)
+        self.assertEqual(sum("--last 9" in call for call in self.called), 2)
+        self.assertIn("| `room` | 2 | 2.00 | 4.00 | 1.50 | 2.00 |", report)
+        self.assertEqual(self.run_part(*part), report)
+        self.assertEqual(self.called, [], "they are kept, too")
 
     def test_finished_runs_are_kept_until_the_program_changes(self):
         part = ("--kinds", "room", "--seeds", "2", "3", "--sweeps", "--frames", "10")
@@ -136,8 +173,9 @@ class Experiments(unittest.TestCase):
         (self.folder / "real").mkdir()
         (self.folder / "real/frames").write_text(json.dumps({"seed": 1, "blur": 0}))
         report = self.run_part("--kinds", "--sweeps", "--sequence", str(self.folder / "real"))
-        self.assertEqual(len(self.called), 3)
-        self.assertIn("| `real` | text | 1.00 |", report)
+        self.assertEqual(len(self.called), 3 * len(plan.STARTS))
+        self.assertEqual(sum("--first 3 --mode" in call for call in self.called), 3)
+        self.assertIn("| `real` | text | 1.00, 1.00, ", report)
         self.assertTrue((self.folder / "real/frames").exists())
 
 
