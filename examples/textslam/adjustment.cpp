@@ -5,6 +5,7 @@
 #include "textplane/photometry/residual.hpp"
 #include "textplane/solver/window.hpp"
 #include "textslam/point_mapper.hpp"
+#include "textslam/text_plane.hpp"
 
 namespace textslam {
 namespace {
@@ -73,12 +74,21 @@ class Adjustment {
     for (std::size_t i = 0; i < frames_.size(); ++i)
       map.keyframe(frames_[i]).T_w_c = textplane::renormalised(window_.frames[i].T_w_c);
     for (std::size_t i = 0; i < points_.size(); ++i) map.point(points_[i]).p_w = window_.points[i].p_w;
+  }
+
+  // After all key frames of the map have their poses: a text may have another host by now, one that came later.
+  void write_back_texts(Map& map) const {
     for (std::size_t i = 0; i < texts_.size(); ++i) {
       TextObject& text = map.texts[static_cast<std::size_t>(texts_[i])];
-      if (!textplane::is_ok(window_.texts[i].status)) continue;
-      text.theta = window_.texts[i].theta;
-      text.covariance = window_.texts[i].covariance;
-      text.zncc = window_.texts[i].zncc;
+      const textplane::WindowText& adjusted = window_.texts[i];
+      if (text.state != TextState::mapped || !textplane::is_ok(adjusted.status)) continue;
+      Vec3 theta = adjusted.theta;
+      Eigen::Matrix3d covariance = adjusted.covariance;
+      const int host = frames_[static_cast<std::size_t>(adjusted.host)];
+      if (text.host != host && !transport_plane(map, host, text.host, &theta, &covariance)) continue;
+      text.theta = theta;
+      text.covariance = covariance;
+      text.zncc = adjusted.zncc;
     }
   }
 
@@ -236,6 +246,7 @@ class AdjustmentAroundNewest : public LocalAdjustment {
     for (std::size_t i = static_cast<std::size_t>(newest_) + 1; i < map.keyframes.size(); ++i)
       map.keyframes[i].T_w_c = textplane::renormalised(moved * map.keyframes[i].T_w_c);
     for (std::size_t i = points_; i < map.points.size(); ++i) map.points[i].p_w = moved * map.points[i].p_w;
+    adjustment_.write_back_texts(map);
     return moved;
   }
 
@@ -279,6 +290,7 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
     adjustment.weigh_texts(map);
     adjustment.solve(iterations);
     adjustment.write_back(map);
+    adjustment.write_back_texts(map);
     if (adjustment.remove_outliers(map) == 0) break;
     selection.points.erase(
         std::remove_if(selection.points.begin(), selection.points.end(), [&](int id) { return map.point(id).bad; }),

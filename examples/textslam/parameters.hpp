@@ -80,6 +80,9 @@ struct Parameters {
   double text_max_slant = 78;      ///< Degrees between viewing ray and normal.
   int text_patience = 25;          ///< Key frames a candidate may wait for its plane.
   int text_targets = 8;            ///< Key frames that a plane is refined against.
+  double rehost_area = 4;          ///< So many times as large, a pyramid level, a text's next host shows it,
+  double rehost_slant = 5;         ///< at most so many degrees more slanted; and 1 - ZNCC of its other key frames
+  double rehost_unlike = 1.5;      ///< becomes at most so many times as large, else the new one is blurred.
 
   // Last refinement of the text planes
   int refine_hosts = 8;         ///< Key frames that a text is compared from, the largest views among them,

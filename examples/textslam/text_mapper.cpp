@@ -12,6 +12,8 @@
 #include "textslam/loose_planes.hpp"
 #include "textslam/point_mapper.hpp"
 #include "textslam/statistics.hpp"
+#include "textslam/text_hosting.hpp"
+#include "textslam/text_plane.hpp"
 #include "textslam/text_words.hpp"
 
 namespace textslam {
@@ -28,14 +30,6 @@ const Vec2* observed_in(const std::vector<PointObservation>& observations, int k
 
 const std::vector<PointObservation>& observations_of(const Map& map, const Track& track) {
   return track.point >= 0 ? map.point(track.point).observations : track.observations;
-}
-
-textplane::SelectOptions select_options(const Parameters& parameters) {
-  textplane::SelectOptions options;
-  options.min_pixels = parameters.text_min_pixels;
-  options.max_pixels = parameters.text_max_pixels;
-  options.levels = parameters.text_levels;
-  return options;
 }
 
 double overlap(const Quad<double>& a, const Quad<double>& b) {
@@ -107,8 +101,7 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
     TextObject text;
     text.id = static_cast<int>(map_.texts.size());
     text.host = id;
-    text.patch = textplane::make_patch(map_.keyframe(id).frame.image->view(), map_.camera, detection.quad,
-                                       select_options(parameters_));
+    text.patch = make_text_patch(map_, parameters_, id, detection.quad);
     if (!textplane::is_ok(text.patch.status)) continue;
     text.detections = 1;
     if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score);
@@ -168,40 +161,14 @@ bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::
          textplane::inverse_depth(*theta, map_.camera.unproject(textplane::centroid(text.patch.quad))) > 0;
 }
 
-bool TextMapper::refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc) {
-  std::vector<textplane::PlaneTarget> targets;
-  for (const int id : keyframes) {
-    const SE3d T_c_w = map_.keyframe(id).T_w_c.inverse();
-    TextObject guess;
-    guess.host = text.host;
-    guess.patch.quad = text.patch.quad;
-    guess.theta = theta;
-    Quad<double> quad;
-    const int shift = project_text(map_, guess, T_c_w, &quad) ? scale_shift(text, quad) : 0;
-    targets.push_back({map_.keyframe(id).frame.image->view(), map_.T_c_h(T_c_w, text.host), shift});
-  }
-  textplane::PlaneWorkspace workspace;
-  workspace.reserve(text.patch, static_cast<int>(targets.size()));
-  textplane::PlaneOptions options;
-  const auto fit = textplane::refine_plane(text.patch, theta, targets.data(), static_cast<int>(targets.size()),
-                                           map_.camera, options, workspace);
-  if (!textplane::is_ok(fit.status) || fit.zncc < min_zncc) return false;
-  const Vec3 ray = map_.camera.unproject(textplane::centroid(text.patch.quad)).normalized();
-  if (-textplane::plane_normal(fit.theta).dot(ray) < std::cos(parameters_.text_max_slant * M_PI / 180)) return false;
-  for (const Vec2& corner : text.patch.quad.corner)
-    if (!(textplane::inverse_depth(fit.theta, map_.camera.unproject(corner)) > 0)) return false;
-  text.theta = fit.theta;
-  text.covariance = fit.covariance;
-  text.zncc = fit.zncc;
-  return true;
-}
-
 // By the corners, and the images: the plane that key frame `id` speaks for, and the key frames that agree with it. One that the
 // text has already stays where they are not more: the first was solved with little parallax, and may be no good in later views.
 bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& tracks) {
   TextObject found = text;
   Vec3 theta;
-  if (!initial_plane(text, id, tracks, &theta) || !refine(found, {id}, theta, parameters_.text_min_zncc)) return false;
+  if (!initial_plane(text, id, tracks, &theta) ||
+      !refine_plane(map_, parameters_, {id}, theta, parameters_.text_min_zncc, found))
+    return false;
   found.targets.clear();
   for (int other = text.host + 1; other <= id; ++other)
     if (!map_.keyframe(other).culled) observe(found, other, 1);
@@ -270,16 +237,16 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     }
     if (!text.has_plane()) continue;
     if (text.targets.size() > before && text.state == TextState::tentative) {
-      refine(text, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)), text.theta,
-             parameters_.text_cull_zncc);
+      refine_plane(map_, parameters_, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)),
+                   text.theta, parameters_.text_cull_zncc, text);
     }
     const int observations = static_cast<int>(text.targets.size()) + 1;
     if (text.state == TextState::tentative && observations >= parameters_.text_min_observations &&
         text.detections >= parameters_.text_min_detections)
       text.state = TextState::mapped;
     if (text.failures >= 5 && text.failures > static_cast<int>(text.targets.size())) drop(text);
-    if (text.state == TextState::tentative && id - text.host > 2 * parameters_.text_patience)
-      drop(text);
+    if (text.state == TextState::tentative && id - text.host > 2 * parameters_.text_patience) drop(text);
+    if (text.targets.size() > before) rehost(map_, parameters_, id, text);
   }
 }
 

@@ -2,8 +2,8 @@
 //
 // Detection in a key frame -> candidate (refused where it meets a known text or the image border) -> its corners are tracked;
 // once they have parallax, theta by the linear system [m']x t m^T theta = -[m']x R m -> photometric refinement against the
-// key frames that see it -> tentative -> after n_min observations mapped: it takes part in tracking and adjustment ->
-// dropped when the images stop agreeing with it.
+// key frames that see it -> tentative -> after n_min observations mapped: it takes part in tracking and adjustment, hosted anew
+// where a key frame shows it much better (text_hosting.hpp) -> dropped when the images stop agreeing with it.
 #ifndef TEXTSLAM_TEXT_MAPPER_HPP
 #define TEXTSLAM_TEXT_MAPPER_HPP
 
@@ -41,7 +41,6 @@ class TextMapper {
   Corners corners(const TextObject& text, int keyframe, const std::vector<Track>& tracks) const;
   bool find_plane(TextObject& text, int id, const std::vector<Track>& tracks);
   bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
-  bool refine(TextObject& text, const std::vector<int>& keyframes, Vec3 theta, double min_zncc);
   void observe(TextObject& text, int keyframe, double min_share);
 
   Map& map_;
