@@ -47,6 +47,13 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
 TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
   store_n(reinterpret_cast<float*>(p), _mm256_castsi256_ps(v), n);
 }
+// Sooner than the instruction.
+TEXTPLANE_SIMD_INLINE __m128 gather_four(const float* p, const int* at) noexcept {
+  return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
+}
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(gather_four(p, at)), gather_four(p, at + 4), 1);
+}
 TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
   return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
 }

@@ -51,6 +51,9 @@ TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
   if (n >= 2) vst1q_lane_s32(p + 1, v, 1);
   if (n >= 3) vst1q_lane_s32(p + 2, v, 2);
 }
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
+  return vf{p[at[0]], p[at[1]], p[at[2]], p[at[3]]};
+}
 // The four bytes of `word`, the lowest in lane 0.
 TEXTPLANE_SIMD_INLINE vi widen_word(unsigned word) noexcept {
   const uint16x8_t halves = vmovl_u8(vcreate_u8(word));

@@ -29,6 +29,7 @@ TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return n > 0 ? 
 TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
   if (n > 0) *p = v;
 }
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return p[*at]; }  // p[at[i]]
 // kLanes bytes, as int32 and as float.
 TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept { return *p; }
 TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return static_cast<float>(*p); }

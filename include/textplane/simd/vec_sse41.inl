@@ -50,6 +50,9 @@ TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
   if (n >= 2) p[1] = _mm_extract_epi32(v, 1);
   if (n >= 3) p[2] = _mm_extract_epi32(v, 2);
 }
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
+  return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
+}
 TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
   return _mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(load_word(p))));
 }

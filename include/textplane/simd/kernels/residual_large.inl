@@ -6,6 +6,9 @@
 
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
 
+// Pixels whose sums are taken at once where no rows are stored: what is kept of them fits the first cache.
+enum : int { kBlock = 4 * kStrip };
+
 // Everything one strip needs besides its pixels.
 struct RowStrip {
   float row[6][kStrip];
@@ -15,69 +18,67 @@ struct RowStrip {
 // less time than loops over rows that pass through memory. The sums are those of add_strip_products() and add_strip_sums(), each
 // in the same order.
 TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, float* acc, float* ones,
-                                               float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, acc, ones);
-  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, first, second);
+                                               const float* p, const float* q, int n, bool fresh, float* acc,
+                                               float* ones, float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, fresh, acc, ones);
+  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, fresh, first, second);
 }
 
 // Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too.
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
-                                              float* acc) noexcept {
+                                              bool fresh, float* acc) noexcept {
   float(*r)[kStrip] = rows->row;
   float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;  // or where nobody reads
   if (form == 3) {
     plane_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain)
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
     else
-      add_squares3(r[0], r[1], r[2], n, acc);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
   } else if (form == 6) {
     pose_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain) {
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
-      add_squares_sums3(r[3], r[4], r[5], n, acc + 6 * kLanes, sums + 3 * kLanes);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
+      add_squares_sums3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
     } else {
-      add_squares3(r[0], r[1], r[2], n, acc);
-      add_squares3(r[3], r[4], r[5], n, acc + 6 * kLanes);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
+      add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
-    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 12 * kLanes);
+    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
-    add_squares_sums3(a, r[0], r[1], n, acc, sums);
-    add_squares_sums3(b, r[2], r[3], n, acc + 6 * kLanes, sums + 3 * kLanes);
-    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, acc + 12 * kLanes, sums + 6 * kLanes);
-    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 18 * kLanes);
+    add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
+    add_squares_sums3(b, r[2], r[3], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
+    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes, sums + 6 * kLanes);
+    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
 
 // Sums of the rows with the factors p and q, to the sums `first` and `second` of three.
 TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, float* first, float* second) noexcept {
+                                          const float* p, const float* q, int n, bool fresh, float* first,
+                                          float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
-    add_products3(r[3], r[4], r[5], p, q, n, first + 3 * kLanes, second + 3 * kLanes);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
+    add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
   } else {
-    add_products4(a, r[0], r[1], b, p, q, n, first, second);
-    add_products4(r[2], r[3], r[4], r[5], p, q, n, first + 4 * kLanes, second + 4 * kLanes);
+    add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
+    add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
 
-// Adds the partial sums to the totals and clears them; `sums` is rounded up to a multiple of four.
+// Adds the partial sums to the totals; `sums` is rounded up to a multiple of four.
 TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
   for (int k = 0; k < sums; k += 4) {
     float* p = acc + k * kLanes;
     float four[4];
     hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) {
-      total[k + j] += static_cast<double>(four[j]);
-      store(p + j * kLanes, zero());
-    }
+    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
   }
 }
 
@@ -183,8 +184,8 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   return Status::ok;
 }
 
-// Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta; returns
-// how many.
+// Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta, and up
+// to a whole vector some pixel; returns how many.
 struct CostSums {
   vf squares, rho;
 };
@@ -222,6 +223,7 @@ TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const 
     *squares += hsum_d(sums.squares);
     *rho += hsum_d(sums.rho);
   }
+  if (list) storei(list + listed, seti(0));
   return listed;
 }
 
@@ -234,29 +236,19 @@ struct WeightedStrip {
 // Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is Huber's w, or
 // (complement) 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
 TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
-                                      const Residual& k, double root, float delta, bool complement, WeightedStrip* w,
+                                      const Residual& res, double root, float delta, bool complement, WeightedStrip* w,
                                       double* sums) noexcept {
-  if (list) {
-    for (int j = 0; j < n; ++j) {
-      const std::ptrdiff_t at = list[j];
-      w->x[j] = s.x[at];
-      w->y[j] = s.y[at];
-      w->a[j] = s.a[at];
-      w->b[j] = s.b[at];
-      w->q[j] = s.i[at];
-      w->r[j] = s.d[at];
-    }
-    for (int j = n; j % kLanes != 0; ++j) w->x[j] = w->y[j] = w->a[j] = w->b[j] = w->q[j] = w->r[j] = 0.0F;
-  }
-  const vf on_d = set1(static_cast<float>(k.on_d)), on_i = set1(static_cast<float>(k.on_i));
-  const vf shift = set1(static_cast<float>(k.shift)), limit = set1(delta);
-  const vf i_mean = set1(static_cast<float>(k.i_mean)), i_scale = set1(static_cast<float>(1 / k.i_s));
+  const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(delta);
+  const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
   const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
   for (int j = 0; j < n; j += kLanes) {
-    const vf i = list ? load(w->q + j) : load(s.i + begin + j), d = list ? load(w->r + j) : load(s.d + begin + j);
-    const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
-    const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
+    const std::int32_t* at = list ? list + j : nullptr;
+    const int k = begin + j;
+    const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
+    const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
+    const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
     const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
     vf weight = div(complement ? sub(size, inner) : inner, least);
@@ -286,10 +278,10 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 
 // Sums of the rows with the factors p, q and r of the strip, one after the other.
 TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n,
-                                             float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, acc, acc + form * kLanes);
+                                             bool fresh, float* acc) noexcept {
+  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, last, last);  // twice the same, stored once more
+  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);  // twice the same, stored once more
 }
 
 // The cost of the host pixels, of which there are at least a.min_visible.
@@ -324,7 +316,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
+  store(acc + all * kLanes, zero());  // fold() reads it
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -333,22 +325,25 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   RowStrip rows;
   Offsets offsets;
   SideSums sides = {0, 0, 0, 0};
+  const int block = kManyRegisters && form == 8 ? kBlock : static_cast<int>(kStrip);
   int terms = 0;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
-    const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
-    float *i = s.i + begin, *d = s.d + begin;
-    if (begin == 0) offsets = first_offsets(i, host.h, count);
-    centre_strip(i, host.h + begin, d, count, offsets, &sides);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    const int end = begin + count, from = begin / block * block;
+    if (end % block != 0 && end < n) continue;
+    const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
+    const bool fresh = terms == 0;
     if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
     } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
     }
-    terms += kStrip / kLanes;
-    if (terms >= kFoldTerms || begin + kStrip >= n) {
+    terms += block / kLanes;
+    if (terms >= kFoldTerms || end == n) {
       fold(acc, all, total);
       terms = 0;
     }
@@ -389,8 +384,8 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
       weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
-      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_weights(form, ws, rows, m, acc + products * kLanes);
+      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, terms == 0, acc);
+      add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
         fold(acc, all, other);

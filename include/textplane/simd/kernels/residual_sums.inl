@@ -1,10 +1,12 @@
 // Sums of products of rows over a strip. A row is an array of n floats, zero up to the next whole vector; `acc` points to the
-// sums of kLanes partial sums each, to which is added. At most 12 sums a loop: they stay in registers.
+// sums of kLanes partial sums each, to which is added; where `fresh`, they are not read but begin at zero: clearing them first
+// takes longer. At most 12 sums a loop: they stay in registers.
+TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
 
 // r0 r0, r0 r1, r0 r2, r1 r1, r1 r2, r2 r2.
-TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -23,11 +25,11 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
 }
 
 // The same, and to `sums` r0, r1, r2 themselves.
-TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, float* acc,
+TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh, float* acc,
                                             float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -53,10 +55,10 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
 
 // r_j q_k, j the slower index.
 TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0,
-                                         const float* q1, const float* q2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                         const float* q1, const float* q2, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
@@ -82,9 +84,9 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
 
 // r_j p to `acc`, r_j q to `acc2`, for the three rows of j.
 TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -104,9 +106,9 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
 
 // r_j p to `acc`, r_j q to `acc2`, for four rows.
 TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
-                                        const float* p, const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
+                                        const float* p, const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes), s3 = so_far(fresh, acc + 3 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes), t3 = so_far(fresh, acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -130,11 +132,11 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
 
 // The products of (A, Ax, Ay) and (B, Bx, By) and the sums of Cx, Cy: six and two.
 TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float* ay, const float* b, const float* bx,
-                                    const float* by, const float* cx, const float* cy, int n, float* acc,
+                                    const float* by, const float* cx, const float* cy, int n, bool fresh, float* acc,
                                     float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
@@ -158,10 +160,10 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
 
 // The products with Cx, Cy: of (Ax, Ay), of (Bx, By), and their own; xx, xy, yy of each.
 TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const float* bx, const float* by, const float* cx,
-                                    const float* cy, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                    const float* cy, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
@@ -189,16 +191,16 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
 
 // The products of (A, Ax, Ay), those of (B, Bx, By), and the mixed ones, in the order of add_squares3() and add_mixed(); and the
 // sums of the six rows.
-TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh, float* acc,
                                       float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
-  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
-  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
-  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes), s11 = so_far(fresh, acc + 11 * kLanes);
+  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes), s14 = so_far(fresh, acc + 14 * kLanes);
+  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes), s17 = so_far(fresh, acc + 17 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
+  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes), t5 = so_far(fresh, sums + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
@@ -255,11 +257,11 @@ TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const floa
 
 // The products of add_cubic(), and the sums of Cx, Cy.
 TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
-                                            float* acc, float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+                                            bool fresh, float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -290,13 +292,13 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
 
 // The eight rows times p to `acc`, times q to `acc2`.
 TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
-  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
-  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
+  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes), t5 = so_far(fresh, acc2 + 5 * kLanes);
+  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);

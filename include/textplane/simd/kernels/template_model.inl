@@ -81,17 +81,16 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
   for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 8; ++k) store(unused_sums + k * kLanes, zero());
+  store(acc + kAll * kLanes, zero());  // fold() reads it
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
   for (int begin = 0; begin < outliers; begin += kStrip) {
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
-    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, unused_sums);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, other);
   }
   unpack_products(8, other, S);
