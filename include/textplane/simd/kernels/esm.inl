@@ -69,12 +69,12 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const int n = host.n;
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
     pull_back(f.warp, host.x + begin, host.y + begin, count, s.x + begin, s.y + begin, s.a + begin, s.b + begin);
   }
   Residual r;

@@ -87,43 +87,45 @@ TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
 struct Offsets {
   float target, host, kappa;
 };
-TEXTPLANE_SIMD_ENTRY Offsets plain_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o;
-  vf t = zero(), s = zero();
-  for (int k = 0; k < n; k += kLanes) {
-    t = add(t, load(i + k));
-    s = add(s, load_part(h + k, n - k));
-  }
-  o.target = static_cast<float>(hsum_d(t) / n);
-  o.host = static_cast<float>(hsum_d(s) / n);
-  o.kappa = 1.0F;
-  return o;
-}
 TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o = plain_offsets(i, h, n);
-  vf t = zero(), s = zero();
+  const vf i_first = set1(i[0]), h_first = set1(h[0]);
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    vf p = sub(load(i + k), set1(o.target)), q = sub(load_part(h + k, n - k), set1(o.host));
+    vf p = sub(load(i + k), i_first), q = sub(load_part(h + k, n - k), h_first);
     if (n - k < kLanes) {
       p = keep(first_n(n - k), p);
       q = keep(first_n(n - k), q);
     }
-    t = madd(p, p, t);
-    s = madd(q, q, s);
+    i1 = add(i1, p);
+    h1 = add(h1, q);
+    i2 = madd(p, p, i2);
+    h2 = madd(q, q, h2);
   }
-  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
+  float sum[4];
+  hsum4(i1, i2, h1, h2, sum);
+  const float by_n = 1.0F / static_cast<float>(n), i_mean = sum[0] * by_n, h_mean = sum[2] * by_n;
+  const float i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  Offsets o;
+  o.target = i[0] + i_mean;
+  o.host = h[0] + h_mean;
+  const double ratio = h_squares > 0 ? static_cast<double>(i_squares) / static_cast<double>(h_squares) : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
 
-// i less its offset, d = kappa (h - offset) - i, and the sums of both sides and their squares. Zero beyond n.
-struct SideSums {
-  double i, ii, h, hh;
-};
-// The same sums, lane by lane.
+// i less its offset, d = kappa (h - offset) - i, and the sums of both sides and their squares: lane by lane, `terms` each, and
+// what went to double. Zero beyond n.
 struct CentredSums {
   vf i, ii, h, hh;
 };
+struct SideSums {
+  CentredSums lanes;
+  int terms;
+  double i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept {
+  return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0};
+}
 TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
   store(target, i);
   store(difference, sub(mul(kappa, h), i));
@@ -133,9 +135,9 @@ TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, fl
   s->hh = madd(h, h, s->hh);
 }
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
-                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
+                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o, bool last,
                                        SideSums* sums) noexcept {
-  CentredSums s = {zero(), zero(), zero(), zero()};
+  CentredSums s = sums->lanes;
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
   for (; k + kLanes <= n; k += kLanes)
@@ -145,10 +147,16 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
     centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
                   kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(s.i);
-  sums->ii += hsum_d(s.ii);
-  sums->h += hsum_d(s.h);
-  sums->hh += hsum_d(s.hh);
+  sums->terms += kStrip / kLanes;
+  if (last || sums->terms >= kFoldTerms) {
+    sums->i += hsum_d(s.i);
+    sums->ii += hsum_d(s.ii);
+    sums->h += hsum_d(s.h);
+    sums->hh += hsum_d(s.hh);
+    s.i = s.ii = s.h = s.hh = zero();
+    sums->terms = 0;
+  }
+  sums->lanes = s;
 }
 
 // r sqrt(N) = on_d d + on_i i + shift, and n = (I - mean) / s = (i - i_mean) / i_s.
@@ -289,13 +297,13 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const Re
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   const int n = host.n;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_values(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
   }
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
@@ -324,14 +332,14 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   SampleStrip strip;
   RowStrip rows;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   const int block = kManyRegisters && form == 8 ? kBlock : static_cast<int>(kStrip);
   int terms = 0;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
     const int end = begin + count, from = begin / block * block;
     if (end % block != 0 && end < n) continue;
     const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
