@@ -368,15 +368,15 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   info->cost = rho / count;
 
   WeightedSums sums;
-  unpack_products(form, total, sums.S);
-  const double *j1 = total + products, *ji = j1 + form, *jd = ji + form;
-  for (int k = 0; k < form; ++k) {
-    sums.e[k] = j1[k] / count;
-    sums.jn[k] = (ji[k] - r.i_mean * j1[k]) / r.i_s;
-    sums.w1[k] = j1[k];
-    sums.wn[k] = sums.jn[k];
-    sums.wr[k] = (jd[k] * r.on_d + ji[k] * r.on_i + j1[k] * r.shift) / root;
-  }
+  const double by_s = 1 / r.i_s, by_root = 1 / root;
+  const vd j1 = loadd(total + products), ji = loadd(total + products + form), jd = loadd(total + products + 2 * form);
+  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
+  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
+  stored(sums.e, muld(setd(1 / count), j1));
+  stored(sums.jn, jn);
+  stored(sums.w1, j1);
+  stored(sums.wn, jn);
+  stored(sums.wr, jr);
   sums.w[0] = count;
   sums.w[1] = 0;
   sums.w[2] = 1;
@@ -400,17 +400,15 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
         terms = 0;
       }
     }
-    double S[8][8];
-    unpack_products(form, other, S);
-    const double sign = direct ? 1 : -1, *o1 = other + products, *on = o1 + form, *orr = on + form;
-    for (int k = 0; k < form; ++k) {
-      sums.w1[k] = (direct ? 0 : sums.w1[k]) + sign * o1[k];
-      sums.wn[k] = (direct ? 0 : sums.wn[k]) + sign * on[k];
-      sums.wr[k] = (direct ? 0 : sums.wr[k]) + sign * orr[k];
-      for (int j = 0; j < form; ++j) sums.S[k][j] = (direct ? 0 : sums.S[k][j]) + sign * S[k][j];
-    }
+    const double sign = direct ? 1 : -1;
+    const vd rest = setd(direct ? 0 : 1), by = setd(sign);
+    for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
+    stored(sums.w1, maddd(by, loadd(other + products), muld(rest, j1)));
+    stored(sums.wn, maddd(by, loadd(other + products + form), muld(rest, jn)));
+    stored(sums.wr, maddd(by, loadd(other + products + 2 * form), muld(rest, jr)));
     for (int k = 0; k < 5; ++k) sums.w[k] = (direct ? 0 : sums.w[k]) + sign * w[k];
   }
+  unpack_products(form, total, sums.S);
   project_sums(form, a.exact, r.i_s, &sums);
   if (form == 8) {
     double M[9][8];
