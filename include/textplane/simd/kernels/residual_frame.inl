@@ -2,10 +2,21 @@
 
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 
-// That f0 u + f1 v + f2 stays above `low` times the divisor for |f0 u + f1 v| <= reach, and so for its negative; the divisor lies
-// in [least, most]. A bound: for a few px around the true border it says no though all are inside.
-TEXTPLANE_SIMD_INLINE bool above(double f2, double reach, double low, double least, double most) noexcept {
-  return f2 - reach > low * (low < 0 ? least : most);
+// The corners of a square around the origin, as often as fill a vector.
+constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
+constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+
+// That the points (u, v) are in front of both cameras and project into the target, with a margin for what rounding does here and
+// in the warp.
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+  const float *g = f.warp.g, margin = 1e-3F;
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))), y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
+  const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+  const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
+  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  return all(and_(ahead, and_(across, down)));
 }
 
 // False where float or H^-1 do not carry the case.
@@ -68,16 +79,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
 
-  // All of the patch is visible if its box is: what must be positive is affine in u and v.
-  const double ru = static_cast<double>(bounds.x_high) - hx + 1e-3, rv = static_cast<double>(bounds.y_high) - hy + 1e-3;
-  const float* g = f->warp.g;
-  const double g2 = g[2], g5 = g[5], g8 = g[8], margin = 1e-3;
-  const double reach_x = abs_d(g[0]) * ru + abs_d(g[1]) * rv, reach_y = abs_d(g[3]) * ru + abs_d(g[4]) * rv;
-  const double reach_z = abs_d(g[6]) * ru + abs_d(g[7]) * rv, least = g8 - reach_z, most = g8 + reach_z;
-  f->inside = bounds.n == a.n && least > 1e-3 && r2 - (abs_d(r0) * ru + abs_d(r1) * rv) > 1e-6 * abs_d(r2) &&
-              above(g2, reach_x, f->sample.x_low + margin, least, most) &&
-              above(-g2, reach_x, margin - f->sample.x_last, least, most) &&
-              above(g5, reach_y, f->sample.y_low + margin, least, most) &&
-              above(-g5, reach_y, margin - f->sample.y_last, least, most);
+  // All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.
+  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
+  f->inside = bounds.n == a.n;
+  for (int k = 0; k < 4; k += kLanes)
+    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return true;
 }

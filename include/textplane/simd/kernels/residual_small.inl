@@ -16,12 +16,14 @@ struct FewPixels {
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
   const double count = n, by_count = 1 / count;
+  // Offsets that are near the means, or the contrast is large: the means of the first pixels.
+  const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
   vf t = zero(), h = zero();
-  for (int k = 0; k < n; k += kLanes) {
+  for (int k = 0; k < first; k += kLanes) {
     t = add(t, load(target + k));
     h = add(h, load_part(host + k, n - k));
   }
-  const float share = static_cast<float>(by_count), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
+  const float share = 1.0F / static_cast<float>(first), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
   vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
@@ -139,7 +141,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, b0, b1, out + 4);
-  hsum4(b2, b2, b2, b2, out + 8);
+  out[8] = hsum(b2);
 }
 
 // Sums of products of three rows with three others: nine.
@@ -162,7 +164,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, s6, s7, out + 4);
-  hsum4(s8, s8, s8, s8, out + 8);
+  out[8] = hsum(s8);
 }
 
 // Entries of H (`size` columns): the square at (at, at), the block at (r, c) and its mirror image.
