@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 116 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 1f45cc34224ea2aa
+// Hash of these files: 9342756c69c869cf
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 1f45cc34224ea2aa"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 9342756c69c869cf"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -3461,6 +3461,7 @@ TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return n > 0 ? 
 TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
   if (n > 0) *p = v;
 }
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return p[*at]; }  // p[at[i]]
 // kLanes bytes, as int32 and as float.
 TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept { return *p; }
 TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return static_cast<float>(*p); }
@@ -3708,6 +3709,9 @@ TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
   if (n >= 1) p[0] = _mm_cvtsi128_si32(v);
   if (n >= 2) p[1] = _mm_extract_epi32(v, 1);
   if (n >= 3) p[2] = _mm_extract_epi32(v, 2);
+}
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
+  return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
 }
 TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
   return _mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(load_word(p))));
@@ -3960,6 +3964,13 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
 }
 TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
   store_n(reinterpret_cast<float*>(p), _mm256_castsi256_ps(v), n);
+}
+// Sooner than the instruction.
+TEXTPLANE_SIMD_INLINE __m128 gather_four(const float* p, const int* at) noexcept {
+  return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
+}
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(gather_four(p, at)), gather_four(p, at + 4), 1);
 }
 TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
   return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
@@ -4215,6 +4226,15 @@ TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept { return _mm512_
 TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept { _mm512_mask_storeu_ps(p, first_n(n), v); }
 TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return _mm512_maskz_loadu_epi32(first_n(n), p); }
 TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept { _mm512_mask_storeu_epi32(p, first_n(n), v); }
+// Sooner than the instruction.
+TEXTPLANE_SIMD_INLINE __m256i gather_eight(const float* p, const int* at) noexcept {
+  return _mm256_castps_si256(
+      _mm256_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]], p[at[4]], p[at[5]], p[at[6]], p[at[7]]));
+}
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
+  const __m512i low = _mm512_castsi256_si512(gather_eight(p, at));
+  return _mm512_castsi512_ps(_mm512_maskz_inserti64x4(0xff, low, gather_eight(p, at + 8), 1));
+}
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kAllLanes, a); }
 TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
   return _mm512_maskz_cvtepu8_epi32(kAllLanes, _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
@@ -4455,6 +4475,9 @@ TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
   if (n >= 1) vst1q_lane_s32(p, v, 0);
   if (n >= 2) vst1q_lane_s32(p + 1, v, 1);
   if (n >= 3) vst1q_lane_s32(p + 2, v, 2);
+}
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
+  return vf{p[at[0]], p[at[1]], p[at[2]], p[at[3]]};
 }
 // The four bytes of `word`, the lowest in lane 0.
 TEXTPLANE_SIMD_INLINE vi widen_word(unsigned word) noexcept {
@@ -7129,10 +7152,22 @@ namespace scalar {
 
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 
-// That f0 u + f1 v + f2 stays above `low` times the divisor for |f0 u + f1 v| <= reach, and so for its negative; the divisor lies
-// in [least, most]. A bound: for a few px around the true border it says no though all are inside.
-TEXTPLANE_SIMD_INLINE bool above(double f2, double reach, double low, double least, double most) noexcept {
-  return f2 - reach > low * (low < 0 ? least : most);
+// The corners of a square around the origin, as often as fill a vector.
+constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
+constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+
+// That the points (u, v) are in front of both cameras and project into the target, with a margin for what rounding does here and
+// in the warp.
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+  const float *g = f.warp.g, margin = 1e-3F;
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
+           y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
+  const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+  const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
+  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  return all(and_(ahead, and_(across, down)));
 }
 
 // False where float or H^-1 do not carry the case.
@@ -7195,17 +7230,11 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
 
-  // All of the patch is visible if its box is: what must be positive is affine in u and v.
-  const double ru = static_cast<double>(bounds.x_high) - hx + 1e-3, rv = static_cast<double>(bounds.y_high) - hy + 1e-3;
-  const float* g = f->warp.g;
-  const double g2 = g[2], g5 = g[5], g8 = g[8], margin = 1e-3;
-  const double reach_x = abs_d(g[0]) * ru + abs_d(g[1]) * rv, reach_y = abs_d(g[3]) * ru + abs_d(g[4]) * rv;
-  const double reach_z = abs_d(g[6]) * ru + abs_d(g[7]) * rv, least = g8 - reach_z, most = g8 + reach_z;
-  f->inside = bounds.n == a.n && least > 1e-3 && r2 - (abs_d(r0) * ru + abs_d(r1) * rv) > 1e-6 * abs_d(r2) &&
-              above(g2, reach_x, f->sample.x_low + margin, least, most) &&
-              above(-g2, reach_x, margin - f->sample.x_last, least, most) &&
-              above(g5, reach_y, f->sample.y_low + margin, least, most) &&
-              above(-g5, reach_y, margin - f->sample.y_last, least, most);
+  // All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.
+  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
+  f->inside = bounds.n == a.n;
+  for (int k = 0; k < 4; k += kLanes)
+    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return true;
 }
 }
@@ -7224,8 +7253,18 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace sse41 {
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
-TEXTPLANE_SIMD_INLINE bool above(double f2, double reach, double low, double least, double most) noexcept {
-  return f2 - reach > low * (low < 0 ? least : most);
+constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
+constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+  const float *g = f.warp.g, margin = 1e-3F;
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
+           y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
+  const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+  const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
+  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  return all(and_(ahead, and_(across, down)));
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -7279,16 +7318,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-  const double ru = static_cast<double>(bounds.x_high) - hx + 1e-3, rv = static_cast<double>(bounds.y_high) - hy + 1e-3;
-  const float* g = f->warp.g;
-  const double g2 = g[2], g5 = g[5], g8 = g[8], margin = 1e-3;
-  const double reach_x = abs_d(g[0]) * ru + abs_d(g[1]) * rv, reach_y = abs_d(g[3]) * ru + abs_d(g[4]) * rv;
-  const double reach_z = abs_d(g[6]) * ru + abs_d(g[7]) * rv, least = g8 - reach_z, most = g8 + reach_z;
-  f->inside = bounds.n == a.n && least > 1e-3 && r2 - (abs_d(r0) * ru + abs_d(r1) * rv) > 1e-6 * abs_d(r2) &&
-              above(g2, reach_x, f->sample.x_low + margin, least, most) &&
-              above(-g2, reach_x, margin - f->sample.x_last, least, most) &&
-              above(g5, reach_y, f->sample.y_low + margin, least, most) &&
-              above(-g5, reach_y, margin - f->sample.y_last, least, most);
+  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
+  f->inside = bounds.n == a.n;
+  for (int k = 0; k < 4; k += kLanes)
+    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return true;
 }
 }
@@ -7313,8 +7346,18 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace avx2 {
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
-TEXTPLANE_SIMD_INLINE bool above(double f2, double reach, double low, double least, double most) noexcept {
-  return f2 - reach > low * (low < 0 ? least : most);
+constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
+constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+  const float *g = f.warp.g, margin = 1e-3F;
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
+           y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
+  const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+  const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
+  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  return all(and_(ahead, and_(across, down)));
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -7368,16 +7411,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-  const double ru = static_cast<double>(bounds.x_high) - hx + 1e-3, rv = static_cast<double>(bounds.y_high) - hy + 1e-3;
-  const float* g = f->warp.g;
-  const double g2 = g[2], g5 = g[5], g8 = g[8], margin = 1e-3;
-  const double reach_x = abs_d(g[0]) * ru + abs_d(g[1]) * rv, reach_y = abs_d(g[3]) * ru + abs_d(g[4]) * rv;
-  const double reach_z = abs_d(g[6]) * ru + abs_d(g[7]) * rv, least = g8 - reach_z, most = g8 + reach_z;
-  f->inside = bounds.n == a.n && least > 1e-3 && r2 - (abs_d(r0) * ru + abs_d(r1) * rv) > 1e-6 * abs_d(r2) &&
-              above(g2, reach_x, f->sample.x_low + margin, least, most) &&
-              above(-g2, reach_x, margin - f->sample.x_last, least, most) &&
-              above(g5, reach_y, f->sample.y_low + margin, least, most) &&
-              above(-g5, reach_y, margin - f->sample.y_last, least, most);
+  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
+  f->inside = bounds.n == a.n;
+  for (int k = 0; k < 4; k += kLanes)
+    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return true;
 }
 }
@@ -7409,8 +7446,18 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace avx512 {
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
-TEXTPLANE_SIMD_INLINE bool above(double f2, double reach, double low, double least, double most) noexcept {
-  return f2 - reach > low * (low < 0 ? least : most);
+constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
+constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+  const float *g = f.warp.g, margin = 1e-3F;
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
+           y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
+  const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+  const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
+  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  return all(and_(ahead, and_(across, down)));
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -7464,16 +7511,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-  const double ru = static_cast<double>(bounds.x_high) - hx + 1e-3, rv = static_cast<double>(bounds.y_high) - hy + 1e-3;
-  const float* g = f->warp.g;
-  const double g2 = g[2], g5 = g[5], g8 = g[8], margin = 1e-3;
-  const double reach_x = abs_d(g[0]) * ru + abs_d(g[1]) * rv, reach_y = abs_d(g[3]) * ru + abs_d(g[4]) * rv;
-  const double reach_z = abs_d(g[6]) * ru + abs_d(g[7]) * rv, least = g8 - reach_z, most = g8 + reach_z;
-  f->inside = bounds.n == a.n && least > 1e-3 && r2 - (abs_d(r0) * ru + abs_d(r1) * rv) > 1e-6 * abs_d(r2) &&
-              above(g2, reach_x, f->sample.x_low + margin, least, most) &&
-              above(-g2, reach_x, margin - f->sample.x_last, least, most) &&
-              above(g5, reach_y, f->sample.y_low + margin, least, most) &&
-              above(-g5, reach_y, margin - f->sample.y_last, least, most);
+  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
+  f->inside = bounds.n == a.n;
+  for (int k = 0; k < 4; k += kLanes)
+    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return true;
 }
 }
@@ -7492,8 +7533,18 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace neon {
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
-TEXTPLANE_SIMD_INLINE bool above(double f2, double reach, double low, double least, double most) noexcept {
-  return f2 - reach > low * (low < 0 ? least : most);
+constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
+constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+  const float *g = f.warp.g, margin = 1e-3F;
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
+           y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
+  const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+  const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
+  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  return all(and_(ahead, and_(across, down)));
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -7547,16 +7598,10 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-  const double ru = static_cast<double>(bounds.x_high) - hx + 1e-3, rv = static_cast<double>(bounds.y_high) - hy + 1e-3;
-  const float* g = f->warp.g;
-  const double g2 = g[2], g5 = g[5], g8 = g[8], margin = 1e-3;
-  const double reach_x = abs_d(g[0]) * ru + abs_d(g[1]) * rv, reach_y = abs_d(g[3]) * ru + abs_d(g[4]) * rv;
-  const double reach_z = abs_d(g[6]) * ru + abs_d(g[7]) * rv, least = g8 - reach_z, most = g8 + reach_z;
-  f->inside = bounds.n == a.n && least > 1e-3 && r2 - (abs_d(r0) * ru + abs_d(r1) * rv) > 1e-6 * abs_d(r2) &&
-              above(g2, reach_x, f->sample.x_low + margin, least, most) &&
-              above(-g2, reach_x, margin - f->sample.x_last, least, most) &&
-              above(g5, reach_y, f->sample.y_low + margin, least, most) &&
-              above(-g5, reach_y, margin - f->sample.y_last, least, most);
+  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
+  f->inside = bounds.n == a.n;
+  for (int k = 0; k < 4; k += kLanes)
+    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return true;
 }
 }
@@ -8316,12 +8361,15 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace scalar {
 // Sums of products of rows over a strip. A row is an array of n floats, zero up to the next whole vector; `acc` points to the
-// sums of kLanes partial sums each, to which is added. At most 12 sums a loop: they stay in registers.
+// sums of kLanes partial sums each, to which is added; where `fresh`, they are not read but begin at zero: clearing them first
+// takes longer. At most 12 sums a loop: they stay in registers.
+TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
 
 // r0 r0, r0 r1, r0 r2, r1 r1, r1 r2, r2 r2.
-TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                       float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -8340,11 +8388,11 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
 }
 
 // The same, and to `sums` r0, r1, r2 themselves.
-TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, float* acc,
-                                            float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -8370,10 +8418,10 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
 
 // r_j q_k, j the slower index.
 TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0,
-                                         const float* q1, const float* q2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                         const float* q1, const float* q2, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
@@ -8399,9 +8447,9 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
 
 // r_j p to `acc`, r_j q to `acc2`, for the three rows of j.
 TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -8421,9 +8469,12 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
 
 // r_j p to `acc`, r_j q to `acc2`, for four rows.
 TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
-                                        const float* p, const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
+                                        const float* p, const float* q, int n, bool fresh, float* acc,
+                                        float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes),
+     s3 = so_far(fresh, acc + 3 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes),
+     t3 = so_far(fresh, acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -8447,11 +8498,11 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
 
 // The products of (A, Ax, Ay) and (B, Bx, By) and the sums of Cx, Cy: six and two.
 TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float* ay, const float* b, const float* bx,
-                                    const float* by, const float* cx, const float* cy, int n, float* acc,
+                                    const float* by, const float* cx, const float* cy, int n, bool fresh, float* acc,
                                     float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
@@ -8475,10 +8526,10 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
 
 // The products with Cx, Cy: of (Ax, Ay), of (Bx, By), and their own; xx, xy, yy of each.
 TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const float* bx, const float* by, const float* cx,
-                                    const float* cy, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                    const float* cy, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
@@ -8506,16 +8557,20 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
 
 // The products of (A, Ax, Ay), those of (B, Bx, By), and the mixed ones, in the order of add_squares3() and add_mixed(); and the
 // sums of the six rows.
-TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
-                                      float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
-  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
-  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
-  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh,
+                                      float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes),
+     s11 = so_far(fresh, acc + 11 * kLanes);
+  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes),
+     s14 = so_far(fresh, acc + 14 * kLanes);
+  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes),
+     s17 = so_far(fresh, acc + 17 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
+  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes),
+     t5 = so_far(fresh, sums + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
@@ -8572,11 +8627,11 @@ TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const floa
 
 // The products of add_cubic(), and the sums of Cx, Cy.
 TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
-                                            float* acc, float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+                                            bool fresh, float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -8607,13 +8662,14 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
 
 // The eight rows times p to `acc`, times q to `acc2`.
 TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
-  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
-  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
+  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
+     t5 = so_far(fresh, acc2 + 5 * kLanes);
+  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -8666,9 +8722,11 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace sse41 {
-TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
+TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                       float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -8685,11 +8743,11 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   store(acc + 4 * kLanes, s4);
   store(acc + 5 * kLanes, s5);
 }
-TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, float* acc,
-                                            float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -8713,10 +8771,10 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   store(sums + 2 * kLanes, t2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0,
-                                         const float* q1, const float* q2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                         const float* q1, const float* q2, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
@@ -8740,9 +8798,9 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   store(acc + 8 * kLanes, s8);
 }
 TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -8760,9 +8818,12 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   store(acc2 + 2 * kLanes, t2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
-                                        const float* p, const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
+                                        const float* p, const float* q, int n, bool fresh, float* acc,
+                                        float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes),
+     s3 = so_far(fresh, acc + 3 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes),
+     t3 = so_far(fresh, acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -8784,11 +8845,11 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   store(acc2 + 3 * kLanes, t3);
 }
 TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float* ay, const float* b, const float* bx,
-                                    const float* by, const float* cx, const float* cy, int n, float* acc,
+                                    const float* by, const float* cx, const float* cy, int n, bool fresh, float* acc,
                                     float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
@@ -8810,10 +8871,10 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   store(sums + kLanes, t1);
 }
 TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const float* bx, const float* by, const float* cx,
-                                    const float* cy, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                    const float* cy, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
@@ -8836,16 +8897,20 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
 }
-TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
-                                      float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
-  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
-  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
-  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh,
+                                      float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes),
+     s11 = so_far(fresh, acc + 11 * kLanes);
+  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes),
+     s14 = so_far(fresh, acc + 14 * kLanes);
+  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes),
+     s17 = so_far(fresh, acc + 17 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
+  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes),
+     t5 = so_far(fresh, sums + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
@@ -8900,11 +8965,11 @@ TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const floa
   store(sums + 5 * kLanes, t5);
 }
 TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
-                                            float* acc, float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+                                            bool fresh, float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -8933,13 +8998,14 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums + kLanes, t1);
 }
 TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
-  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
-  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
+  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
+     t5 = so_far(fresh, acc2 + 5 * kLanes);
+  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -8998,9 +9064,11 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace avx2 {
-TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
+TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                       float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -9017,11 +9085,11 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   store(acc + 4 * kLanes, s4);
   store(acc + 5 * kLanes, s5);
 }
-TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, float* acc,
-                                            float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -9045,10 +9113,10 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   store(sums + 2 * kLanes, t2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0,
-                                         const float* q1, const float* q2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                         const float* q1, const float* q2, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
@@ -9072,9 +9140,9 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   store(acc + 8 * kLanes, s8);
 }
 TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -9092,9 +9160,12 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   store(acc2 + 2 * kLanes, t2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
-                                        const float* p, const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
+                                        const float* p, const float* q, int n, bool fresh, float* acc,
+                                        float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes),
+     s3 = so_far(fresh, acc + 3 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes),
+     t3 = so_far(fresh, acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -9116,11 +9187,11 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   store(acc2 + 3 * kLanes, t3);
 }
 TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float* ay, const float* b, const float* bx,
-                                    const float* by, const float* cx, const float* cy, int n, float* acc,
+                                    const float* by, const float* cx, const float* cy, int n, bool fresh, float* acc,
                                     float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
@@ -9142,10 +9213,10 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   store(sums + kLanes, t1);
 }
 TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const float* bx, const float* by, const float* cx,
-                                    const float* cy, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                    const float* cy, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
@@ -9168,16 +9239,20 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
 }
-TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
-                                      float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
-  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
-  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
-  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh,
+                                      float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes),
+     s11 = so_far(fresh, acc + 11 * kLanes);
+  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes),
+     s14 = so_far(fresh, acc + 14 * kLanes);
+  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes),
+     s17 = so_far(fresh, acc + 17 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
+  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes),
+     t5 = so_far(fresh, sums + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
@@ -9232,11 +9307,11 @@ TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const floa
   store(sums + 5 * kLanes, t5);
 }
 TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
-                                            float* acc, float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+                                            bool fresh, float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -9265,13 +9340,14 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums + kLanes, t1);
 }
 TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
-  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
-  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
+  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
+     t5 = so_far(fresh, acc2 + 5 * kLanes);
+  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -9337,9 +9413,11 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace avx512 {
-TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
+TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                       float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -9356,11 +9434,11 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   store(acc + 4 * kLanes, s4);
   store(acc + 5 * kLanes, s5);
 }
-TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, float* acc,
-                                            float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -9384,10 +9462,10 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   store(sums + 2 * kLanes, t2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0,
-                                         const float* q1, const float* q2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                         const float* q1, const float* q2, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
@@ -9411,9 +9489,9 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   store(acc + 8 * kLanes, s8);
 }
 TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -9431,9 +9509,12 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   store(acc2 + 2 * kLanes, t2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
-                                        const float* p, const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
+                                        const float* p, const float* q, int n, bool fresh, float* acc,
+                                        float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes),
+     s3 = so_far(fresh, acc + 3 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes),
+     t3 = so_far(fresh, acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -9455,11 +9536,11 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   store(acc2 + 3 * kLanes, t3);
 }
 TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float* ay, const float* b, const float* bx,
-                                    const float* by, const float* cx, const float* cy, int n, float* acc,
+                                    const float* by, const float* cx, const float* cy, int n, bool fresh, float* acc,
                                     float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
@@ -9481,10 +9562,10 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   store(sums + kLanes, t1);
 }
 TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const float* bx, const float* by, const float* cx,
-                                    const float* cy, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                    const float* cy, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
@@ -9507,16 +9588,20 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
 }
-TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
-                                      float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
-  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
-  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
-  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh,
+                                      float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes),
+     s11 = so_far(fresh, acc + 11 * kLanes);
+  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes),
+     s14 = so_far(fresh, acc + 14 * kLanes);
+  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes),
+     s17 = so_far(fresh, acc + 17 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
+  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes),
+     t5 = so_far(fresh, sums + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
@@ -9571,11 +9656,11 @@ TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const floa
   store(sums + 5 * kLanes, t5);
 }
 TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
-                                            float* acc, float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+                                            bool fresh, float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -9604,13 +9689,14 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums + kLanes, t1);
 }
 TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
-  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
-  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
+  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
+     t5 = so_far(fresh, acc2 + 5 * kLanes);
+  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -9663,9 +9749,11 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace neon {
-TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
+TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
+TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                       float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -9682,11 +9770,11 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
   store(acc + 4 * kLanes, s4);
   store(acc + 5 * kLanes, s5);
 }
-TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, float* acc,
-                                            float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
     s0 = madd(a, a, s0);
@@ -9710,10 +9798,10 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
   store(sums + 2 * kLanes, t2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0,
-                                         const float* q1, const float* q2, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                         const float* q1, const float* q2, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
@@ -9737,9 +9825,9 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   store(acc + 8 * kLanes, s8);
 }
 TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -9757,9 +9845,12 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   store(acc2 + 2 * kLanes, t2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
-                                        const float* p, const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes), s3 = load(acc + 3 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes), t3 = load(acc2 + 3 * kLanes);
+                                        const float* p, const float* q, int n, bool fresh, float* acc,
+                                        float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes),
+     s3 = so_far(fresh, acc + 3 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes),
+     t3 = so_far(fresh, acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -9781,11 +9872,11 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   store(acc2 + 3 * kLanes, t3);
 }
 TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float* ay, const float* b, const float* bx,
-                                    const float* by, const float* cx, const float* cy, int n, float* acc,
+                                    const float* by, const float* cx, const float* cy, int n, bool fresh, float* acc,
                                     float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
     s0 = madd(A, B, s0);
@@ -9807,10 +9898,10 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   store(sums + kLanes, t1);
 }
 TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const float* bx, const float* by, const float* cx,
-                                    const float* cy, int n, float* acc) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
+                                    const float* cy, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
     s0 = madd(Ax, Cx, s0);
@@ -9833,16 +9924,20 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
   store(acc + 7 * kLanes, s7);
   store(acc + 8 * kLanes, s8);
 }
-TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, float* acc,
-                                      float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf s9 = load(acc + 9 * kLanes), s10 = load(acc + 10 * kLanes), s11 = load(acc + 11 * kLanes);
-  vf s12 = load(acc + 12 * kLanes), s13 = load(acc + 13 * kLanes), s14 = load(acc + 14 * kLanes);
-  vf s15 = load(acc + 15 * kLanes), s16 = load(acc + 16 * kLanes), s17 = load(acc + 17 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes), t2 = load(sums + 2 * kLanes);
-  vf t3 = load(sums + 3 * kLanes), t4 = load(sums + 4 * kLanes), t5 = load(sums + 5 * kLanes);
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh,
+                                      float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes),
+     s11 = so_far(fresh, acc + 11 * kLanes);
+  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes),
+     s14 = so_far(fresh, acc + 14 * kLanes);
+  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes),
+     s17 = so_far(fresh, acc + 17 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
+  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes),
+     t5 = so_far(fresh, sums + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
@@ -9897,11 +9992,11 @@ TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const floa
   store(sums + 5 * kLanes, t5);
 }
 TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
-                                            float* acc, float* sums) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes), s8 = load(acc + 8 * kLanes);
-  vf t0 = load(sums), t1 = load(sums + kLanes);
+                                            bool fresh, float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -9930,13 +10025,14 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums + kLanes, t1);
 }
 TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, float* acc, float* acc2) noexcept {
-  vf s0 = load(acc), s1 = load(acc + kLanes), s2 = load(acc + 2 * kLanes);
-  vf s3 = load(acc + 3 * kLanes), s4 = load(acc + 4 * kLanes), s5 = load(acc + 5 * kLanes);
-  vf s6 = load(acc + 6 * kLanes), s7 = load(acc + 7 * kLanes);
-  vf t0 = load(acc2), t1 = load(acc2 + kLanes), t2 = load(acc2 + 2 * kLanes);
-  vf t3 = load(acc2 + 3 * kLanes), t4 = load(acc2 + 4 * kLanes), t5 = load(acc2 + 5 * kLanes);
-  vf t6 = load(acc2 + 6 * kLanes), t7 = load(acc2 + 7 * kLanes);
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
+  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
+     t5 = so_far(fresh, acc2 + 5 * kLanes);
+  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
@@ -10529,26 +10625,28 @@ struct WeightedSums {
   double w[5];
 };
 
-// S and wr become H and b of the rows: exact through mean and s, or with both held.
+// S and wr become H and b of the rows: exact through mean and s, or with both held. (What becomes of lanes beyond `form` nobody
+// reads.)
 TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
   const double scale = 1 / (s * s);
+  const vd by = setd(scale);
+  vd wr = loadd(k->wr);
   if (exact) {
-    double p[8] = {0, 0, 0, 0, 0, 0, 0, 0}, q[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+    double p[8], q[8];  // times -scale
+    const vd e = loadd(k->e), jn = loadd(k->jn), minus = setd(-scale), mixed = setd(0.5 * scale * k->w[1]);
+    const vd vp = maddd(setd(0.5 * scale * k->w[0]), e, maddd(mixed, jn, muld(minus, loadd(k->w1))));
+    const vd vq = maddd(setd(0.5 * scale * k->w[2]), jn, maddd(mixed, e, muld(minus, loadd(k->wn))));
+    stored(p, vp);
+    stored(q, vq);
+    wr = maddd(setd(-k->w[3]), e, maddd(setd(-k->w[4]), jn, wr));
     for (int i = 0; i < form; ++i) {
-      p[i] = k->w1[i] - 0.5 * (k->w[0] * k->e[i] + k->w[1] * k->jn[i]);
-      q[i] = k->wn[i] - 0.5 * (k->w[2] * k->jn[i] + k->w[1] * k->e[i]);
-      k->wr[i] -= k->e[i] * k->w[3] + k->jn[i] * k->w[4];
+      const vd by_e = maddd(setd(k->e[i]), vp, maddd(setd(p[i]), e, muld(by, loadd(k->S[i]))));
+      stored(k->S[i], maddd(setd(k->jn[i]), vq, maddd(setd(q[i]), jn, by_e)));
     }
-    const vd e = loadd(k->e), jn = loadd(k->jn), vp = loadd(p), vq = loadd(q);
-    for (int i = 0; i < form; ++i) {
-      const vd by_e = maddd(setd(-k->e[i]), vp, maddd(setd(-p[i]), e, loadd(k->S[i])));
-      stored(k->S[i], maddd(setd(-k->jn[i]), vq, maddd(setd(-q[i]), jn, by_e)));
-    }
+  } else {
+    for (int i = 0; i < form; ++i) stored(k->S[i], muld(by, loadd(k->S[i])));
   }
-  for (int i = 0; i < form; ++i) {
-    k->wr[i] *= -scale * s;
-    stored(k->S[i], muld(setd(scale), loadd(k->S[i])));
-  }
+  stored(k->wr, muld(setd(-scale * s), wr));
 }
 
 // d j / d parameter: columns v, omega, theta of the matrix M, which takes rows of the pixel homography to rows of the parameters.
@@ -10624,21 +10722,12 @@ TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (
     for (int c = 0; c < r; ++c) H[9 * r + c] = H[9 * c + r];
 }
 
-// No number among n is a NaN or infinite (nor their sum, which for entries of H would be as bad).
-TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
-  double sum = 0, eight[8];
-  int i = 0;
-  if (n >= 8) {
-    vd all = loadd(p);
-    for (i = 8; i + 8 <= n; i += 8) all = maddd(setd(1.0), loadd(p + i), all);
-    stored(eight, all);
-    sum = ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
-  }
-  for (; i < n; ++i) sum += p[i];
-  return finite_d(sum);
-}
+// No entry of H, b and the costs is a NaN or infinite. The diagonal tells of all of H: its sums bound those of other products,
+// and a change of parameters spreads what is not finite over all entries.
 TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H, const double* b) noexcept {
-  return finite_d(info.cost) && finite_sum(H, parameters * parameters) && finite_sum(b, parameters);
+  double sum = info.cost;
+  for (int i = 0; i < parameters; ++i) sum += H[(parameters + 1) * i] + b[i];
+  return finite_d(sum);
 }
 }
 }
@@ -10705,23 +10794,24 @@ struct WeightedSums {
 };
 TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
   const double scale = 1 / (s * s);
+  const vd by = setd(scale);
+  vd wr = loadd(k->wr);
   if (exact) {
-    double p[8] = {0, 0, 0, 0, 0, 0, 0, 0}, q[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+    double p[8], q[8];
+    const vd e = loadd(k->e), jn = loadd(k->jn), minus = setd(-scale), mixed = setd(0.5 * scale * k->w[1]);
+    const vd vp = maddd(setd(0.5 * scale * k->w[0]), e, maddd(mixed, jn, muld(minus, loadd(k->w1))));
+    const vd vq = maddd(setd(0.5 * scale * k->w[2]), jn, maddd(mixed, e, muld(minus, loadd(k->wn))));
+    stored(p, vp);
+    stored(q, vq);
+    wr = maddd(setd(-k->w[3]), e, maddd(setd(-k->w[4]), jn, wr));
     for (int i = 0; i < form; ++i) {
-      p[i] = k->w1[i] - 0.5 * (k->w[0] * k->e[i] + k->w[1] * k->jn[i]);
-      q[i] = k->wn[i] - 0.5 * (k->w[2] * k->jn[i] + k->w[1] * k->e[i]);
-      k->wr[i] -= k->e[i] * k->w[3] + k->jn[i] * k->w[4];
+      const vd by_e = maddd(setd(k->e[i]), vp, maddd(setd(p[i]), e, muld(by, loadd(k->S[i]))));
+      stored(k->S[i], maddd(setd(k->jn[i]), vq, maddd(setd(q[i]), jn, by_e)));
     }
-    const vd e = loadd(k->e), jn = loadd(k->jn), vp = loadd(p), vq = loadd(q);
-    for (int i = 0; i < form; ++i) {
-      const vd by_e = maddd(setd(-k->e[i]), vp, maddd(setd(-p[i]), e, loadd(k->S[i])));
-      stored(k->S[i], maddd(setd(-k->jn[i]), vq, maddd(setd(-q[i]), jn, by_e)));
-    }
+  } else {
+    for (int i = 0; i < form; ++i) stored(k->S[i], muld(by, loadd(k->S[i])));
   }
-  for (int i = 0; i < form; ++i) {
-    k->wr[i] *= -scale * s;
-    stored(k->S[i], muld(setd(scale), loadd(k->S[i])));
-  }
+  stored(k->wr, muld(setd(-scale * s), wr));
 }
 TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f,
                                            double (*M)[8]) noexcept {
@@ -10787,20 +10877,10 @@ TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (
   for (int r = 0; r < 8; ++r)
     for (int c = 0; c < r; ++c) H[9 * r + c] = H[9 * c + r];
 }
-TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
-  double sum = 0, eight[8];
-  int i = 0;
-  if (n >= 8) {
-    vd all = loadd(p);
-    for (i = 8; i + 8 <= n; i += 8) all = maddd(setd(1.0), loadd(p + i), all);
-    stored(eight, all);
-    sum = ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
-  }
-  for (; i < n; ++i) sum += p[i];
-  return finite_d(sum);
-}
 TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H, const double* b) noexcept {
-  return finite_d(info.cost) && finite_sum(H, parameters * parameters) && finite_sum(b, parameters);
+  double sum = info.cost;
+  for (int i = 0; i < parameters; ++i) sum += H[(parameters + 1) * i] + b[i];
+  return finite_d(sum);
 }
 }
 }
@@ -10873,23 +10953,24 @@ struct WeightedSums {
 };
 TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
   const double scale = 1 / (s * s);
+  const vd by = setd(scale);
+  vd wr = loadd(k->wr);
   if (exact) {
-    double p[8] = {0, 0, 0, 0, 0, 0, 0, 0}, q[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+    double p[8], q[8];
+    const vd e = loadd(k->e), jn = loadd(k->jn), minus = setd(-scale), mixed = setd(0.5 * scale * k->w[1]);
+    const vd vp = maddd(setd(0.5 * scale * k->w[0]), e, maddd(mixed, jn, muld(minus, loadd(k->w1))));
+    const vd vq = maddd(setd(0.5 * scale * k->w[2]), jn, maddd(mixed, e, muld(minus, loadd(k->wn))));
+    stored(p, vp);
+    stored(q, vq);
+    wr = maddd(setd(-k->w[3]), e, maddd(setd(-k->w[4]), jn, wr));
     for (int i = 0; i < form; ++i) {
-      p[i] = k->w1[i] - 0.5 * (k->w[0] * k->e[i] + k->w[1] * k->jn[i]);
-      q[i] = k->wn[i] - 0.5 * (k->w[2] * k->jn[i] + k->w[1] * k->e[i]);
-      k->wr[i] -= k->e[i] * k->w[3] + k->jn[i] * k->w[4];
+      const vd by_e = maddd(setd(k->e[i]), vp, maddd(setd(p[i]), e, muld(by, loadd(k->S[i]))));
+      stored(k->S[i], maddd(setd(k->jn[i]), vq, maddd(setd(q[i]), jn, by_e)));
     }
-    const vd e = loadd(k->e), jn = loadd(k->jn), vp = loadd(p), vq = loadd(q);
-    for (int i = 0; i < form; ++i) {
-      const vd by_e = maddd(setd(-k->e[i]), vp, maddd(setd(-p[i]), e, loadd(k->S[i])));
-      stored(k->S[i], maddd(setd(-k->jn[i]), vq, maddd(setd(-q[i]), jn, by_e)));
-    }
+  } else {
+    for (int i = 0; i < form; ++i) stored(k->S[i], muld(by, loadd(k->S[i])));
   }
-  for (int i = 0; i < form; ++i) {
-    k->wr[i] *= -scale * s;
-    stored(k->S[i], muld(setd(scale), loadd(k->S[i])));
-  }
+  stored(k->wr, muld(setd(-scale * s), wr));
 }
 TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f,
                                            double (*M)[8]) noexcept {
@@ -10955,20 +11036,10 @@ TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (
   for (int r = 0; r < 8; ++r)
     for (int c = 0; c < r; ++c) H[9 * r + c] = H[9 * c + r];
 }
-TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
-  double sum = 0, eight[8];
-  int i = 0;
-  if (n >= 8) {
-    vd all = loadd(p);
-    for (i = 8; i + 8 <= n; i += 8) all = maddd(setd(1.0), loadd(p + i), all);
-    stored(eight, all);
-    sum = ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
-  }
-  for (; i < n; ++i) sum += p[i];
-  return finite_d(sum);
-}
 TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H, const double* b) noexcept {
-  return finite_d(info.cost) && finite_sum(H, parameters * parameters) && finite_sum(b, parameters);
+  double sum = info.cost;
+  for (int i = 0; i < parameters; ++i) sum += H[(parameters + 1) * i] + b[i];
+  return finite_d(sum);
 }
 }
 }
@@ -11048,23 +11119,24 @@ struct WeightedSums {
 };
 TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
   const double scale = 1 / (s * s);
+  const vd by = setd(scale);
+  vd wr = loadd(k->wr);
   if (exact) {
-    double p[8] = {0, 0, 0, 0, 0, 0, 0, 0}, q[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+    double p[8], q[8];
+    const vd e = loadd(k->e), jn = loadd(k->jn), minus = setd(-scale), mixed = setd(0.5 * scale * k->w[1]);
+    const vd vp = maddd(setd(0.5 * scale * k->w[0]), e, maddd(mixed, jn, muld(minus, loadd(k->w1))));
+    const vd vq = maddd(setd(0.5 * scale * k->w[2]), jn, maddd(mixed, e, muld(minus, loadd(k->wn))));
+    stored(p, vp);
+    stored(q, vq);
+    wr = maddd(setd(-k->w[3]), e, maddd(setd(-k->w[4]), jn, wr));
     for (int i = 0; i < form; ++i) {
-      p[i] = k->w1[i] - 0.5 * (k->w[0] * k->e[i] + k->w[1] * k->jn[i]);
-      q[i] = k->wn[i] - 0.5 * (k->w[2] * k->jn[i] + k->w[1] * k->e[i]);
-      k->wr[i] -= k->e[i] * k->w[3] + k->jn[i] * k->w[4];
+      const vd by_e = maddd(setd(k->e[i]), vp, maddd(setd(p[i]), e, muld(by, loadd(k->S[i]))));
+      stored(k->S[i], maddd(setd(k->jn[i]), vq, maddd(setd(q[i]), jn, by_e)));
     }
-    const vd e = loadd(k->e), jn = loadd(k->jn), vp = loadd(p), vq = loadd(q);
-    for (int i = 0; i < form; ++i) {
-      const vd by_e = maddd(setd(-k->e[i]), vp, maddd(setd(-p[i]), e, loadd(k->S[i])));
-      stored(k->S[i], maddd(setd(-k->jn[i]), vq, maddd(setd(-q[i]), jn, by_e)));
-    }
+  } else {
+    for (int i = 0; i < form; ++i) stored(k->S[i], muld(by, loadd(k->S[i])));
   }
-  for (int i = 0; i < form; ++i) {
-    k->wr[i] *= -scale * s;
-    stored(k->S[i], muld(setd(scale), loadd(k->S[i])));
-  }
+  stored(k->wr, muld(setd(-scale * s), wr));
 }
 TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f,
                                            double (*M)[8]) noexcept {
@@ -11130,20 +11202,10 @@ TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (
   for (int r = 0; r < 8; ++r)
     for (int c = 0; c < r; ++c) H[9 * r + c] = H[9 * c + r];
 }
-TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
-  double sum = 0, eight[8];
-  int i = 0;
-  if (n >= 8) {
-    vd all = loadd(p);
-    for (i = 8; i + 8 <= n; i += 8) all = maddd(setd(1.0), loadd(p + i), all);
-    stored(eight, all);
-    sum = ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
-  }
-  for (; i < n; ++i) sum += p[i];
-  return finite_d(sum);
-}
 TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H, const double* b) noexcept {
-  return finite_d(info.cost) && finite_sum(H, parameters * parameters) && finite_sum(b, parameters);
+  double sum = info.cost;
+  for (int i = 0; i < parameters; ++i) sum += H[(parameters + 1) * i] + b[i];
+  return finite_d(sum);
 }
 }
 }
@@ -11210,23 +11272,24 @@ struct WeightedSums {
 };
 TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
   const double scale = 1 / (s * s);
+  const vd by = setd(scale);
+  vd wr = loadd(k->wr);
   if (exact) {
-    double p[8] = {0, 0, 0, 0, 0, 0, 0, 0}, q[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+    double p[8], q[8];
+    const vd e = loadd(k->e), jn = loadd(k->jn), minus = setd(-scale), mixed = setd(0.5 * scale * k->w[1]);
+    const vd vp = maddd(setd(0.5 * scale * k->w[0]), e, maddd(mixed, jn, muld(minus, loadd(k->w1))));
+    const vd vq = maddd(setd(0.5 * scale * k->w[2]), jn, maddd(mixed, e, muld(minus, loadd(k->wn))));
+    stored(p, vp);
+    stored(q, vq);
+    wr = maddd(setd(-k->w[3]), e, maddd(setd(-k->w[4]), jn, wr));
     for (int i = 0; i < form; ++i) {
-      p[i] = k->w1[i] - 0.5 * (k->w[0] * k->e[i] + k->w[1] * k->jn[i]);
-      q[i] = k->wn[i] - 0.5 * (k->w[2] * k->jn[i] + k->w[1] * k->e[i]);
-      k->wr[i] -= k->e[i] * k->w[3] + k->jn[i] * k->w[4];
+      const vd by_e = maddd(setd(k->e[i]), vp, maddd(setd(p[i]), e, muld(by, loadd(k->S[i]))));
+      stored(k->S[i], maddd(setd(k->jn[i]), vq, maddd(setd(q[i]), jn, by_e)));
     }
-    const vd e = loadd(k->e), jn = loadd(k->jn), vp = loadd(p), vq = loadd(q);
-    for (int i = 0; i < form; ++i) {
-      const vd by_e = maddd(setd(-k->e[i]), vp, maddd(setd(-p[i]), e, loadd(k->S[i])));
-      stored(k->S[i], maddd(setd(-k->jn[i]), vq, maddd(setd(-q[i]), jn, by_e)));
-    }
+  } else {
+    for (int i = 0; i < form; ++i) stored(k->S[i], muld(by, loadd(k->S[i])));
   }
-  for (int i = 0; i < form; ++i) {
-    k->wr[i] *= -scale * s;
-    stored(k->S[i], muld(setd(scale), loadd(k->S[i])));
-  }
+  stored(k->wr, muld(setd(-scale * s), wr));
 }
 TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f,
                                            double (*M)[8]) noexcept {
@@ -11292,20 +11355,10 @@ TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (
   for (int r = 0; r < 8; ++r)
     for (int c = 0; c < r; ++c) H[9 * r + c] = H[9 * c + r];
 }
-TEXTPLANE_SIMD_INLINE bool finite_sum(const double* p, int n) noexcept {
-  double sum = 0, eight[8];
-  int i = 0;
-  if (n >= 8) {
-    vd all = loadd(p);
-    for (i = 8; i + 8 <= n; i += 8) all = maddd(setd(1.0), loadd(p + i), all);
-    stored(eight, all);
-    sum = ((eight[0] + eight[1]) + (eight[2] + eight[3])) + ((eight[4] + eight[5]) + (eight[6] + eight[7]));
-  }
-  for (; i < n; ++i) sum += p[i];
-  return finite_d(sum);
-}
 TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H, const double* b) noexcept {
-  return finite_d(info.cost) && finite_sum(H, parameters * parameters) && finite_sum(b, parameters);
+  double sum = info.cost;
+  for (int i = 0; i < parameters; ++i) sum += H[(parameters + 1) * i] + b[i];
+  return finite_d(sum);
 }
 }
 }
@@ -11349,6 +11402,9 @@ namespace scalar {
 
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
 
+// Pixels whose sums are taken at once where no rows are stored: what is kept of them fits the first cache.
+enum : int { kBlock = 4 * kStrip };
+
 // Everything one strip needs besides its pixels.
 struct RowStrip {
   float row[6][kStrip];
@@ -11358,69 +11414,67 @@ struct RowStrip {
 // less time than loops over rows that pass through memory. The sums are those of add_strip_products() and add_strip_sums(), each
 // in the same order.
 TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, float* acc, float* ones,
-                                               float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, acc, ones);
-  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, first, second);
+                                               const float* p, const float* q, int n, bool fresh, float* acc,
+                                               float* ones, float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, fresh, acc, ones);
+  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, fresh, first, second);
 }
 
 // Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too.
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
-                                              float* acc) noexcept {
+                                              bool fresh, float* acc) noexcept {
   float(*r)[kStrip] = rows->row;
   float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;  // or where nobody reads
   if (form == 3) {
     plane_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain)
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
     else
-      add_squares3(r[0], r[1], r[2], n, acc);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
   } else if (form == 6) {
     pose_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain) {
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
-      add_squares_sums3(r[3], r[4], r[5], n, acc + 6 * kLanes, sums + 3 * kLanes);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
+      add_squares_sums3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
     } else {
-      add_squares3(r[0], r[1], r[2], n, acc);
-      add_squares3(r[3], r[4], r[5], n, acc + 6 * kLanes);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
+      add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
-    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 12 * kLanes);
+    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
-    add_squares_sums3(a, r[0], r[1], n, acc, sums);
-    add_squares_sums3(b, r[2], r[3], n, acc + 6 * kLanes, sums + 3 * kLanes);
-    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, acc + 12 * kLanes, sums + 6 * kLanes);
-    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 18 * kLanes);
+    add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
+    add_squares_sums3(b, r[2], r[3], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
+    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes, sums + 6 * kLanes);
+    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
 
 // Sums of the rows with the factors p and q, to the sums `first` and `second` of three.
 TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, float* first, float* second) noexcept {
+                                          const float* p, const float* q, int n, bool fresh, float* first,
+                                          float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
-    add_products3(r[3], r[4], r[5], p, q, n, first + 3 * kLanes, second + 3 * kLanes);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
+    add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
   } else {
-    add_products4(a, r[0], r[1], b, p, q, n, first, second);
-    add_products4(r[2], r[3], r[4], r[5], p, q, n, first + 4 * kLanes, second + 4 * kLanes);
+    add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
+    add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
 
-// Adds the partial sums to the totals and clears them; `sums` is rounded up to a multiple of four.
-TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
+// Adds the partial sums to the totals; `sums` is rounded up to a multiple of four.
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
   for (int k = 0; k < sums; k += 4) {
-    float* p = acc + k * kLanes;
+    const float* p = acc + k * kLanes;
     float four[4];
     hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) {
-      total[k + j] += static_cast<double>(four[j]);
-      store(p + j * kLanes, zero());
-    }
+    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
   }
 }
 
@@ -11429,43 +11483,43 @@ TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
 struct Offsets {
   float target, host, kappa;
 };
-TEXTPLANE_SIMD_ENTRY Offsets plain_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o;
-  vf t = zero(), s = zero();
-  for (int k = 0; k < n; k += kLanes) {
-    t = add(t, load(i + k));
-    s = add(s, load_part(h + k, n - k));
-  }
-  o.target = static_cast<float>(hsum_d(t) / n);
-  o.host = static_cast<float>(hsum_d(s) / n);
-  o.kappa = 1.0F;
-  return o;
-}
 TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o = plain_offsets(i, h, n);
-  vf t = zero(), s = zero();
+  const vf i_first = set1(i[0]), h_first = set1(h[0]);
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    vf p = sub(load(i + k), set1(o.target)), q = sub(load_part(h + k, n - k), set1(o.host));
+    vf p = sub(load(i + k), i_first), q = sub(load_part(h + k, n - k), h_first);
     if (n - k < kLanes) {
       p = keep(first_n(n - k), p);
       q = keep(first_n(n - k), q);
     }
-    t = madd(p, p, t);
-    s = madd(q, q, s);
+    i1 = add(i1, p);
+    h1 = add(h1, q);
+    i2 = madd(p, p, i2);
+    h2 = madd(q, q, h2);
   }
-  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
+  float sum[4];
+  hsum4(i1, i2, h1, h2, sum);
+  const float by_n = 1.0F / static_cast<float>(n), i_mean = sum[0] * by_n, h_mean = sum[2] * by_n;
+  const float i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  Offsets o;
+  o.target = i[0] + i_mean;
+  o.host = h[0] + h_mean;
+  const double ratio = h_squares > 0 ? static_cast<double>(i_squares) / static_cast<double>(h_squares) : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
 
-// i less its offset, d = kappa (h - offset) - i, and the sums of both sides and their squares. Zero beyond n.
-struct SideSums {
-  double i, ii, h, hh;
-};
-// The same sums, lane by lane.
+// i less its offset, d = kappa (h - offset) - i, and the sums of both sides and their squares: lane by lane, `terms` each, and
+// what went to double. Zero beyond n.
 struct CentredSums {
   vf i, ii, h, hh;
 };
+struct SideSums {
+  CentredSums lanes;
+  int terms;
+  double i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept { return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0}; }
 TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
   store(target, i);
   store(difference, sub(mul(kappa, h), i));
@@ -11475,9 +11529,9 @@ TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, fl
   s->hh = madd(h, h, s->hh);
 }
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
-                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
+                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o, bool last,
                                        SideSums* sums) noexcept {
-  CentredSums s = {zero(), zero(), zero(), zero()};
+  CentredSums s = sums->lanes;
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
   for (; k + kLanes <= n; k += kLanes)
@@ -11487,10 +11541,16 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
     centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
                   kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(s.i);
-  sums->ii += hsum_d(s.ii);
-  sums->h += hsum_d(s.h);
-  sums->hh += hsum_d(s.hh);
+  sums->terms += kStrip / kLanes;
+  if (last || sums->terms >= kFoldTerms) {
+    sums->i += hsum_d(s.i);
+    sums->ii += hsum_d(s.ii);
+    sums->h += hsum_d(s.h);
+    sums->hh += hsum_d(s.hh);
+    s.i = s.ii = s.h = s.hh = zero();
+    sums->terms = 0;
+  }
+  sums->lanes = s;
 }
 
 // r sqrt(N) = on_d d + on_i i + shift, and n = (I - mean) / s = (i - i_mean) / i_s.
@@ -11526,8 +11586,8 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   return Status::ok;
 }
 
-// Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta; returns
-// how many.
+// Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta, and up
+// to a whole vector some pixel; returns how many.
 struct CostSums {
   vf squares, rho;
 };
@@ -11565,6 +11625,7 @@ TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const 
     *squares += hsum_d(sums.squares);
     *rho += hsum_d(sums.rho);
   }
+  if (list) storei(list + listed, seti(0));
   return listed;
 }
 
@@ -11577,29 +11638,19 @@ struct WeightedStrip {
 // Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is Huber's w, or
 // (complement) 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
 TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
-                                      const Residual& k, double root, float delta, bool complement, WeightedStrip* w,
+                                      const Residual& res, double root, float delta, bool complement, WeightedStrip* w,
                                       double* sums) noexcept {
-  if (list) {
-    for (int j = 0; j < n; ++j) {
-      const std::ptrdiff_t at = list[j];
-      w->x[j] = s.x[at];
-      w->y[j] = s.y[at];
-      w->a[j] = s.a[at];
-      w->b[j] = s.b[at];
-      w->q[j] = s.i[at];
-      w->r[j] = s.d[at];
-    }
-    for (int j = n; j % kLanes != 0; ++j) w->x[j] = w->y[j] = w->a[j] = w->b[j] = w->q[j] = w->r[j] = 0.0F;
-  }
-  const vf on_d = set1(static_cast<float>(k.on_d)), on_i = set1(static_cast<float>(k.on_i));
-  const vf shift = set1(static_cast<float>(k.shift)), limit = set1(delta);
-  const vf i_mean = set1(static_cast<float>(k.i_mean)), i_scale = set1(static_cast<float>(1 / k.i_s));
+  const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(delta);
+  const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
   const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
   for (int j = 0; j < n; j += kLanes) {
-    const vf i = list ? load(w->q + j) : load(s.i + begin + j), d = list ? load(w->r + j) : load(s.d + begin + j);
-    const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
-    const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
+    const std::int32_t* at = list ? list + j : nullptr;
+    const int k = begin + j;
+    const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
+    const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
+    const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
     const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
     vf weight = div(complement ? sub(size, inner) : inner, least);
@@ -11628,11 +11679,11 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 }
 
 // Sums of the rows with the factors p, q and r of the strip, one after the other.
-TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n,
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, acc, acc + form * kLanes);
+  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, last, last);  // twice the same, stored once more
+  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);  // twice the same, stored once more
 }
 
 // The cost of the host pixels, of which there are at least a.min_visible.
@@ -11640,13 +11691,13 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const Re
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   const int n = host.n;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_values(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
   }
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
@@ -11667,7 +11718,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
+  store(acc + all * kLanes, zero());  // fold() reads it
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -11675,23 +11726,26 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   SampleStrip strip;
   RowStrip rows;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
+  const int block = kManyRegisters && form == 8 ? kBlock : static_cast<int>(kStrip);
   int terms = 0;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
-    const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
-    float *i = s.i + begin, *d = s.d + begin;
-    if (begin == 0) offsets = first_offsets(i, host.h, count);
-    centre_strip(i, host.h + begin, d, count, offsets, &sides);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+    const int end = begin + count, from = begin / block * block;
+    if (end % block != 0 && end < n) continue;
+    const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
+    const bool fresh = terms == 0;
     if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
     } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
     }
-    terms += kStrip / kLanes;
-    if (terms >= kFoldTerms || begin + kStrip >= n) {
+    terms += block / kLanes;
+    if (terms >= kFoldTerms || end == n) {
       fold(acc, all, total);
       terms = 0;
     }
@@ -11708,15 +11762,15 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   info->cost = rho / count;
 
   WeightedSums sums;
-  unpack_products(form, total, sums.S);
-  const double *j1 = total + products, *ji = j1 + form, *jd = ji + form;
-  for (int k = 0; k < form; ++k) {
-    sums.e[k] = j1[k] / count;
-    sums.jn[k] = (ji[k] - r.i_mean * j1[k]) / r.i_s;
-    sums.w1[k] = j1[k];
-    sums.wn[k] = sums.jn[k];
-    sums.wr[k] = (jd[k] * r.on_d + ji[k] * r.on_i + j1[k] * r.shift) / root;
-  }
+  const double by_s = 1 / r.i_s, by_root = 1 / root;
+  const vd j1 = loadd(total + products), ji = loadd(total + products + form), jd = loadd(total + products + 2 * form);
+  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
+  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
+  stored(sums.e, muld(setd(1 / count), j1));
+  stored(sums.jn, jn);
+  stored(sums.w1, j1);
+  stored(sums.wn, jn);
+  stored(sums.wr, jr);
   sums.w[0] = count;
   sums.w[1] = 0;
   sums.w[2] = 1;
@@ -11732,25 +11786,23 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
       weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
-      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_weights(form, ws, rows, m, acc + products * kLanes);
+      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, terms == 0, acc);
+      add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
         fold(acc, all, other);
         terms = 0;
       }
     }
-    double S[8][8];
-    unpack_products(form, other, S);
-    const double sign = direct ? 1 : -1, *o1 = other + products, *on = o1 + form, *orr = on + form;
-    for (int k = 0; k < form; ++k) {
-      sums.w1[k] = (direct ? 0 : sums.w1[k]) + sign * o1[k];
-      sums.wn[k] = (direct ? 0 : sums.wn[k]) + sign * on[k];
-      sums.wr[k] = (direct ? 0 : sums.wr[k]) + sign * orr[k];
-      for (int j = 0; j < form; ++j) sums.S[k][j] = (direct ? 0 : sums.S[k][j]) + sign * S[k][j];
-    }
+    const double sign = direct ? 1 : -1;
+    const vd rest = setd(direct ? 0 : 1), by = setd(sign);
+    for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
+    stored(sums.w1, maddd(by, loadd(other + products), muld(rest, j1)));
+    stored(sums.wn, maddd(by, loadd(other + products + form), muld(rest, jn)));
+    stored(sums.wr, maddd(by, loadd(other + products + 2 * form), muld(rest, jr)));
     for (int k = 0; k < 5; ++k) sums.w[k] = (direct ? 0 : sums.w[k]) + sign * w[k];
   }
+  unpack_products(form, total, sums.S);
   project_sums(form, a.exact, r.i_s, &sums);
   if (form == 8) {
     double M[9][8];
@@ -11781,106 +11833,105 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace sse41 {
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
+enum : int { kBlock = 4 * kStrip };
 struct RowStrip {
   float row[6][kStrip];
 };
 TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, float* acc, float* ones,
-                                               float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, acc, ones);
-  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, first, second);
+                                               const float* p, const float* q, int n, bool fresh, float* acc,
+                                               float* ones, float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, fresh, acc, ones);
+  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, fresh, first, second);
 }
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
-                                              float* acc) noexcept {
+                                              bool fresh, float* acc) noexcept {
   float(*r)[kStrip] = rows->row;
   float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;
   if (form == 3) {
     plane_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain)
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
     else
-      add_squares3(r[0], r[1], r[2], n, acc);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
   } else if (form == 6) {
     pose_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain) {
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
-      add_squares_sums3(r[3], r[4], r[5], n, acc + 6 * kLanes, sums + 3 * kLanes);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
+      add_squares_sums3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
     } else {
-      add_squares3(r[0], r[1], r[2], n, acc);
-      add_squares3(r[3], r[4], r[5], n, acc + 6 * kLanes);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
+      add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
-    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 12 * kLanes);
+    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
-    add_squares_sums3(a, r[0], r[1], n, acc, sums);
-    add_squares_sums3(b, r[2], r[3], n, acc + 6 * kLanes, sums + 3 * kLanes);
-    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, acc + 12 * kLanes, sums + 6 * kLanes);
-    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 18 * kLanes);
+    add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
+    add_squares_sums3(b, r[2], r[3], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
+    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes, sums + 6 * kLanes);
+    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
 TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, float* first, float* second) noexcept {
+                                          const float* p, const float* q, int n, bool fresh, float* first,
+                                          float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
-    add_products3(r[3], r[4], r[5], p, q, n, first + 3 * kLanes, second + 3 * kLanes);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
+    add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
   } else {
-    add_products4(a, r[0], r[1], b, p, q, n, first, second);
-    add_products4(r[2], r[3], r[4], r[5], p, q, n, first + 4 * kLanes, second + 4 * kLanes);
+    add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
+    add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
-TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
   for (int k = 0; k < sums; k += 4) {
-    float* p = acc + k * kLanes;
+    const float* p = acc + k * kLanes;
     float four[4];
     hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) {
-      total[k + j] += static_cast<double>(four[j]);
-      store(p + j * kLanes, zero());
-    }
+    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
   }
 }
 struct Offsets {
   float target, host, kappa;
 };
-TEXTPLANE_SIMD_ENTRY Offsets plain_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o;
-  vf t = zero(), s = zero();
-  for (int k = 0; k < n; k += kLanes) {
-    t = add(t, load(i + k));
-    s = add(s, load_part(h + k, n - k));
-  }
-  o.target = static_cast<float>(hsum_d(t) / n);
-  o.host = static_cast<float>(hsum_d(s) / n);
-  o.kappa = 1.0F;
-  return o;
-}
 TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o = plain_offsets(i, h, n);
-  vf t = zero(), s = zero();
+  const vf i_first = set1(i[0]), h_first = set1(h[0]);
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    vf p = sub(load(i + k), set1(o.target)), q = sub(load_part(h + k, n - k), set1(o.host));
+    vf p = sub(load(i + k), i_first), q = sub(load_part(h + k, n - k), h_first);
     if (n - k < kLanes) {
       p = keep(first_n(n - k), p);
       q = keep(first_n(n - k), q);
     }
-    t = madd(p, p, t);
-    s = madd(q, q, s);
+    i1 = add(i1, p);
+    h1 = add(h1, q);
+    i2 = madd(p, p, i2);
+    h2 = madd(q, q, h2);
   }
-  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
+  float sum[4];
+  hsum4(i1, i2, h1, h2, sum);
+  const float by_n = 1.0F / static_cast<float>(n), i_mean = sum[0] * by_n, h_mean = sum[2] * by_n;
+  const float i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  Offsets o;
+  o.target = i[0] + i_mean;
+  o.host = h[0] + h_mean;
+  const double ratio = h_squares > 0 ? static_cast<double>(i_squares) / static_cast<double>(h_squares) : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
-struct SideSums {
-  double i, ii, h, hh;
-};
 struct CentredSums {
   vf i, ii, h, hh;
 };
+struct SideSums {
+  CentredSums lanes;
+  int terms;
+  double i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept { return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0}; }
 TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
   store(target, i);
   store(difference, sub(mul(kappa, h), i));
@@ -11890,9 +11941,9 @@ TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, fl
   s->hh = madd(h, h, s->hh);
 }
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
-                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
+                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o, bool last,
                                        SideSums* sums) noexcept {
-  CentredSums s = {zero(), zero(), zero(), zero()};
+  CentredSums s = sums->lanes;
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
   for (; k + kLanes <= n; k += kLanes)
@@ -11902,10 +11953,16 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
     centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
                   kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(s.i);
-  sums->ii += hsum_d(s.ii);
-  sums->h += hsum_d(s.h);
-  sums->hh += hsum_d(s.hh);
+  sums->terms += kStrip / kLanes;
+  if (last || sums->terms >= kFoldTerms) {
+    sums->i += hsum_d(s.i);
+    sums->ii += hsum_d(s.ii);
+    sums->h += hsum_d(s.h);
+    sums->hh += hsum_d(s.hh);
+    s.i = s.ii = s.h = s.hh = zero();
+    sums->terms = 0;
+  }
+  sums->lanes = s;
 }
 struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
@@ -11968,6 +12025,7 @@ TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const 
     *squares += hsum_d(sums.squares);
     *rho += hsum_d(sums.rho);
   }
+  if (list) storei(list + listed, seti(0));
   return listed;
 }
 struct WeightedStrip {
@@ -11975,29 +12033,19 @@ struct WeightedStrip {
       r[kStrip];
 };
 TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
-                                      const Residual& k, double root, float delta, bool complement, WeightedStrip* w,
+                                      const Residual& res, double root, float delta, bool complement, WeightedStrip* w,
                                       double* sums) noexcept {
-  if (list) {
-    for (int j = 0; j < n; ++j) {
-      const std::ptrdiff_t at = list[j];
-      w->x[j] = s.x[at];
-      w->y[j] = s.y[at];
-      w->a[j] = s.a[at];
-      w->b[j] = s.b[at];
-      w->q[j] = s.i[at];
-      w->r[j] = s.d[at];
-    }
-    for (int j = n; j % kLanes != 0; ++j) w->x[j] = w->y[j] = w->a[j] = w->b[j] = w->q[j] = w->r[j] = 0.0F;
-  }
-  const vf on_d = set1(static_cast<float>(k.on_d)), on_i = set1(static_cast<float>(k.on_i));
-  const vf shift = set1(static_cast<float>(k.shift)), limit = set1(delta);
-  const vf i_mean = set1(static_cast<float>(k.i_mean)), i_scale = set1(static_cast<float>(1 / k.i_s));
+  const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(delta);
+  const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
   const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
   for (int j = 0; j < n; j += kLanes) {
-    const vf i = list ? load(w->q + j) : load(s.i + begin + j), d = list ? load(w->r + j) : load(s.d + begin + j);
-    const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
-    const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
+    const std::int32_t* at = list ? list + j : nullptr;
+    const int k = begin + j;
+    const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
+    const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
+    const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
     const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
     vf weight = div(complement ? sub(size, inner) : inner, least);
@@ -12024,23 +12072,23 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
   sums[3] += hsum_d(s3);
   sums[4] += hsum_d(s4);
 }
-TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n,
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, acc, acc + form * kLanes);
+  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, last, last);
+  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
 }
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   const int n = host.n;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_values(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
   }
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
@@ -12059,30 +12107,33 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
+  store(acc + all * kLanes, zero());
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
   SampleStrip strip;
   RowStrip rows;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
+  const int block = kManyRegisters && form == 8 ? kBlock : static_cast<int>(kStrip);
   int terms = 0;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
-    const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
-    float *i = s.i + begin, *d = s.d + begin;
-    if (begin == 0) offsets = first_offsets(i, host.h, count);
-    centre_strip(i, host.h + begin, d, count, offsets, &sides);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+    const int end = begin + count, from = begin / block * block;
+    if (end % block != 0 && end < n) continue;
+    const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
+    const bool fresh = terms == 0;
     if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
     } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
     }
-    terms += kStrip / kLanes;
-    if (terms >= kFoldTerms || begin + kStrip >= n) {
+    terms += block / kLanes;
+    if (terms >= kFoldTerms || end == n) {
       fold(acc, all, total);
       terms = 0;
     }
@@ -12097,15 +12148,15 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   info->error = squares / count;
   info->cost = rho / count;
   WeightedSums sums;
-  unpack_products(form, total, sums.S);
-  const double *j1 = total + products, *ji = j1 + form, *jd = ji + form;
-  for (int k = 0; k < form; ++k) {
-    sums.e[k] = j1[k] / count;
-    sums.jn[k] = (ji[k] - r.i_mean * j1[k]) / r.i_s;
-    sums.w1[k] = j1[k];
-    sums.wn[k] = sums.jn[k];
-    sums.wr[k] = (jd[k] * r.on_d + ji[k] * r.on_i + j1[k] * r.shift) / root;
-  }
+  const double by_s = 1 / r.i_s, by_root = 1 / root;
+  const vd j1 = loadd(total + products), ji = loadd(total + products + form), jd = loadd(total + products + 2 * form);
+  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
+  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
+  stored(sums.e, muld(setd(1 / count), j1));
+  stored(sums.jn, jn);
+  stored(sums.w1, j1);
+  stored(sums.wn, jn);
+  stored(sums.wr, jr);
   sums.w[0] = count;
   sums.w[1] = 0;
   sums.w[2] = 1;
@@ -12119,25 +12170,23 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
       weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
-      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_weights(form, ws, rows, m, acc + products * kLanes);
+      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, terms == 0, acc);
+      add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
         fold(acc, all, other);
         terms = 0;
       }
     }
-    double S[8][8];
-    unpack_products(form, other, S);
-    const double sign = direct ? 1 : -1, *o1 = other + products, *on = o1 + form, *orr = on + form;
-    for (int k = 0; k < form; ++k) {
-      sums.w1[k] = (direct ? 0 : sums.w1[k]) + sign * o1[k];
-      sums.wn[k] = (direct ? 0 : sums.wn[k]) + sign * on[k];
-      sums.wr[k] = (direct ? 0 : sums.wr[k]) + sign * orr[k];
-      for (int j = 0; j < form; ++j) sums.S[k][j] = (direct ? 0 : sums.S[k][j]) + sign * S[k][j];
-    }
+    const double sign = direct ? 1 : -1;
+    const vd rest = setd(direct ? 0 : 1), by = setd(sign);
+    for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
+    stored(sums.w1, maddd(by, loadd(other + products), muld(rest, j1)));
+    stored(sums.wn, maddd(by, loadd(other + products + form), muld(rest, jn)));
+    stored(sums.wr, maddd(by, loadd(other + products + 2 * form), muld(rest, jr)));
     for (int k = 0; k < 5; ++k) sums.w[k] = (direct ? 0 : sums.w[k]) + sign * w[k];
   }
+  unpack_products(form, total, sums.S);
   project_sums(form, a.exact, r.i_s, &sums);
   if (form == 8) {
     double M[9][8];
@@ -12173,106 +12222,105 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace avx2 {
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
+enum : int { kBlock = 4 * kStrip };
 struct RowStrip {
   float row[6][kStrip];
 };
 TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, float* acc, float* ones,
-                                               float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, acc, ones);
-  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, first, second);
+                                               const float* p, const float* q, int n, bool fresh, float* acc,
+                                               float* ones, float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, fresh, acc, ones);
+  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, fresh, first, second);
 }
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
-                                              float* acc) noexcept {
+                                              bool fresh, float* acc) noexcept {
   float(*r)[kStrip] = rows->row;
   float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;
   if (form == 3) {
     plane_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain)
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
     else
-      add_squares3(r[0], r[1], r[2], n, acc);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
   } else if (form == 6) {
     pose_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain) {
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
-      add_squares_sums3(r[3], r[4], r[5], n, acc + 6 * kLanes, sums + 3 * kLanes);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
+      add_squares_sums3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
     } else {
-      add_squares3(r[0], r[1], r[2], n, acc);
-      add_squares3(r[3], r[4], r[5], n, acc + 6 * kLanes);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
+      add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
-    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 12 * kLanes);
+    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
-    add_squares_sums3(a, r[0], r[1], n, acc, sums);
-    add_squares_sums3(b, r[2], r[3], n, acc + 6 * kLanes, sums + 3 * kLanes);
-    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, acc + 12 * kLanes, sums + 6 * kLanes);
-    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 18 * kLanes);
+    add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
+    add_squares_sums3(b, r[2], r[3], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
+    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes, sums + 6 * kLanes);
+    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
 TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, float* first, float* second) noexcept {
+                                          const float* p, const float* q, int n, bool fresh, float* first,
+                                          float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
-    add_products3(r[3], r[4], r[5], p, q, n, first + 3 * kLanes, second + 3 * kLanes);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
+    add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
   } else {
-    add_products4(a, r[0], r[1], b, p, q, n, first, second);
-    add_products4(r[2], r[3], r[4], r[5], p, q, n, first + 4 * kLanes, second + 4 * kLanes);
+    add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
+    add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
-TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
   for (int k = 0; k < sums; k += 4) {
-    float* p = acc + k * kLanes;
+    const float* p = acc + k * kLanes;
     float four[4];
     hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) {
-      total[k + j] += static_cast<double>(four[j]);
-      store(p + j * kLanes, zero());
-    }
+    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
   }
 }
 struct Offsets {
   float target, host, kappa;
 };
-TEXTPLANE_SIMD_ENTRY Offsets plain_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o;
-  vf t = zero(), s = zero();
-  for (int k = 0; k < n; k += kLanes) {
-    t = add(t, load(i + k));
-    s = add(s, load_part(h + k, n - k));
-  }
-  o.target = static_cast<float>(hsum_d(t) / n);
-  o.host = static_cast<float>(hsum_d(s) / n);
-  o.kappa = 1.0F;
-  return o;
-}
 TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o = plain_offsets(i, h, n);
-  vf t = zero(), s = zero();
+  const vf i_first = set1(i[0]), h_first = set1(h[0]);
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    vf p = sub(load(i + k), set1(o.target)), q = sub(load_part(h + k, n - k), set1(o.host));
+    vf p = sub(load(i + k), i_first), q = sub(load_part(h + k, n - k), h_first);
     if (n - k < kLanes) {
       p = keep(first_n(n - k), p);
       q = keep(first_n(n - k), q);
     }
-    t = madd(p, p, t);
-    s = madd(q, q, s);
+    i1 = add(i1, p);
+    h1 = add(h1, q);
+    i2 = madd(p, p, i2);
+    h2 = madd(q, q, h2);
   }
-  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
+  float sum[4];
+  hsum4(i1, i2, h1, h2, sum);
+  const float by_n = 1.0F / static_cast<float>(n), i_mean = sum[0] * by_n, h_mean = sum[2] * by_n;
+  const float i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  Offsets o;
+  o.target = i[0] + i_mean;
+  o.host = h[0] + h_mean;
+  const double ratio = h_squares > 0 ? static_cast<double>(i_squares) / static_cast<double>(h_squares) : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
-struct SideSums {
-  double i, ii, h, hh;
-};
 struct CentredSums {
   vf i, ii, h, hh;
 };
+struct SideSums {
+  CentredSums lanes;
+  int terms;
+  double i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept { return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0}; }
 TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
   store(target, i);
   store(difference, sub(mul(kappa, h), i));
@@ -12282,9 +12330,9 @@ TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, fl
   s->hh = madd(h, h, s->hh);
 }
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
-                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
+                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o, bool last,
                                        SideSums* sums) noexcept {
-  CentredSums s = {zero(), zero(), zero(), zero()};
+  CentredSums s = sums->lanes;
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
   for (; k + kLanes <= n; k += kLanes)
@@ -12294,10 +12342,16 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
     centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
                   kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(s.i);
-  sums->ii += hsum_d(s.ii);
-  sums->h += hsum_d(s.h);
-  sums->hh += hsum_d(s.hh);
+  sums->terms += kStrip / kLanes;
+  if (last || sums->terms >= kFoldTerms) {
+    sums->i += hsum_d(s.i);
+    sums->ii += hsum_d(s.ii);
+    sums->h += hsum_d(s.h);
+    sums->hh += hsum_d(s.hh);
+    s.i = s.ii = s.h = s.hh = zero();
+    sums->terms = 0;
+  }
+  sums->lanes = s;
 }
 struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
@@ -12360,6 +12414,7 @@ TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const 
     *squares += hsum_d(sums.squares);
     *rho += hsum_d(sums.rho);
   }
+  if (list) storei(list + listed, seti(0));
   return listed;
 }
 struct WeightedStrip {
@@ -12367,29 +12422,19 @@ struct WeightedStrip {
       r[kStrip];
 };
 TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
-                                      const Residual& k, double root, float delta, bool complement, WeightedStrip* w,
+                                      const Residual& res, double root, float delta, bool complement, WeightedStrip* w,
                                       double* sums) noexcept {
-  if (list) {
-    for (int j = 0; j < n; ++j) {
-      const std::ptrdiff_t at = list[j];
-      w->x[j] = s.x[at];
-      w->y[j] = s.y[at];
-      w->a[j] = s.a[at];
-      w->b[j] = s.b[at];
-      w->q[j] = s.i[at];
-      w->r[j] = s.d[at];
-    }
-    for (int j = n; j % kLanes != 0; ++j) w->x[j] = w->y[j] = w->a[j] = w->b[j] = w->q[j] = w->r[j] = 0.0F;
-  }
-  const vf on_d = set1(static_cast<float>(k.on_d)), on_i = set1(static_cast<float>(k.on_i));
-  const vf shift = set1(static_cast<float>(k.shift)), limit = set1(delta);
-  const vf i_mean = set1(static_cast<float>(k.i_mean)), i_scale = set1(static_cast<float>(1 / k.i_s));
+  const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(delta);
+  const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
   const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
   for (int j = 0; j < n; j += kLanes) {
-    const vf i = list ? load(w->q + j) : load(s.i + begin + j), d = list ? load(w->r + j) : load(s.d + begin + j);
-    const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
-    const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
+    const std::int32_t* at = list ? list + j : nullptr;
+    const int k = begin + j;
+    const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
+    const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
+    const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
     const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
     vf weight = div(complement ? sub(size, inner) : inner, least);
@@ -12416,23 +12461,23 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
   sums[3] += hsum_d(s3);
   sums[4] += hsum_d(s4);
 }
-TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n,
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, acc, acc + form * kLanes);
+  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, last, last);
+  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
 }
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   const int n = host.n;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_values(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
   }
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
@@ -12451,30 +12496,33 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
+  store(acc + all * kLanes, zero());
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
   SampleStrip strip;
   RowStrip rows;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
+  const int block = kManyRegisters && form == 8 ? kBlock : static_cast<int>(kStrip);
   int terms = 0;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
-    const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
-    float *i = s.i + begin, *d = s.d + begin;
-    if (begin == 0) offsets = first_offsets(i, host.h, count);
-    centre_strip(i, host.h + begin, d, count, offsets, &sides);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+    const int end = begin + count, from = begin / block * block;
+    if (end % block != 0 && end < n) continue;
+    const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
+    const bool fresh = terms == 0;
     if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
     } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
     }
-    terms += kStrip / kLanes;
-    if (terms >= kFoldTerms || begin + kStrip >= n) {
+    terms += block / kLanes;
+    if (terms >= kFoldTerms || end == n) {
       fold(acc, all, total);
       terms = 0;
     }
@@ -12489,15 +12537,15 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   info->error = squares / count;
   info->cost = rho / count;
   WeightedSums sums;
-  unpack_products(form, total, sums.S);
-  const double *j1 = total + products, *ji = j1 + form, *jd = ji + form;
-  for (int k = 0; k < form; ++k) {
-    sums.e[k] = j1[k] / count;
-    sums.jn[k] = (ji[k] - r.i_mean * j1[k]) / r.i_s;
-    sums.w1[k] = j1[k];
-    sums.wn[k] = sums.jn[k];
-    sums.wr[k] = (jd[k] * r.on_d + ji[k] * r.on_i + j1[k] * r.shift) / root;
-  }
+  const double by_s = 1 / r.i_s, by_root = 1 / root;
+  const vd j1 = loadd(total + products), ji = loadd(total + products + form), jd = loadd(total + products + 2 * form);
+  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
+  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
+  stored(sums.e, muld(setd(1 / count), j1));
+  stored(sums.jn, jn);
+  stored(sums.w1, j1);
+  stored(sums.wn, jn);
+  stored(sums.wr, jr);
   sums.w[0] = count;
   sums.w[1] = 0;
   sums.w[2] = 1;
@@ -12511,25 +12559,23 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
       weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
-      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_weights(form, ws, rows, m, acc + products * kLanes);
+      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, terms == 0, acc);
+      add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
         fold(acc, all, other);
         terms = 0;
       }
     }
-    double S[8][8];
-    unpack_products(form, other, S);
-    const double sign = direct ? 1 : -1, *o1 = other + products, *on = o1 + form, *orr = on + form;
-    for (int k = 0; k < form; ++k) {
-      sums.w1[k] = (direct ? 0 : sums.w1[k]) + sign * o1[k];
-      sums.wn[k] = (direct ? 0 : sums.wn[k]) + sign * on[k];
-      sums.wr[k] = (direct ? 0 : sums.wr[k]) + sign * orr[k];
-      for (int j = 0; j < form; ++j) sums.S[k][j] = (direct ? 0 : sums.S[k][j]) + sign * S[k][j];
-    }
+    const double sign = direct ? 1 : -1;
+    const vd rest = setd(direct ? 0 : 1), by = setd(sign);
+    for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
+    stored(sums.w1, maddd(by, loadd(other + products), muld(rest, j1)));
+    stored(sums.wn, maddd(by, loadd(other + products + form), muld(rest, jn)));
+    stored(sums.wr, maddd(by, loadd(other + products + 2 * form), muld(rest, jr)));
     for (int k = 0; k < 5; ++k) sums.w[k] = (direct ? 0 : sums.w[k]) + sign * w[k];
   }
+  unpack_products(form, total, sums.S);
   project_sums(form, a.exact, r.i_s, &sums);
   if (form == 8) {
     double M[9][8];
@@ -12572,106 +12618,105 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace avx512 {
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
+enum : int { kBlock = 4 * kStrip };
 struct RowStrip {
   float row[6][kStrip];
 };
 TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, float* acc, float* ones,
-                                               float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, acc, ones);
-  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, first, second);
+                                               const float* p, const float* q, int n, bool fresh, float* acc,
+                                               float* ones, float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, fresh, acc, ones);
+  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, fresh, first, second);
 }
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
-                                              float* acc) noexcept {
+                                              bool fresh, float* acc) noexcept {
   float(*r)[kStrip] = rows->row;
   float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;
   if (form == 3) {
     plane_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain)
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
     else
-      add_squares3(r[0], r[1], r[2], n, acc);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
   } else if (form == 6) {
     pose_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain) {
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
-      add_squares_sums3(r[3], r[4], r[5], n, acc + 6 * kLanes, sums + 3 * kLanes);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
+      add_squares_sums3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
     } else {
-      add_squares3(r[0], r[1], r[2], n, acc);
-      add_squares3(r[3], r[4], r[5], n, acc + 6 * kLanes);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
+      add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
-    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 12 * kLanes);
+    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
-    add_squares_sums3(a, r[0], r[1], n, acc, sums);
-    add_squares_sums3(b, r[2], r[3], n, acc + 6 * kLanes, sums + 3 * kLanes);
-    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, acc + 12 * kLanes, sums + 6 * kLanes);
-    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 18 * kLanes);
+    add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
+    add_squares_sums3(b, r[2], r[3], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
+    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes, sums + 6 * kLanes);
+    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
 TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, float* first, float* second) noexcept {
+                                          const float* p, const float* q, int n, bool fresh, float* first,
+                                          float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
-    add_products3(r[3], r[4], r[5], p, q, n, first + 3 * kLanes, second + 3 * kLanes);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
+    add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
   } else {
-    add_products4(a, r[0], r[1], b, p, q, n, first, second);
-    add_products4(r[2], r[3], r[4], r[5], p, q, n, first + 4 * kLanes, second + 4 * kLanes);
+    add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
+    add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
-TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
   for (int k = 0; k < sums; k += 4) {
-    float* p = acc + k * kLanes;
+    const float* p = acc + k * kLanes;
     float four[4];
     hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) {
-      total[k + j] += static_cast<double>(four[j]);
-      store(p + j * kLanes, zero());
-    }
+    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
   }
 }
 struct Offsets {
   float target, host, kappa;
 };
-TEXTPLANE_SIMD_ENTRY Offsets plain_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o;
-  vf t = zero(), s = zero();
-  for (int k = 0; k < n; k += kLanes) {
-    t = add(t, load(i + k));
-    s = add(s, load_part(h + k, n - k));
-  }
-  o.target = static_cast<float>(hsum_d(t) / n);
-  o.host = static_cast<float>(hsum_d(s) / n);
-  o.kappa = 1.0F;
-  return o;
-}
 TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o = plain_offsets(i, h, n);
-  vf t = zero(), s = zero();
+  const vf i_first = set1(i[0]), h_first = set1(h[0]);
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    vf p = sub(load(i + k), set1(o.target)), q = sub(load_part(h + k, n - k), set1(o.host));
+    vf p = sub(load(i + k), i_first), q = sub(load_part(h + k, n - k), h_first);
     if (n - k < kLanes) {
       p = keep(first_n(n - k), p);
       q = keep(first_n(n - k), q);
     }
-    t = madd(p, p, t);
-    s = madd(q, q, s);
+    i1 = add(i1, p);
+    h1 = add(h1, q);
+    i2 = madd(p, p, i2);
+    h2 = madd(q, q, h2);
   }
-  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
+  float sum[4];
+  hsum4(i1, i2, h1, h2, sum);
+  const float by_n = 1.0F / static_cast<float>(n), i_mean = sum[0] * by_n, h_mean = sum[2] * by_n;
+  const float i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  Offsets o;
+  o.target = i[0] + i_mean;
+  o.host = h[0] + h_mean;
+  const double ratio = h_squares > 0 ? static_cast<double>(i_squares) / static_cast<double>(h_squares) : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
-struct SideSums {
-  double i, ii, h, hh;
-};
 struct CentredSums {
   vf i, ii, h, hh;
 };
+struct SideSums {
+  CentredSums lanes;
+  int terms;
+  double i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept { return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0}; }
 TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
   store(target, i);
   store(difference, sub(mul(kappa, h), i));
@@ -12681,9 +12726,9 @@ TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, fl
   s->hh = madd(h, h, s->hh);
 }
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
-                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
+                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o, bool last,
                                        SideSums* sums) noexcept {
-  CentredSums s = {zero(), zero(), zero(), zero()};
+  CentredSums s = sums->lanes;
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
   for (; k + kLanes <= n; k += kLanes)
@@ -12693,10 +12738,16 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
     centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
                   kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(s.i);
-  sums->ii += hsum_d(s.ii);
-  sums->h += hsum_d(s.h);
-  sums->hh += hsum_d(s.hh);
+  sums->terms += kStrip / kLanes;
+  if (last || sums->terms >= kFoldTerms) {
+    sums->i += hsum_d(s.i);
+    sums->ii += hsum_d(s.ii);
+    sums->h += hsum_d(s.h);
+    sums->hh += hsum_d(s.hh);
+    s.i = s.ii = s.h = s.hh = zero();
+    sums->terms = 0;
+  }
+  sums->lanes = s;
 }
 struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
@@ -12759,6 +12810,7 @@ TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const 
     *squares += hsum_d(sums.squares);
     *rho += hsum_d(sums.rho);
   }
+  if (list) storei(list + listed, seti(0));
   return listed;
 }
 struct WeightedStrip {
@@ -12766,29 +12818,19 @@ struct WeightedStrip {
       r[kStrip];
 };
 TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
-                                      const Residual& k, double root, float delta, bool complement, WeightedStrip* w,
+                                      const Residual& res, double root, float delta, bool complement, WeightedStrip* w,
                                       double* sums) noexcept {
-  if (list) {
-    for (int j = 0; j < n; ++j) {
-      const std::ptrdiff_t at = list[j];
-      w->x[j] = s.x[at];
-      w->y[j] = s.y[at];
-      w->a[j] = s.a[at];
-      w->b[j] = s.b[at];
-      w->q[j] = s.i[at];
-      w->r[j] = s.d[at];
-    }
-    for (int j = n; j % kLanes != 0; ++j) w->x[j] = w->y[j] = w->a[j] = w->b[j] = w->q[j] = w->r[j] = 0.0F;
-  }
-  const vf on_d = set1(static_cast<float>(k.on_d)), on_i = set1(static_cast<float>(k.on_i));
-  const vf shift = set1(static_cast<float>(k.shift)), limit = set1(delta);
-  const vf i_mean = set1(static_cast<float>(k.i_mean)), i_scale = set1(static_cast<float>(1 / k.i_s));
+  const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(delta);
+  const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
   const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
   for (int j = 0; j < n; j += kLanes) {
-    const vf i = list ? load(w->q + j) : load(s.i + begin + j), d = list ? load(w->r + j) : load(s.d + begin + j);
-    const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
-    const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
+    const std::int32_t* at = list ? list + j : nullptr;
+    const int k = begin + j;
+    const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
+    const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
+    const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
     const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
     vf weight = div(complement ? sub(size, inner) : inner, least);
@@ -12815,23 +12857,23 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
   sums[3] += hsum_d(s3);
   sums[4] += hsum_d(s4);
 }
-TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n,
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, acc, acc + form * kLanes);
+  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, last, last);
+  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
 }
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   const int n = host.n;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_values(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
   }
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
@@ -12850,30 +12892,33 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
+  store(acc + all * kLanes, zero());
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
   SampleStrip strip;
   RowStrip rows;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
+  const int block = kManyRegisters && form == 8 ? kBlock : static_cast<int>(kStrip);
   int terms = 0;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
-    const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
-    float *i = s.i + begin, *d = s.d + begin;
-    if (begin == 0) offsets = first_offsets(i, host.h, count);
-    centre_strip(i, host.h + begin, d, count, offsets, &sides);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+    const int end = begin + count, from = begin / block * block;
+    if (end % block != 0 && end < n) continue;
+    const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
+    const bool fresh = terms == 0;
     if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
     } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
     }
-    terms += kStrip / kLanes;
-    if (terms >= kFoldTerms || begin + kStrip >= n) {
+    terms += block / kLanes;
+    if (terms >= kFoldTerms || end == n) {
       fold(acc, all, total);
       terms = 0;
     }
@@ -12888,15 +12933,15 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   info->error = squares / count;
   info->cost = rho / count;
   WeightedSums sums;
-  unpack_products(form, total, sums.S);
-  const double *j1 = total + products, *ji = j1 + form, *jd = ji + form;
-  for (int k = 0; k < form; ++k) {
-    sums.e[k] = j1[k] / count;
-    sums.jn[k] = (ji[k] - r.i_mean * j1[k]) / r.i_s;
-    sums.w1[k] = j1[k];
-    sums.wn[k] = sums.jn[k];
-    sums.wr[k] = (jd[k] * r.on_d + ji[k] * r.on_i + j1[k] * r.shift) / root;
-  }
+  const double by_s = 1 / r.i_s, by_root = 1 / root;
+  const vd j1 = loadd(total + products), ji = loadd(total + products + form), jd = loadd(total + products + 2 * form);
+  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
+  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
+  stored(sums.e, muld(setd(1 / count), j1));
+  stored(sums.jn, jn);
+  stored(sums.w1, j1);
+  stored(sums.wn, jn);
+  stored(sums.wr, jr);
   sums.w[0] = count;
   sums.w[1] = 0;
   sums.w[2] = 1;
@@ -12910,25 +12955,23 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
       weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
-      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_weights(form, ws, rows, m, acc + products * kLanes);
+      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, terms == 0, acc);
+      add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
         fold(acc, all, other);
         terms = 0;
       }
     }
-    double S[8][8];
-    unpack_products(form, other, S);
-    const double sign = direct ? 1 : -1, *o1 = other + products, *on = o1 + form, *orr = on + form;
-    for (int k = 0; k < form; ++k) {
-      sums.w1[k] = (direct ? 0 : sums.w1[k]) + sign * o1[k];
-      sums.wn[k] = (direct ? 0 : sums.wn[k]) + sign * on[k];
-      sums.wr[k] = (direct ? 0 : sums.wr[k]) + sign * orr[k];
-      for (int j = 0; j < form; ++j) sums.S[k][j] = (direct ? 0 : sums.S[k][j]) + sign * S[k][j];
-    }
+    const double sign = direct ? 1 : -1;
+    const vd rest = setd(direct ? 0 : 1), by = setd(sign);
+    for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
+    stored(sums.w1, maddd(by, loadd(other + products), muld(rest, j1)));
+    stored(sums.wn, maddd(by, loadd(other + products + form), muld(rest, jn)));
+    stored(sums.wr, maddd(by, loadd(other + products + 2 * form), muld(rest, jr)));
     for (int k = 0; k < 5; ++k) sums.w[k] = (direct ? 0 : sums.w[k]) + sign * w[k];
   }
+  unpack_products(form, total, sums.S);
   project_sums(form, a.exact, r.i_s, &sums);
   if (form == 8) {
     double M[9][8];
@@ -12958,106 +13001,105 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace neon {
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
+enum : int { kBlock = 4 * kStrip };
 struct RowStrip {
   float row[6][kStrip];
 };
 TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, float* acc, float* ones,
-                                               float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, acc, ones);
-  add_cubic_moments(x, y, a, b, n, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, first, second);
+                                               const float* p, const float* q, int n, bool fresh, float* acc,
+                                               float* ones, float* first, float* second) noexcept {
+  add_moments(x, y, a, b, n, fresh, acc, ones);
+  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
+  add_products8(x, y, a, b, p, q, n, fresh, first, second);
 }
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
-                                              float* acc) noexcept {
+                                              bool fresh, float* acc) noexcept {
   float(*r)[kStrip] = rows->row;
   float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;
   if (form == 3) {
     plane_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain)
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
     else
-      add_squares3(r[0], r[1], r[2], n, acc);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
   } else if (form == 6) {
     pose_rows(k, x, y, a, b, n, kStrip, r[0]);
     if (plain) {
-      add_squares_sums3(r[0], r[1], r[2], n, acc, sums);
-      add_squares_sums3(r[3], r[4], r[5], n, acc + 6 * kLanes, sums + 3 * kLanes);
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
+      add_squares_sums3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
     } else {
-      add_squares3(r[0], r[1], r[2], n, acc);
-      add_squares3(r[3], r[4], r[5], n, acc + 6 * kLanes);
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
+      add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
-    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 12 * kLanes);
+    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
-    add_squares_sums3(a, r[0], r[1], n, acc, sums);
-    add_squares_sums3(b, r[2], r[3], n, acc + 6 * kLanes, sums + 3 * kLanes);
-    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, acc + 12 * kLanes, sums + 6 * kLanes);
-    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, acc + 18 * kLanes);
+    add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
+    add_squares_sums3(b, r[2], r[3], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
+    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes, sums + 6 * kLanes);
+    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
 TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, float* first, float* second) noexcept {
+                                          const float* p, const float* q, int n, bool fresh, float* first,
+                                          float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
-    add_products3(r[0], r[1], r[2], p, q, n, first, second);
-    add_products3(r[3], r[4], r[5], p, q, n, first + 3 * kLanes, second + 3 * kLanes);
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
+    add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
   } else {
-    add_products4(a, r[0], r[1], b, p, q, n, first, second);
-    add_products4(r[2], r[3], r[4], r[5], p, q, n, first + 4 * kLanes, second + 4 * kLanes);
+    add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
+    add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
-TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
   for (int k = 0; k < sums; k += 4) {
-    float* p = acc + k * kLanes;
+    const float* p = acc + k * kLanes;
     float four[4];
     hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) {
-      total[k + j] += static_cast<double>(four[j]);
-      store(p + j * kLanes, zero());
-    }
+    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
   }
 }
 struct Offsets {
   float target, host, kappa;
 };
-TEXTPLANE_SIMD_ENTRY Offsets plain_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o;
-  vf t = zero(), s = zero();
-  for (int k = 0; k < n; k += kLanes) {
-    t = add(t, load(i + k));
-    s = add(s, load_part(h + k, n - k));
-  }
-  o.target = static_cast<float>(hsum_d(t) / n);
-  o.host = static_cast<float>(hsum_d(s) / n);
-  o.kappa = 1.0F;
-  return o;
-}
 TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n) noexcept {
-  Offsets o = plain_offsets(i, h, n);
-  vf t = zero(), s = zero();
+  const vf i_first = set1(i[0]), h_first = set1(h[0]);
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    vf p = sub(load(i + k), set1(o.target)), q = sub(load_part(h + k, n - k), set1(o.host));
+    vf p = sub(load(i + k), i_first), q = sub(load_part(h + k, n - k), h_first);
     if (n - k < kLanes) {
       p = keep(first_n(n - k), p);
       q = keep(first_n(n - k), q);
     }
-    t = madd(p, p, t);
-    s = madd(q, q, s);
+    i1 = add(i1, p);
+    h1 = add(h1, q);
+    i2 = madd(p, p, i2);
+    h2 = madd(q, q, h2);
   }
-  const double squares = hsum_d(s), ratio = squares > 0 ? hsum_d(t) / squares : 0;
+  float sum[4];
+  hsum4(i1, i2, h1, h2, sum);
+  const float by_n = 1.0F / static_cast<float>(n), i_mean = sum[0] * by_n, h_mean = sum[2] * by_n;
+  const float i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  Offsets o;
+  o.target = i[0] + i_mean;
+  o.host = h[0] + h_mean;
+  const double ratio = h_squares > 0 ? static_cast<double>(i_squares) / static_cast<double>(h_squares) : 0;
   o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
   return o;
 }
-struct SideSums {
-  double i, ii, h, hh;
-};
 struct CentredSums {
   vf i, ii, h, hh;
 };
+struct SideSums {
+  CentredSums lanes;
+  int terms;
+  double i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept { return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0}; }
 TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
   store(target, i);
   store(difference, sub(mul(kappa, h), i));
@@ -13067,9 +13109,9 @@ TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, fl
   s->hh = madd(h, h, s->hh);
 }
 TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
-                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o,
+                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o, bool last,
                                        SideSums* sums) noexcept {
-  CentredSums s = {zero(), zero(), zero(), zero()};
+  CentredSums s = sums->lanes;
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
   for (; k + kLanes <= n; k += kLanes)
@@ -13079,10 +13121,16 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
     centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
                   kappa, target + k, difference + k, &s);
   }
-  sums->i += hsum_d(s.i);
-  sums->ii += hsum_d(s.ii);
-  sums->h += hsum_d(s.h);
-  sums->hh += hsum_d(s.hh);
+  sums->terms += kStrip / kLanes;
+  if (last || sums->terms >= kFoldTerms) {
+    sums->i += hsum_d(s.i);
+    sums->ii += hsum_d(s.ii);
+    sums->h += hsum_d(s.h);
+    sums->hh += hsum_d(s.hh);
+    s.i = s.ii = s.h = s.hh = zero();
+    sums->terms = 0;
+  }
+  sums->lanes = s;
 }
 struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
@@ -13145,6 +13193,7 @@ TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const 
     *squares += hsum_d(sums.squares);
     *rho += hsum_d(sums.rho);
   }
+  if (list) storei(list + listed, seti(0));
   return listed;
 }
 struct WeightedStrip {
@@ -13152,29 +13201,19 @@ struct WeightedStrip {
       r[kStrip];
 };
 TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
-                                      const Residual& k, double root, float delta, bool complement, WeightedStrip* w,
+                                      const Residual& res, double root, float delta, bool complement, WeightedStrip* w,
                                       double* sums) noexcept {
-  if (list) {
-    for (int j = 0; j < n; ++j) {
-      const std::ptrdiff_t at = list[j];
-      w->x[j] = s.x[at];
-      w->y[j] = s.y[at];
-      w->a[j] = s.a[at];
-      w->b[j] = s.b[at];
-      w->q[j] = s.i[at];
-      w->r[j] = s.d[at];
-    }
-    for (int j = n; j % kLanes != 0; ++j) w->x[j] = w->y[j] = w->a[j] = w->b[j] = w->q[j] = w->r[j] = 0.0F;
-  }
-  const vf on_d = set1(static_cast<float>(k.on_d)), on_i = set1(static_cast<float>(k.on_i));
-  const vf shift = set1(static_cast<float>(k.shift)), limit = set1(delta);
-  const vf i_mean = set1(static_cast<float>(k.i_mean)), i_scale = set1(static_cast<float>(1 / k.i_s));
+  const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(delta);
+  const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
   const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
   for (int j = 0; j < n; j += kLanes) {
-    const vf i = list ? load(w->q + j) : load(s.i + begin + j), d = list ? load(w->r + j) : load(s.d + begin + j);
-    const vf x = list ? load(w->x + j) : load(s.x + begin + j), y = list ? load(w->y + j) : load(s.y + begin + j);
-    const vf a = list ? load(w->a + j) : load(s.a + begin + j), b = list ? load(w->b + j) : load(s.b + begin + j);
+    const std::int32_t* at = list ? list + j : nullptr;
+    const int k = begin + j;
+    const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
+    const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
+    const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
     const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
     const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
     vf weight = div(complement ? sub(size, inner) : inner, least);
@@ -13201,23 +13240,23 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
   sums[3] += hsum_d(s3);
   sums[4] += hsum_d(s4);
 }
-TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n,
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, acc, acc + form * kLanes);
+  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, last, last);
+  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
 }
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   const int n = host.n;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_values(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
   }
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
@@ -13236,30 +13275,33 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
+  store(acc + all * kLanes, zero());
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
   SampleStrip strip;
   RowStrip rows;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
+  const int block = kManyRegisters && form == 8 ? kBlock : static_cast<int>(kStrip);
   int terms = 0;
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
-    const float *x = s.x + begin, *y = s.y + begin, *ga = s.a + begin, *gb = s.b + begin;
-    float *i = s.i + begin, *d = s.d + begin;
-    if (begin == 0) offsets = first_offsets(i, host.h, count);
-    centre_strip(i, host.h + begin, d, count, offsets, &sides);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+    const int end = begin + count, from = begin / block * block;
+    if (end % block != 0 && end < n) continue;
+    const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
+    const bool fresh = terms == 0;
     if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, count, acc, acc + products * kLanes, sum_i, sum_d);
+      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
     } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, sum_i, sum_d);
+      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
+      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
     }
-    terms += kStrip / kLanes;
-    if (terms >= kFoldTerms || begin + kStrip >= n) {
+    terms += block / kLanes;
+    if (terms >= kFoldTerms || end == n) {
       fold(acc, all, total);
       terms = 0;
     }
@@ -13274,15 +13316,15 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   info->error = squares / count;
   info->cost = rho / count;
   WeightedSums sums;
-  unpack_products(form, total, sums.S);
-  const double *j1 = total + products, *ji = j1 + form, *jd = ji + form;
-  for (int k = 0; k < form; ++k) {
-    sums.e[k] = j1[k] / count;
-    sums.jn[k] = (ji[k] - r.i_mean * j1[k]) / r.i_s;
-    sums.w1[k] = j1[k];
-    sums.wn[k] = sums.jn[k];
-    sums.wr[k] = (jd[k] * r.on_d + ji[k] * r.on_i + j1[k] * r.shift) / root;
-  }
+  const double by_s = 1 / r.i_s, by_root = 1 / root;
+  const vd j1 = loadd(total + products), ji = loadd(total + products + form), jd = loadd(total + products + 2 * form);
+  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
+  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
+  stored(sums.e, muld(setd(1 / count), j1));
+  stored(sums.jn, jn);
+  stored(sums.w1, j1);
+  stored(sums.wn, jn);
+  stored(sums.wr, jr);
   sums.w[0] = count;
   sums.w[1] = 0;
   sums.w[2] = 1;
@@ -13296,25 +13338,23 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
       weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
-      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_weights(form, ws, rows, m, acc + products * kLanes);
+      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, terms == 0, acc);
+      add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
         fold(acc, all, other);
         terms = 0;
       }
     }
-    double S[8][8];
-    unpack_products(form, other, S);
-    const double sign = direct ? 1 : -1, *o1 = other + products, *on = o1 + form, *orr = on + form;
-    for (int k = 0; k < form; ++k) {
-      sums.w1[k] = (direct ? 0 : sums.w1[k]) + sign * o1[k];
-      sums.wn[k] = (direct ? 0 : sums.wn[k]) + sign * on[k];
-      sums.wr[k] = (direct ? 0 : sums.wr[k]) + sign * orr[k];
-      for (int j = 0; j < form; ++j) sums.S[k][j] = (direct ? 0 : sums.S[k][j]) + sign * S[k][j];
-    }
+    const double sign = direct ? 1 : -1;
+    const vd rest = setd(direct ? 0 : 1), by = setd(sign);
+    for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
+    stored(sums.w1, maddd(by, loadd(other + products), muld(rest, j1)));
+    stored(sums.wn, maddd(by, loadd(other + products + form), muld(rest, jn)));
+    stored(sums.wr, maddd(by, loadd(other + products + 2 * form), muld(rest, jr)));
     for (int k = 0; k < 5; ++k) sums.w[k] = (direct ? 0 : sums.w[k]) + sign * w[k];
   }
+  unpack_products(form, total, sums.S);
   project_sums(form, a.exact, r.i_s, &sums);
   if (form == 8) {
     double M[9][8];
@@ -13380,12 +13420,14 @@ struct FewPixels {
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
   const double count = n, by_count = 1 / count;
+  // Offsets that are near the means, or the contrast is large: the means of the first pixels.
+  const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
   vf t = zero(), h = zero();
-  for (int k = 0; k < n; k += kLanes) {
+  for (int k = 0; k < first; k += kLanes) {
     t = add(t, load(target + k));
     h = add(h, load_part(host + k, n - k));
   }
-  const float share = static_cast<float>(by_count), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
+  const float share = 1.0F / static_cast<float>(first), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
   vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
@@ -13503,7 +13545,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, b0, b1, out + 4);
-  hsum4(b2, b2, b2, b2, out + 8);
+  out[8] = hsum(b2);
 }
 
 // Sums of products of three rows with three others: nine.
@@ -13526,7 +13568,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, s6, s7, out + 4);
-  hsum4(s8, s8, s8, s8, out + 8);
+  out[8] = hsum(s8);
 }
 
 // Entries of H (`size` columns): the square at (at, at), the block at (r, c) and its mirror image.
@@ -13633,12 +13675,13 @@ struct FewPixels {
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
   const double count = n, by_count = 1 / count;
+  const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
   vf t = zero(), h = zero();
-  for (int k = 0; k < n; k += kLanes) {
+  for (int k = 0; k < first; k += kLanes) {
     t = add(t, load(target + k));
     h = add(h, load_part(host + k, n - k));
   }
-  const float share = static_cast<float>(by_count), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
+  const float share = 1.0F / static_cast<float>(first), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
   vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
@@ -13751,7 +13794,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, b0, b1, out + 4);
-  hsum4(b2, b2, b2, b2, out + 8);
+  out[8] = hsum(b2);
 }
 TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n, float* out) noexcept {
   const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
@@ -13772,7 +13815,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, s6, s7, out + 4);
-  hsum4(s8, s8, s8, s8, out + 8);
+  out[8] = hsum(s8);
 }
 TEXTPLANE_SIMD_INLINE void put_square(const float* p, int at, int size, double* H) noexcept {
   double* q = H + size * at + at;
@@ -13877,12 +13920,13 @@ struct FewPixels {
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
   const double count = n, by_count = 1 / count;
+  const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
   vf t = zero(), h = zero();
-  for (int k = 0; k < n; k += kLanes) {
+  for (int k = 0; k < first; k += kLanes) {
     t = add(t, load(target + k));
     h = add(h, load_part(host + k, n - k));
   }
-  const float share = static_cast<float>(by_count), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
+  const float share = 1.0F / static_cast<float>(first), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
   vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
@@ -13995,7 +14039,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, b0, b1, out + 4);
-  hsum4(b2, b2, b2, b2, out + 8);
+  out[8] = hsum(b2);
 }
 TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n, float* out) noexcept {
   const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
@@ -14016,7 +14060,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, s6, s7, out + 4);
-  hsum4(s8, s8, s8, s8, out + 8);
+  out[8] = hsum(s8);
 }
 TEXTPLANE_SIMD_INLINE void put_square(const float* p, int at, int size, double* H) noexcept {
   double* q = H + size * at + at;
@@ -14128,12 +14172,13 @@ struct FewPixels {
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
   const double count = n, by_count = 1 / count;
+  const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
   vf t = zero(), h = zero();
-  for (int k = 0; k < n; k += kLanes) {
+  for (int k = 0; k < first; k += kLanes) {
     t = add(t, load(target + k));
     h = add(h, load_part(host + k, n - k));
   }
-  const float share = static_cast<float>(by_count), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
+  const float share = 1.0F / static_cast<float>(first), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
   vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
@@ -14246,7 +14291,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, b0, b1, out + 4);
-  hsum4(b2, b2, b2, b2, out + 8);
+  out[8] = hsum(b2);
 }
 TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n, float* out) noexcept {
   const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
@@ -14267,7 +14312,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, s6, s7, out + 4);
-  hsum4(s8, s8, s8, s8, out + 8);
+  out[8] = hsum(s8);
 }
 TEXTPLANE_SIMD_INLINE void put_square(const float* p, int at, int size, double* H) noexcept {
   double* q = H + size * at + at;
@@ -14366,12 +14411,13 @@ struct FewPixels {
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
   const double count = n, by_count = 1 / count;
+  const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
   vf t = zero(), h = zero();
-  for (int k = 0; k < n; k += kLanes) {
+  for (int k = 0; k < first; k += kLanes) {
     t = add(t, load(target + k));
     h = add(h, load_part(host + k, n - k));
   }
-  const float share = static_cast<float>(by_count), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
+  const float share = 1.0F / static_cast<float>(first), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
   vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
@@ -14484,7 +14530,7 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, b0, b1, out + 4);
-  hsum4(b2, b2, b2, b2, out + 8);
+  out[8] = hsum(b2);
 }
 TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n, float* out) noexcept {
   const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
@@ -14505,7 +14551,7 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   }
   hsum4(s0, s1, s2, s3, out);
   hsum4(s4, s5, s6, s7, out + 4);
-  hsum4(s8, s8, s8, s8, out + 8);
+  out[8] = hsum(s8);
 }
 TEXTPLANE_SIMD_INLINE void put_square(const float* p, int at, int size, double* H) noexcept {
   double* q = H + size * at + at;
@@ -16620,12 +16666,12 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const int n = host.n;
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
     pull_back(f.warp, host.x + begin, host.y + begin, count, s.x + begin, s.y + begin, s.a + begin, s.b + begin);
   }
   Residual r;
@@ -16638,11 +16684,8 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 32; ++k) {
-    total_host[k] = 0;
-    store(acc_host + k * kLanes, zero());
-  }
+  store(acc + kAll * kLanes, zero());  // fold() reads it
+  for (int k = 0; k < 32; ++k) total_host[k] = 0;
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -16651,11 +16694,13 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     const float *x = s.x + begin, *y = s.y + begin, *i = s.i + begin, *d = s.d + begin;
     mix_gradients(on_target, on_host, gx + begin, m, s.a + begin, ha);
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
-    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, acc + (kProducts + 8) * kLanes, acc + (kProducts + 16) * kLanes);
+    const bool fresh = (begin / kStrip) % kLanes == 0;
+    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
+    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+                   acc + (kProducts + 16) * kLanes);
     homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
       fold(acc, kAll, total);
       fold(acc_host, 32, total_host);
@@ -16694,9 +16739,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       vf rr = zero();
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
-      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, acc_host);
+      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                     acc + (kProducts + 8) * kLanes);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
       fold(acc, kAll, other);
     }
     double S[8][8];
@@ -16815,12 +16861,12 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const int n = host.n;
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
     pull_back(f.warp, host.x + begin, host.y + begin, count, s.x + begin, s.y + begin, s.a + begin, s.b + begin);
   }
   Residual r;
@@ -16832,11 +16878,8 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 32; ++k) {
-    total_host[k] = 0;
-    store(acc_host + k * kLanes, zero());
-  }
+  store(acc + kAll * kLanes, zero());
+  for (int k = 0; k < 32; ++k) total_host[k] = 0;
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -16845,11 +16888,13 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     const float *x = s.x + begin, *y = s.y + begin, *i = s.i + begin, *d = s.d + begin;
     mix_gradients(on_target, on_host, gx + begin, m, s.a + begin, ha);
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
-    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, acc + (kProducts + 8) * kLanes, acc + (kProducts + 16) * kLanes);
+    const bool fresh = (begin / kStrip) % kLanes == 0;
+    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
+    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+                   acc + (kProducts + 16) * kLanes);
     homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
       fold(acc, kAll, total);
       fold(acc_host, 32, total_host);
@@ -16885,9 +16930,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       vf rr = zero();
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
-      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, acc_host);
+      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                     acc + (kProducts + 8) * kLanes);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
       fold(acc, kAll, other);
     }
     double S[8][8];
@@ -17010,12 +17056,12 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const int n = host.n;
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
     pull_back(f.warp, host.x + begin, host.y + begin, count, s.x + begin, s.y + begin, s.a + begin, s.b + begin);
   }
   Residual r;
@@ -17027,11 +17073,8 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 32; ++k) {
-    total_host[k] = 0;
-    store(acc_host + k * kLanes, zero());
-  }
+  store(acc + kAll * kLanes, zero());
+  for (int k = 0; k < 32; ++k) total_host[k] = 0;
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -17040,11 +17083,13 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     const float *x = s.x + begin, *y = s.y + begin, *i = s.i + begin, *d = s.d + begin;
     mix_gradients(on_target, on_host, gx + begin, m, s.a + begin, ha);
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
-    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, acc + (kProducts + 8) * kLanes, acc + (kProducts + 16) * kLanes);
+    const bool fresh = (begin / kStrip) % kLanes == 0;
+    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
+    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+                   acc + (kProducts + 16) * kLanes);
     homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
       fold(acc, kAll, total);
       fold(acc_host, 32, total_host);
@@ -17080,9 +17125,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       vf rr = zero();
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
-      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, acc_host);
+      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                     acc + (kProducts + 8) * kLanes);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
       fold(acc, kAll, other);
     }
     double S[8][8];
@@ -17212,12 +17258,12 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const int n = host.n;
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
     pull_back(f.warp, host.x + begin, host.y + begin, count, s.x + begin, s.y + begin, s.a + begin, s.b + begin);
   }
   Residual r;
@@ -17229,11 +17275,8 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 32; ++k) {
-    total_host[k] = 0;
-    store(acc_host + k * kLanes, zero());
-  }
+  store(acc + kAll * kLanes, zero());
+  for (int k = 0; k < 32; ++k) total_host[k] = 0;
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -17242,11 +17285,13 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     const float *x = s.x + begin, *y = s.y + begin, *i = s.i + begin, *d = s.d + begin;
     mix_gradients(on_target, on_host, gx + begin, m, s.a + begin, ha);
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
-    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, acc + (kProducts + 8) * kLanes, acc + (kProducts + 16) * kLanes);
+    const bool fresh = (begin / kStrip) % kLanes == 0;
+    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
+    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+                   acc + (kProducts + 16) * kLanes);
     homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
       fold(acc, kAll, total);
       fold(acc_host, 32, total_host);
@@ -17282,9 +17327,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       vf rr = zero();
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
-      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, acc_host);
+      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                     acc + (kProducts + 8) * kLanes);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
       fold(acc, kAll, other);
     }
     double S[8][8];
@@ -17401,12 +17447,12 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const int n = host.n;
   SampleStrip strip;
   Offsets offsets;
-  SideSums sides = {0, 0, 0, 0};
+  SideSums sides = no_sides();
   for (int begin = 0; begin < n; begin += kStrip) {
     const int count = n - begin < kStrip ? n - begin : kStrip;
     collect_strip(host, f, begin, count, s, &strip);
     if (begin == 0) offsets = first_offsets(s.i, host.h, count);
-    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, &sides);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
     pull_back(f.warp, host.x + begin, host.y + begin, count, s.x + begin, s.y + begin, s.a + begin, s.b + begin);
   }
   Residual r;
@@ -17418,11 +17464,8 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
   for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 32; ++k) {
-    total_host[k] = 0;
-    store(acc_host + k * kLanes, zero());
-  }
+  store(acc + kAll * kLanes, zero());
+  for (int k = 0; k < 32; ++k) total_host[k] = 0;
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -17431,11 +17474,13 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     const float *x = s.x + begin, *y = s.y + begin, *i = s.i + begin, *d = s.d + begin;
     mix_gradients(on_target, on_host, gx + begin, m, s.a + begin, ha);
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
-    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, acc + (kProducts + 8) * kLanes, acc + (kProducts + 16) * kLanes);
+    const bool fresh = (begin / kStrip) % kLanes == 0;
+    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
+    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+                   acc + (kProducts + 16) * kLanes);
     homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
       fold(acc, kAll, total);
       fold(acc_host, 32, total_host);
@@ -17471,9 +17516,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       vf rr = zero();
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
-      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, acc_host);
+      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                     acc + (kProducts + 8) * kLanes);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
       fold(acc, kAll, other);
     }
     double S[8][8];
@@ -19102,17 +19148,16 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
   for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 8; ++k) store(unused_sums + k * kLanes, zero());
+  store(acc + kAll * kLanes, zero());  // fold() reads it
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
   for (int begin = 0; begin < outliers; begin += kStrip) {
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
-    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, unused_sums);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, other);
   }
   unpack_products(8, other, S);
@@ -19290,17 +19335,16 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
   for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 8; ++k) store(unused_sums + k * kLanes, zero());
+  store(acc + kAll * kLanes, zero());
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
   for (int begin = 0; begin < outliers; begin += kStrip) {
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
-    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, unused_sums);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, other);
   }
   unpack_products(8, other, S);
@@ -19477,17 +19521,16 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
   for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 8; ++k) store(unused_sums + k * kLanes, zero());
+  store(acc + kAll * kLanes, zero());
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
   for (int begin = 0; begin < outliers; begin += kStrip) {
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
-    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, unused_sums);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, other);
   }
   unpack_products(8, other, S);
@@ -19671,17 +19714,16 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
   for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 8; ++k) store(unused_sums + k * kLanes, zero());
+  store(acc + kAll * kLanes, zero());
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
   for (int begin = 0; begin < outliers; begin += kStrip) {
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
-    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, unused_sums);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, other);
   }
   unpack_products(8, other, S);
@@ -19852,17 +19894,16 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
   for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  for (int k = 0; k < kMostSums + 8; ++k) store(acc + k * kLanes, zero());
-  for (int k = 0; k < 8; ++k) store(unused_sums + k * kLanes, zero());
+  store(acc + kAll * kLanes, zero());
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
   for (int begin = 0; begin < outliers; begin += kStrip) {
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
-    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, acc + (kProducts + 16) * kLanes, unused_sums);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, other);
   }
   unpack_products(8, other, S);

@@ -49,7 +49,7 @@ MUTANTS = [
     ("simd/kernels/residual_rows.inl", "k->p1 = static_cast<float>(fy * a.t[1] + a.t[2] * f.d);", "k->p1 = static_cast<float>(fy * a.t[1] - a.t[2] * f.d);", ["simd/residual_kernels_test"]),
     ("simd/kernels/residual_small.inl", "store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));", "store(r1 + k, mul(w, sub(load(r1 + k), s1)));", ["simd/residual_kernels_test"]),
     ("simd/kernels/residual_small.inl", "mul(root_limit, inverse_root(max_(size, limit)))", "inverse_root(max_(size, limit))", ["simd/residual_kernels_test"]),
-    ("simd/kernels/residual_finish.inl", "p[i] = k->w1[i] - 0.5 * (k->w[0] * k->e[i] + k->w[1] * k->jn[i]);", "p[i] = k->w1[i] - 0.5 * (k->w[0] * k->e[i] - k->w[1] * k->jn[i]);", ["simd/residual_kernels_test"]),
+    ("simd/kernels/residual_finish.inl", "maddd(setd(0.5 * scale * k->w[0]), e, maddd(mixed, jn,", "maddd(setd(0.5 * scale * k->w[0]), e, maddd(mixed, e,", ["simd/residual_kernels_test"]),
     ("simd/kernels/residual_finish.inl", "out[3 * step] = fy * m3 - fyx * c * m4 - d * m5 + d * both;", "out[3 * step] = fy * m3 - fyx * c * m4 - d * m5 - d * both;", ["simd/residual_kernels_test"]),
     ("simd/kernels/residual_large.inl", "s1 = madd(p, q, s1);", "s1 = madd(p, p, s1);", ["simd/residual_kernels_test"]),
     ("simd/kernels/residual_collect.inl", "const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));", "const vm ahead = gt(divisor, zero());", ["simd/residual_visibility_test"]),

@@ -99,7 +99,8 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
     const bool fresh = (begin / kStrip) % kLanes == 0;
     add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes, acc + (kProducts + 16) * kLanes);
+    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+                   acc + (kProducts + 16) * kLanes);
     homography_rows(x, y, ha, hb, m, rows.row);
     add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
     add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
@@ -142,7 +143,8 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
       add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                     acc + (kProducts + 8) * kLanes);
       add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
       fold(acc, kAll, other);
     }

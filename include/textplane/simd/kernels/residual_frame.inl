@@ -10,7 +10,8 @@ constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1
 // in the warp.
 TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
   const float *g = f.warp.g, margin = 1e-3F;
-  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))), y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
+           y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
   const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
   const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
   const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));

@@ -73,9 +73,9 @@ TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float*
 }
 
 // Adds the partial sums to the totals; `sums` is rounded up to a multiple of four.
-TEXTPLANE_SIMD_ENTRY void fold(float* acc, int sums, double* total) noexcept {
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
   for (int k = 0; k < sums; k += 4) {
-    float* p = acc + k * kLanes;
+    const float* p = acc + k * kLanes;
     float four[4];
     hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
     for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
@@ -123,9 +123,7 @@ struct SideSums {
   int terms;
   double i, ii, h, hh;
 };
-TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept {
-  return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0};
-}
+TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept { return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0}; }
 TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
   store(target, i);
   store(difference, sub(mul(kappa, h), i));
@@ -285,8 +283,8 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 }
 
 // Sums of the rows with the factors p, q and r of the strip, one after the other.
-TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n,
-                                             bool fresh, float* acc) noexcept {
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
+                                             float* acc) noexcept {
   add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
   add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);  // twice the same, stored once more

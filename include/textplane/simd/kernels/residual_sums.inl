@@ -4,7 +4,8 @@
 TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
 
 // r0 r0, r0 r1, r0 r2, r1 r1, r1 r2, r2 r2.
-TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh, float* acc) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                       float* acc) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
@@ -25,8 +26,8 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
 }
 
 // The same, and to `sums` r0, r1, r2 themselves.
-TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh, float* acc,
-                                            float* sums) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                            float* acc, float* sums) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
@@ -106,9 +107,12 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
 
 // r_j p to `acc`, r_j q to `acc2`, for four rows.
 TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
-                                        const float* p, const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
-  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes), s3 = so_far(fresh, acc + 3 * kLanes);
-  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes), t3 = so_far(fresh, acc2 + 3 * kLanes);
+                                        const float* p, const float* q, int n, bool fresh, float* acc,
+                                        float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes),
+     s3 = so_far(fresh, acc + 3 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes),
+     t3 = so_far(fresh, acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
@@ -191,16 +195,20 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
 
 // The products of (A, Ax, Ay), those of (B, Bx, By), and the mixed ones, in the order of add_squares3() and add_mixed(); and the
 // sums of the six rows.
-TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh, float* acc,
-                                      float* sums) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh,
+                                      float* acc, float* sums) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
-  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes), s11 = so_far(fresh, acc + 11 * kLanes);
-  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes), s14 = so_far(fresh, acc + 14 * kLanes);
-  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes), s17 = so_far(fresh, acc + 17 * kLanes);
+  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes),
+     s11 = so_far(fresh, acc + 11 * kLanes);
+  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes),
+     s14 = so_far(fresh, acc + 14 * kLanes);
+  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes),
+     s17 = so_far(fresh, acc + 17 * kLanes);
   vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
-  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes), t5 = so_far(fresh, sums + 5 * kLanes);
+  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes),
+     t5 = so_far(fresh, sums + 5 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
     const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
@@ -297,7 +305,8 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
   vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
-  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes), t5 = so_far(fresh, acc2 + 5 * kLanes);
+  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
+     t5 = so_far(fresh, acc2 + 5 * kLanes);
   vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
