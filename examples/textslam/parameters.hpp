@@ -19,13 +19,13 @@ struct Parameters {
   int pyramid_levels = 4;
 
   // Corners and their tracks
-  int max_tracks = 500;            ///< Corners followed at a time.
-  int corner_cell = 20;            ///< px: at most one new corner in a cell of this size.
-  int fast_threshold = 20;         ///< Grey levels; halved where the image gives too few corners.
-  int min_fast_threshold = 7;      ///< Grey levels.
-  int klt_half_window = 7;         ///< px.
-  float max_forward_backward = 1;  ///< px, between a corner and its image tracked forth and back.
-  float min_track_zncc = 0.7F;     ///< Of a corner's window in two neighbouring frames.
+  int max_tracks = 500;               ///< Corners followed at a time.
+  int corner_cell = 20;               ///< px: at most one new corner in a cell of this size.
+  int fast_threshold = 20;            ///< Grey levels; halved where the image gives too few corners.
+  int min_fast_threshold = 7;         ///< Grey levels.
+  int klt_half_window = 7;            ///< px.
+  float max_forward_backward = 0.5F;  ///< px, between a corner and its image tracked forth and back.
+  float min_track_zncc = 0.8F;        ///< Of a corner's window in two neighbouring frames.
 
   // Two-view initialisation
   int init_min_matches = 80;         ///< Fewer tracks since the reference frame start anew,
@@ -33,10 +33,10 @@ struct Parameters {
   double init_min_parallax = 1.2;    ///< Degrees, median over the matches, rotation removed.
   double init_max_direction = 0.06;  ///< Radians: standard deviation of the direction of translation.
   double init_max_rms = 1.0;         ///< px, epipolar distance of the inliers.
-  double init_clear = 5;             ///< Standard deviations of noise by which the best of several motions must be better.
-  int init_views = 8;                ///< That rival motions are adjusted over; then the newest takes the last one's place.
-  double init_view_flow = 10;        ///< px: median motion of the corners between two of them.
-  int init_patience = 60;            ///< Frames after which the best of several motions is taken all the same.
+  double init_clear = 5;       ///< Standard deviations of noise by which the best of several motions must be better.
+  int init_views = 8;          ///< That rival motions are adjusted over; then the newest takes the last one's place.
+  double init_view_flow = 10;  ///< px: median motion of the corners between two of them.
+  int init_patience = 60;      ///< Frames after which the best of several motions is taken all the same.
 
   // Pose of a frame
   double point_sigma = 1.0;         ///< px: sigma_rep of the paper, for a corner on level 0.
@@ -114,8 +114,8 @@ struct Parameters {
   int loose_seen_points = 3;     ///< Of the plane's points, in a key frame that observes it.
 
   // Bundle adjustment
-  int window_frames = 14;  ///< Free key frames of the local adjustment.
-  int window_fixed = 20;   ///< Fixed key frames around them.
+  int window_frames = 20;  ///< Free key frames of the local adjustment.
+  int window_fixed = 25;   ///< Fixed key frames around them.
   int window_iterations = 8;
   int final_iterations = 30;        ///< Of the adjustment over all key frames at the end,
   int final_text_targets = 64;      ///< in which a plane meets this many key frames.
