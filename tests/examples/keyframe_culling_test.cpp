@@ -10,7 +10,7 @@
 namespace textslam {
 namespace keyframe_culling_test {
 
-constexpr int kKeyFrames = 40;
+constexpr int kKeyFrames = 60;
 constexpr int kPoints = 20;
 
 // Every key frame sees every point.

@@ -97,7 +97,7 @@ TEST(Report, EveryParameterIsThere) {
   EXPECT_EQ(value_of("mode"), "loose");
   EXPECT_EQ(value_of("real_time"), true);
   EXPECT_EQ(value_of("text_min_zncc"), 0.123);
-  EXPECT_EQ(value_of("min_track_zncc"), 0.7);
+  EXPECT_EQ(value_of("min_track_zncc"), 0.8);
   EXPECT_EQ(value_of("max_tracks"), parameters.max_tracks);
   // A field takes 8 bytes at most, so a list that is much too short does not cover the struct.
   EXPECT_GE(8 * list.size(), sizeof(Parameters));
