@@ -31,12 +31,14 @@ def fingerprint(program):
 
 
 def call(command):
-    """Exit code, the last line of standard error, wall and CPU seconds of the command alone."""
+    """Exit code, the last line of standard error, wall and CPU seconds of the command alone; KeyboardInterrupt where it was interrupted."""
     start = time.monotonic()
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     errors = process.stderr.read().decode("utf-8", "replace").strip().splitlines()
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode in INTERRUPTED:
+        raise KeyboardInterrupt  # by whoever stopped us: not a result
     return {
         "code": process.returncode,
         "error": errors[-1] if errors else "",
@@ -114,8 +116,6 @@ class Runner:
         else:
             where = [str(sequence), *(case.arguments if case.sequence else [])]
             run = call([self.textslam, *where, "--mode", mode, "--output", str(folder)])
-        if run["code"] in INTERRUPTED:
-            raise KeyboardInterrupt  # by whoever stopped us: not a result
         result = {"key": self.key(case, mode), **run}
         result["metrics"] = load(folder / "metrics.json")
         result["tracking_s"] = seconds_of(load(folder / "timing.json"))
