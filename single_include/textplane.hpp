@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 116 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 9342756c69c869cf
+// textplane 0.1.0 in one header, made of 123 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: 74ac408ec31b0fff
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 9342756c69c869cf"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 74ac408ec31b0fff"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -3367,6 +3367,20 @@ TEXTPLANE_END_NAMESPACE
 #include <cstddef>
 #include <cstdint>
 
+// Bilinear taps of pixels that follow each other closely, for the bodies of kernels: where eight cells in a row lie in a window of
+// 16 x 3 pixels, a shuffle for each row of the window replaces two loads a pixel. kernels/windows.inl says what there is.
+#ifndef TEXTPLANE_SIMD_WINDOWS_HPP
+#define TEXTPLANE_SIMD_WINDOWS_HPP
+
+#include <cstddef>
+#include <cstdint>
+
+// Vectors of int16 for the bodies of kernels: `v16` with `k16Lanes` = 2 kLanes lanes in every target namespace, beside the vf and
+// vi of vec.hpp. Fixed-point interpolation and exact integer sums are made of them: their results are the same bits on all
+// targets. words_scalar.inl is the definition of the operations.
+#ifndef TEXTPLANE_SIMD_WORDS_HPP
+#define TEXTPLANE_SIMD_WORDS_HPP
+
 // Vectors of float and int32 for the bodies of kernels: `vf`, `vi` and `vm` with `kLanes` lanes in every target namespace.
 //
 // The operations and their meaning are defined once, in plain C++, in vec_scalar.inl; the other vec_*.inl files say the
@@ -4647,6 +4661,1193 @@ TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SIMD_VEC_HPP
 
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/words_region.inl"
+#ifndef TEXTPLANE_SIMD_KERNEL
+#error "define TEXTPLANE_SIMD_KERNEL as the file to include"
+#endif
+#if TEXTPLANE_HAS_KERNELS
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(precise, on, push)
+#endif
+#pragma clang fp contract(off)
+#elif defined(__GNUC__)
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
+#endif
+#define TEXTPLANE_SIMD_REGION 0
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace scalar {
+// The int16 vectors of the region that includes this file (see foreach_target.inl), after what they share.
+
+// Two words as a number, the first one low. Compilers make one load of it.
+TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
+  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
+}
+// Zeroes the words from..to-1, fewer than 32.
+TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
+  volatile std::int16_t* out = p;  // compilers would call memset, of whose instruction set nothing is known
+  for (int i = from; i < to; ++i) out[i] = 0;
+}
+
+// Two int16 in plain C++: the definition of every operation on words. Sums and differences must fit int16.
+
+enum : int { k16Lanes = 2 };
+struct v16 {
+  std::int16_t a, b;
+};
+
+TEXTPLANE_SIMD_INLINE v16 make16(int a, int b) noexcept {
+  return v16{static_cast<std::int16_t>(a), static_cast<std::int16_t>(b)};
+}
+TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return make16(value, value); }
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return v16{p[0], p[1]}; }
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
+  p[0] = v.a;
+  p[1] = v.b;
+}
+TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return make16(x.a + y.a, x.b + y.b); }
+TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return make16(x.a - y.a, x.b - y.b); }
+// x y / 2^15, rounded to the nearest, halves up; not both -2^15.
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept {
+  return make16((x.a * y.a + 16384) >> 15, (x.b * y.b + 16384) >> 15);
+}
+// Of each word's two bytes, unsigned: low * w0 + high * w1, weights in [-64, 64].
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  return make16((t.a & 255) * w0 + ((t.a >> 8) & 255) * w1, (t.b & 255) * w0 + ((t.b >> 8) & 255) * w1);
+}
+// int32 lane i: x[2i] y[2i] + x[2i+1] y[2i+1].
+TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return x.a * y.a + x.b * y.b; }
+// 2 kLanes int32 that fit int16, in order.
+TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
+// Sum of the lanes; it wraps.
+TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return v; }
+// Word i: the two bytes at upper (lower) + offset[i], the first of them low. Reads these bytes alone.
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  *first = make16(static_cast<int>(load_half(upper + offset[0])), static_cast<int>(load_half(upper + offset[1])));
+  *second = make16(static_cast<int>(load_half(lower + offset[0])), static_cast<int>(load_half(lower + offset[1])));
+}
+// Word i: the low (high) half of lane i of the 2 kLanes int32 in a and b.
+TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return make16(a, b); }
+TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return make16(a >> 16, b >> 16); }
+// Lane i: the two words at p + offset[i], the first of them low. Reads these words alone.
+TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
+  return static_cast<int>(word_pair(p + offset[0]));
+}
+// The words' first and second half as int32.
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return v.a; }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return v.b; }
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if TEXTPLANE_HAS_SSE41
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("sse4.1")
+#endif
+#define TEXTPLANE_SIMD_REGION 1
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace sse41 {
+TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
+  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
+}
+TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
+  volatile std::int16_t* out = p;
+  for (int i = from; i < to; ++i) out[i] = 0;
+}
+// What the int16 vectors of the x86 targets share: gathers of eight words, or of four pairs, into 128 bits.
+
+// pinsrw and pinsrd beat gathers and the way through general registers.
+TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
+  std::uint64_t pair;
+  __builtin_memcpy(&pair, offset, 8);
+  return pair;
+}
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
+  return static_cast<std::int64_t>(pair) >> 32;
+}
+TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                         __m128i* first, __m128i* second) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
+  __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
+  __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
+  *first = u;
+  *second = l;
+}
+TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
+  const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(word_pair(p + first_offset(a))));
+  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(a))), 1);
+  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + first_offset(b))), 2);
+  return _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(b))), 3);
+}
+// Eight int16. The operations are defined in words_scalar.inl.
+
+enum : int { k16Lanes = 8 };
+using v16 = __m128i;
+
+TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm_set1_epi16(static_cast<short>(value)); }
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
+  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+}
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }
+TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm_add_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm_sub_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  return _mm_maddubs_epi16(t, _mm_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+}
+TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm_madd_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
+TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
+  const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+}
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  gather_words8(upper, lower, offset, first, second);
+}
+TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept { return gather_pairs4(p, offset); }
+TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
+  return _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(a, 16), 16), _mm_srai_epi32(_mm_slli_epi32(b, 16), 16));
+}
+TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
+  return _mm_packs_epi32(_mm_srai_epi32(a, 16), _mm_srai_epi32(b, 16));
+}
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm_cvtepi16_epi32(v); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm_cvtepi16_epi32(_mm_srli_si128(v, 8)); }
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_AVX2
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,popcnt")
+#endif
+#define TEXTPLANE_SIMD_REGION 2
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace avx2 {
+TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
+  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
+}
+TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
+  volatile std::int16_t* out = p;
+  for (int i = from; i < to; ++i) out[i] = 0;
+}
+TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
+  std::uint64_t pair;
+  __builtin_memcpy(&pair, offset, 8);
+  return pair;
+}
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
+  return static_cast<std::int64_t>(pair) >> 32;
+}
+TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                         __m128i* first, __m128i* second) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
+  __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
+  __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
+  *first = u;
+  *second = l;
+}
+TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
+  const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(word_pair(p + first_offset(a))));
+  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(a))), 1);
+  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + first_offset(b))), 2);
+  return _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(b))), 3);
+}
+// Sixteen int16. The operations are defined in words_scalar.inl.
+
+enum : int { k16Lanes = 16 };
+using v16 = __m256i;
+
+TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm256_set1_epi16(static_cast<short>(value)); }
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+}
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), v);
+}
+TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm256_add_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm256_sub_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm256_mulhrs_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  return _mm256_maddubs_epi16(t, _mm256_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+}
+TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm256_madd_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
+  return _mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xd8);
+}
+TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
+  const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
+  const __m128i a = _mm_add_epi32(h, _mm_shuffle_epi32(h, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+}
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  __m128i u0, l0, u1, l1;
+  gather_words8(upper, lower, offset, &u0, &l0);
+  gather_words8(upper, lower, offset + 8, &u1, &l1);
+  *first = _mm256_inserti128_si256(_mm256_castsi128_si256(u0), u1, 1);
+  *second = _mm256_inserti128_si256(_mm256_castsi128_si256(l0), l1, 1);
+}
+TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
+}
+TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
+  const __m256i low = _mm256_set1_epi32(65535);
+  return _mm256_permute4x64_epi64(_mm256_packus_epi32(_mm256_and_si256(a, low), _mm256_and_si256(b, low)), 0xd8);
+}
+TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
+  return _mm256_permute4x64_epi64(_mm256_packs_epi32(_mm256_srai_epi32(a, 16), _mm256_srai_epi32(b, 16)), 0xd8);
+}
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm256_cvtepi16_epi32(_mm256_castsi256_si128(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm256_cvtepi16_epi32(_mm256_extracti128_si256(v, 1)); }
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_AVX512
+#if defined(TEXTPLANE_EMULATED_AVX512)
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,popcnt")
+#endif
+#elif defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,avx2,fma,popcnt")
+#endif
+#define TEXTPLANE_SIMD_REGION 3
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace avx512 {
+TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
+  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
+}
+TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
+  volatile std::int16_t* out = p;
+  for (int i = from; i < to; ++i) out[i] = 0;
+}
+TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
+  std::uint64_t pair;
+  __builtin_memcpy(&pair, offset, 8);
+  return pair;
+}
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
+  return static_cast<std::int64_t>(pair) >> 32;
+}
+TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                         __m128i* first, __m128i* second) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
+  __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
+  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
+  __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
+  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
+  *first = u;
+  *second = l;
+}
+TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
+  const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(word_pair(p + first_offset(a))));
+  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(a))), 1);
+  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + first_offset(b))), 2);
+  return _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(b))), 3);
+}
+// 32 int16. The operations are defined in words_scalar.inl.
+
+enum : int { k16Lanes = 32 };
+using v16 = __m512i;
+
+TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm512_set1_epi16(static_cast<short>(value)); }
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return _mm512_loadu_si512(p); }
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { _mm512_storeu_si512(p, v); }
+TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm512_add_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm512_sub_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm512_mulhrs_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  return _mm512_maddubs_epi16(t, _mm512_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+}
+TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm512_madd_epi16(x, y); }
+// Numbers of words, two a lane: (first, second) in lane 0 and (step, step) more in each lane after it.
+TEXTPLANE_SIMD_INLINE __m512i word_order(int first, int second, int step) noexcept {
+  return addi(muli(ioti(), seti(step * 0x00010001)), seti(second * 0x00010000 + first));
+}
+TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return _mm512_permutex2var_epi16(a, word_order(0, 2, 4), b); }
+TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return _mm512_permutex2var_epi16(a, word_order(1, 3, 4), b); }
+TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return low16(low, high); }
+TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
+  const __m256i q =
+      _mm256_add_epi32(_mm512_maskz_extracti64x4_epi64(0xf, v, 0), _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
+  const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(q), _mm256_extracti128_si256(q, 1));
+  const __m128i a = _mm_add_epi32(h, _mm_shuffle_epi32(h, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+}
+TEXTPLANE_SIMD_INLINE v16 join_words8(const __m128i* p) noexcept {
+  const __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(p[0]), p[1], 1);
+  const __m256i b = _mm256_inserti128_si256(_mm256_castsi128_si256(p[2]), p[3], 1);
+  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
+}
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  __m128i u[4], l[4];
+  gather_words8(upper, lower, offset, u, l);
+  gather_words8(upper, lower, offset + 8, u + 1, l + 1);
+  gather_words8(upper, lower, offset + 16, u + 2, l + 2);
+  gather_words8(upper, lower, offset + 24, u + 3, l + 3);
+  *first = join_words8(u);
+  *second = join_words8(l);
+}
+TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
+  const __m256i a =
+      _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
+  const __m256i b =
+      _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset + 8)), gather_pairs4(p, offset + 12), 1);
+  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
+}
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept {
+  return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 0));
+}
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept {
+  return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_NEON
+#define TEXTPLANE_SIMD_REGION 4
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace neon {
+TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
+  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
+}
+TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
+  volatile std::int16_t* out = p;
+  for (int i = from; i < to; ++i) out[i] = 0;
+}
+// Eight int16. The operations are defined in words_scalar.inl.
+
+enum : int { k16Lanes = 8 };
+using v16 = int16x8_t;
+
+TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return vdupq_n_s16(static_cast<std::int16_t>(value)); }
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return vld1q_s16(p); }
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { vst1q_s16(p, v); }
+TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return vaddq_s16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return vsubq_s16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return vqrdmulhq_s16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  const uint16x8_t u = vreinterpretq_u16_s16(t);
+  const int16x8_t low = vreinterpretq_s16_u16(vandq_u16(u, vdupq_n_u16(255)));
+  const int16x8_t high = vreinterpretq_s16_u16(vshrq_n_u16(u, 8));
+  return vmlaq_n_s16(vmulq_n_s16(low, static_cast<std::int16_t>(w0)), high, static_cast<std::int16_t>(w1));
+}
+TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept {
+  return vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y));
+}
+TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)); }
+TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return vaddvq_s32(v); }
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  std::uint16_t u[8], l[8];
+  for (int i = 0; i < 8; ++i) {
+    u[i] = static_cast<std::uint16_t>(load_half(upper + offset[i]));
+    l[i] = static_cast<std::uint16_t>(load_half(lower + offset[i]));
+  }
+  *first = vreinterpretq_s16_u16(vld1q_u16(u));
+  *second = vreinterpretq_s16_u16(vld1q_u16(l));
+}
+TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
+  std::uint32_t w[4];
+  for (int i = 0; i < 4; ++i) w[i] = word_pair(p + offset[i]);
+  return vreinterpretq_s32_u32(vld1q_u32(w));
+}
+TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
+  return vuzp1q_s16(vreinterpretq_s16_s32(a), vreinterpretq_s16_s32(b));
+}
+TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
+  return vuzp2q_s16(vreinterpretq_s16_s32(a), vreinterpretq_s16_s32(b));
+}
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return vmovl_s16(vget_low_s16(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return vmovl_high_s16(v); }
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#endif
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(pop)
+#else
+#pragma STDC FP_CONTRACT DEFAULT
+#endif
+#elif defined(__GNUC__)
+#pragma GCC pop_options
+#endif
+#endif
+#undef TEXTPLANE_SIMD_KERNEL
+
+#endif  // TEXTPLANE_SIMD_WORDS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+// How the groups of a call run, and whether windows are worth while there.
+struct TapGuess {
+  bool likely, leftwards, upwards;
+};
+
+// Windows of one image. Cells are relative to `origin`; those up to (x_high, y_high) have windows in the image's rows.
+struct TapWindows {
+  const std::uint8_t* origin;
+  std::ptrdiff_t stride;
+  int x_high, y_high;
+  TapGuess guess;
+};
+}  // namespace detail
+
+TEXTPLANE_END_NAMESPACE
+
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/windows_region.inl"
+#ifndef TEXTPLANE_SIMD_KERNEL
+#error "define TEXTPLANE_SIMD_KERNEL as the file to include"
+#endif
+#if TEXTPLANE_HAS_KERNELS
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(precise, on, push)
+#endif
+#pragma clang fp contract(off)
+#elif defined(__GNUC__)
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
+#endif
+#define TEXTPLANE_SIMD_REGION 0
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace scalar {
+// The operations of windows in the region that includes this file (see foreach_target.inl). A group is eight words of a v16, 128
+// bits.
+//
+//   kTapWindows          whether the target has them; where not, they do nothing
+//   load_cells(p)        load16(p), once: g++ would load them again for each use
+//   group_ends(last)     what share16() takes to give all words of a group its first, or its last
+//   share16(v, ends)     the same
+//   below16(v, high)     the lesser, both unsigned
+//   above16(v, n)        v - n where that is positive, v unsigned; else 0
+//   picks16(x)           the bytes x and x + 1 of a row of 16, of each word, 0 <= x <= 14
+//   pick16(row, picks)   these bytes of the group's row
+//   find_windows(x, y, stride)  the offset y stride + x of each group, x and y being those of the first group's window
+//   load_rows(p, at)     rows of 16 bytes at p + the offset of each group
+//   either16(y, a, b)    a where y is 0, else b
+//   any_of_four(v)       bit i: one of the words 4 i .. 4 i + 3 is not 0
+//   load_group(p)        the eight words at p, and others; store_group(p, v) stores them alone
+//   group_offsets(x, y, stride, out)  y stride + x of eight cells; the stride fits int16
+//   fetch_group(upper, lower, offset, a, b)  of these, as gather16()
+//   store_taps(p, a, b)  k16Lanes times a word of a and above it one of b, in order
+//
+// windows_x86.inl makes spread() and window_words() of them, which is what kernels call. On the other targets, where single loads
+// are as fast or were not measured, there are none.
+// No windows: what the bodies of kernels name, and never call.
+
+enum : int { kTapWindows = 0 };
+TEXTPLANE_SIMD_INLINE v16 below16(v16 v, v16) noexcept { return v; }
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return load16(p); }
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t*, v16) noexcept {}
+TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t*, const std::int16_t*, int, int*) noexcept {}
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t*, const std::uint8_t*, const int*, v16* a, v16* b) noexcept {
+  *a = *b = set16(0);
+}
+TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t*, v16, v16) noexcept {}
+struct TapWindowVectors {
+  const std::uint8_t *upper, *middle;
+};
+TEXTPLANE_SIMD_INLINE TapWindowVectors spread(const TapWindows& w) noexcept {
+  return TapWindowVectors{w.origin, w.origin};
+}
+TEXTPLANE_SIMD_INLINE unsigned window_words(const TapWindowVectors&, const std::int16_t*, const std::int16_t*,
+                                            v16* first, v16* second) noexcept {
+  *first = *second = set16(0);
+  return 0;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if TEXTPLANE_HAS_SSE41
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("sse4.1")
+#endif
+#define TEXTPLANE_SIMD_REGION 1
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace sse41 {
+enum : int { kTapWindows = 0 };
+TEXTPLANE_SIMD_INLINE v16 below16(v16 v, v16) noexcept { return v; }
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return load16(p); }
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t*, v16) noexcept {}
+TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t*, const std::int16_t*, int, int*) noexcept {}
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t*, const std::uint8_t*, const int*, v16* a, v16* b) noexcept {
+  *a = *b = set16(0);
+}
+TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t*, v16, v16) noexcept {}
+struct TapWindowVectors {
+  const std::uint8_t *upper, *middle;
+};
+TEXTPLANE_SIMD_INLINE TapWindowVectors spread(const TapWindows& w) noexcept {
+  return TapWindowVectors{w.origin, w.origin};
+}
+TEXTPLANE_SIMD_INLINE unsigned window_words(const TapWindowVectors&, const std::int16_t*, const std::int16_t*,
+                                            v16* first, v16* second) noexcept {
+  *first = *second = set16(0);
+  return 0;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_AVX2
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,popcnt")
+#endif
+#define TEXTPLANE_SIMD_REGION 2
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace avx2 {
+// The operations of windows on sixteen words. They are defined in windows_region.inl.
+
+enum : int { kTapWindows = 1 };
+TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept { return load16(p); }
+TEXTPLANE_SIMD_INLINE v16 group_ends(bool last) noexcept { return set16(last ? 0x0f0e : 0x0100); }
+TEXTPLANE_SIMD_INLINE v16 share16(v16 v, v16 ends) noexcept { return _mm256_shuffle_epi8(v, ends); }
+TEXTPLANE_SIMD_INLINE v16 above16(v16 v, int n) noexcept { return _mm256_subs_epu16(v, set16(n)); }
+TEXTPLANE_SIMD_INLINE v16 picks16(v16 x) noexcept {
+  return _mm256_add_epi16(_mm256_or_si256(x, _mm256_slli_epi16(x, 8)), set16(0x0100));
+}
+TEXTPLANE_SIMD_INLINE v16 pick16(v16 row, v16 picks) noexcept { return _mm256_shuffle_epi8(row, picks); }
+struct TapPlaces {
+  std::ptrdiff_t a, b;
+};
+TEXTPLANE_SIMD_INLINE TapPlaces find_windows(const std::int16_t* x, const std::int16_t* y,
+                                             std::ptrdiff_t stride) noexcept {
+  return TapPlaces{y[0] * stride + x[0], y[8] * stride + x[8]};
+}
+TEXTPLANE_SIMD_INLINE v16 load_rows(const std::uint8_t* p, const TapPlaces& at) noexcept {
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p + at.a))),
+                                 _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + at.b)), 1);
+}
+TEXTPLANE_SIMD_INLINE v16 either16(v16 y, v16 a, v16 b) noexcept {
+  return _mm256_blendv_epi8(a, b, _mm256_sub_epi16(_mm256_setzero_si256(), y));
+}
+TEXTPLANE_SIMD_INLINE v16 below16(v16 v, v16 high) noexcept { return _mm256_min_epu16(v, high); }
+TEXTPLANE_SIMD_INLINE v16 or16(v16 a, v16 b) noexcept { return _mm256_or_si256(a, b); }
+TEXTPLANE_SIMD_INLINE unsigned any_of_four(v16 v) noexcept {
+  const __m256i none = _mm256_cmpeq_epi64(v, _mm256_setzero_si256());
+  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_castsi256_pd(none))) ^ 15U;
+}
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept {
+  return _mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+}
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t* p, v16 v) noexcept {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(v));
+}
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* a,
+                                       v16* b) noexcept {
+  __m128i u, l;
+  gather_words8(upper, lower, offset, &u, &l);
+  *a = _mm256_castsi128_si256(u);
+  *b = _mm256_castsi128_si256(l);
+}
+TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t* p, v16 a, v16 b) noexcept {
+  const __m256i low = _mm256_unpacklo_epi16(a, b), high = _mm256_unpackhi_epi16(a, b);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permute2x128_si256(low, high, 0x20));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p + 8), _mm256_permute2x128_si256(low, high, 0x31));
+}
+// Windows out of the operations of a target that has them.
+
+TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16_t* y, int stride, int* out) noexcept {
+  const __m128i cx = _mm_loadu_si128(reinterpret_cast<const __m128i*>(x));
+  const __m128i cy = _mm_loadu_si128(reinterpret_cast<const __m128i*>(y)), by = _mm_set1_epi32(stride * 65536 + 1);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + 4), _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
+}
+
+// What a loop over windows needs, made before it. The left-most and the top-most cells of groups are `left` and `top` words away
+// from the first.
+struct TapWindowVectors {
+  v16 left_ends, top_ends;
+  int left, top;
+  const std::uint8_t *upper, *middle, *lower;
+  std::ptrdiff_t stride;
+};
+TEXTPLANE_SIMD_INLINE TapWindowVectors spread(const TapWindows& w) noexcept {
+  TapWindowVectors v;
+  v.left_ends = group_ends(w.guess.leftwards);
+  v.top_ends = group_ends(w.guess.upwards);
+  v.left = w.guess.leftwards ? 7 : 0;
+  v.top = w.guess.upwards ? 7 : 0;
+  v.upper = w.origin;
+  v.middle = w.origin + w.stride;
+  v.lower = v.middle + w.stride;
+  v.stride = w.stride;
+  return v;
+}
+
+// The words (I(x,y), I(x+1,y)) and (I(x,y+1), I(x+1,y+1)) of k16Lanes cells. Bit i of the result: windows do not hold all of the
+// pixels 4 i .. 4 i + 3, whose words may be any.
+TEXTPLANE_SIMD_INLINE unsigned window_words(const TapWindowVectors& w, const std::int16_t* x, const std::int16_t* y,
+                                            v16* first, v16* second) noexcept {
+  const TapPlaces at = find_windows(x + w.left, y + w.top, w.stride);
+  const v16 cx = load_cells(x), cy = load_cells(y);
+  const v16 px = sub16(cx, share16(cx, w.left_ends)), py = sub16(cy, share16(cy, w.top_ends)), picks = picks16(px);
+  const v16 upper = pick16(load_rows(w.upper, at), picks);
+  const v16 middle = pick16(load_rows(w.middle, at), picks);
+  const v16 lower = pick16(load_rows(w.lower, at), picks);
+  *first = either16(py, upper, middle);
+  *second = either16(py, middle, lower);
+  return any_of_four(or16(above16(px, 14), above16(py, 1)));
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_AVX512
+#if defined(TEXTPLANE_EMULATED_AVX512)
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,popcnt")
+#endif
+#elif defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,avx2,fma,popcnt")
+#endif
+#define TEXTPLANE_SIMD_REGION 3
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace avx512 {
+// The operations of windows on 32 words. They are defined in windows_region.inl.
+
+enum : int { kTapWindows = 1 };
+TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept {
+  v16 v = load16(p);
+#if !defined(TEXTPLANE_EMULATED_AVX512)
+  __asm__("" : "+v"(v));
+#endif
+  return v;
+}
+TEXTPLANE_SIMD_INLINE v16 group_ends(bool last) noexcept { return set16(last ? 0x0f0e : 0x0100); }
+TEXTPLANE_SIMD_INLINE v16 share16(v16 v, v16 ends) noexcept { return _mm512_shuffle_epi8(v, ends); }
+TEXTPLANE_SIMD_INLINE v16 above16(v16 v, int n) noexcept { return _mm512_subs_epu16(v, set16(n)); }
+TEXTPLANE_SIMD_INLINE v16 picks16(v16 x) noexcept {
+  return _mm512_add_epi16(_mm512_mullo_epi16(x, set16(0x0101)), set16(0x0100));
+}
+TEXTPLANE_SIMD_INLINE v16 pick16(v16 row, v16 picks) noexcept { return _mm512_shuffle_epi8(row, picks); }
+TEXTPLANE_SIMD_INLINE __m128i window_row16(const std::uint8_t* p) noexcept {
+  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+}
+struct TapPlaces {
+  std::ptrdiff_t a, b, c, d;
+};
+TEXTPLANE_SIMD_INLINE TapPlaces find_windows(const std::int16_t* x, const std::int16_t* y,
+                                             std::ptrdiff_t stride) noexcept {
+  return TapPlaces{y[0] * stride + x[0], y[8] * stride + x[8], y[16] * stride + x[16], y[24] * stride + x[24]};
+}
+TEXTPLANE_SIMD_INLINE v16 load_rows(const std::uint8_t* p, const TapPlaces& at) noexcept {
+  const __m256i ab = _mm256_inserti128_si256(_mm256_castsi128_si256(window_row16(p + at.a)), window_row16(p + at.b), 1);
+  const __m256i cd = _mm256_inserti128_si256(_mm256_castsi128_si256(window_row16(p + at.c)), window_row16(p + at.d), 1);
+  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(ab), cd, 1);
+}
+TEXTPLANE_SIMD_INLINE v16 either16(v16 y, v16 a, v16 b) noexcept {
+  return _mm512_mask_blend_epi16(_mm512_test_epi16_mask(y, y), a, b);
+}
+TEXTPLANE_SIMD_INLINE v16 below16(v16 v, v16 high) noexcept { return _mm512_min_epu16(v, high); }
+TEXTPLANE_SIMD_INLINE v16 or16(v16 a, v16 b) noexcept { return _mm512_or_si512(a, b); }
+TEXTPLANE_SIMD_INLINE unsigned any_of_four(v16 v) noexcept { return _mm512_test_epi64_mask(v, v); }
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept {
+  return _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+}
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t* p, v16 v) noexcept {
+  const __m256i low = _mm512_maskz_extracti64x4_epi64(0xf, v, 0);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(low));
+}
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* a,
+                                       v16* b) noexcept {
+  __m128i u, l;
+  gather_words8(upper, lower, offset, &u, &l);
+  *a = _mm512_castsi128_si512(u);
+  *b = _mm512_castsi128_si512(l);
+}
+TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t* p, v16 a, v16 b) noexcept {
+  _mm512_storeu_si512(p, _mm512_permutex2var_epi16(a, word_order(0, 32, 1), b));
+  _mm512_storeu_si512(p + 16, _mm512_permutex2var_epi16(a, word_order(16, 48, 1), b));
+}
+TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16_t* y, int stride, int* out) noexcept {
+  const __m128i cx = _mm_loadu_si128(reinterpret_cast<const __m128i*>(x));
+  const __m128i cy = _mm_loadu_si128(reinterpret_cast<const __m128i*>(y)), by = _mm_set1_epi32(stride * 65536 + 1);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + 4), _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
+}
+struct TapWindowVectors {
+  v16 left_ends, top_ends;
+  int left, top;
+  const std::uint8_t *upper, *middle, *lower;
+  std::ptrdiff_t stride;
+};
+TEXTPLANE_SIMD_INLINE TapWindowVectors spread(const TapWindows& w) noexcept {
+  TapWindowVectors v;
+  v.left_ends = group_ends(w.guess.leftwards);
+  v.top_ends = group_ends(w.guess.upwards);
+  v.left = w.guess.leftwards ? 7 : 0;
+  v.top = w.guess.upwards ? 7 : 0;
+  v.upper = w.origin;
+  v.middle = w.origin + w.stride;
+  v.lower = v.middle + w.stride;
+  v.stride = w.stride;
+  return v;
+}
+TEXTPLANE_SIMD_INLINE unsigned window_words(const TapWindowVectors& w, const std::int16_t* x, const std::int16_t* y,
+                                            v16* first, v16* second) noexcept {
+  const TapPlaces at = find_windows(x + w.left, y + w.top, w.stride);
+  const v16 cx = load_cells(x), cy = load_cells(y);
+  const v16 px = sub16(cx, share16(cx, w.left_ends)), py = sub16(cy, share16(cy, w.top_ends)), picks = picks16(px);
+  const v16 upper = pick16(load_rows(w.upper, at), picks);
+  const v16 middle = pick16(load_rows(w.middle, at), picks);
+  const v16 lower = pick16(load_rows(w.lower, at), picks);
+  *first = either16(py, upper, middle);
+  *second = either16(py, middle, lower);
+  return any_of_four(or16(above16(px, 14), above16(py, 1)));
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_NEON
+#define TEXTPLANE_SIMD_REGION 4
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace neon {
+enum : int { kTapWindows = 0 };
+TEXTPLANE_SIMD_INLINE v16 below16(v16 v, v16) noexcept { return v; }
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return load16(p); }
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t*, v16) noexcept {}
+TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t*, const std::int16_t*, int, int*) noexcept {}
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t*, const std::uint8_t*, const int*, v16* a, v16* b) noexcept {
+  *a = *b = set16(0);
+}
+TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t*, v16, v16) noexcept {}
+struct TapWindowVectors {
+  const std::uint8_t *upper, *middle;
+};
+TEXTPLANE_SIMD_INLINE TapWindowVectors spread(const TapWindows& w) noexcept {
+  return TapWindowVectors{w.origin, w.origin};
+}
+TEXTPLANE_SIMD_INLINE unsigned window_words(const TapWindowVectors&, const std::int16_t*, const std::int16_t*,
+                                            v16* first, v16* second) noexcept {
+  *first = *second = set16(0);
+  return 0;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#endif
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(pop)
+#else
+#pragma STDC FP_CONTRACT DEFAULT
+#endif
+#elif defined(__GNUC__)
+#pragma GCC pop_options
+#endif
+#endif
+#undef TEXTPLANE_SIMD_KERNEL
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/windows.inl"
+#ifndef TEXTPLANE_SIMD_KERNEL
+#error "define TEXTPLANE_SIMD_KERNEL as the file to include"
+#endif
+#if TEXTPLANE_HAS_KERNELS
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(precise, on, push)
+#endif
+#pragma clang fp contract(off)
+#elif defined(__GNUC__)
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
+#endif
+#define TEXTPLANE_SIMD_REGION 0
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace scalar {
+// Taps of neighbouring pixels by windows (see simd/windows.hpp). Eight pixels in a row are a group; the left-most and the top-most
+// of its cells is taken to be the first's or the last's, whichever the direction says. That is a guess, and so is the size of a
+// group: what a window does not hold is told, and must be fetched one by one. The bytes are the same then.
+
+// How groups of n points run whose targets move by about (a du + b dv, c du + d dv): by some of them.
+TEXTPLANE_SIMD_INLINE TapGuess guess_windows(const float* u, const float* v, int n, float a, float b, float c,
+                                             float d) noexcept {
+  TapGuess guess = {false, false, false};
+  if (kTapWindows == 0 || n < 64) return guess;
+  const int quarter = n / 32 * 8;
+  int dense = 0;
+  float across = 0, down = 0;
+  for (int at = 0; at < 4 * quarter; at += quarter) {
+    const float du = u[at + 7] - u[at], dv = v[at + 7] - v[at], dx = a * du + b * dv, dy = c * du + d * dv;
+    if (dx > -13.0F && dx < 13.0F && dy > -1.0F && dy < 1.0F) {
+      across += dx;
+      down += dy;
+      ++dense;
+    } else if (dense == 0) {
+      return guess;
+    }
+  }
+  guess.likely = dense >= 3;
+  guess.leftwards = across < 0;
+  guess.upwards = down < 0;
+  return guess;
+}
+
+// (ox, oy) is the pixel at `origin`. False where there is no room for a window, and where cells or the stride are not int16.
+TEXTPLANE_SIMD_INLINE bool make_windows(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height, int ox,
+                                        int oy, TapWindows* w) noexcept {
+  w->origin = data + (oy * stride + ox);
+  w->stride = stride;
+  w->x_high = width - 16 - ox;
+  w->y_high = height - 3 - oy;
+  w->guess.likely = false;
+  return kTapWindows != 0 && width >= 16 && height >= 3 && width < 16384 && height < 16384 && stride < 32768;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if TEXTPLANE_HAS_SSE41
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("sse4.1")
+#endif
+#define TEXTPLANE_SIMD_REGION 1
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace sse41 {
+TEXTPLANE_SIMD_INLINE TapGuess guess_windows(const float* u, const float* v, int n, float a, float b, float c,
+                                             float d) noexcept {
+  TapGuess guess = {false, false, false};
+  if (kTapWindows == 0 || n < 64) return guess;
+  const int quarter = n / 32 * 8;
+  int dense = 0;
+  float across = 0, down = 0;
+  for (int at = 0; at < 4 * quarter; at += quarter) {
+    const float du = u[at + 7] - u[at], dv = v[at + 7] - v[at], dx = a * du + b * dv, dy = c * du + d * dv;
+    if (dx > -13.0F && dx < 13.0F && dy > -1.0F && dy < 1.0F) {
+      across += dx;
+      down += dy;
+      ++dense;
+    } else if (dense == 0) {
+      return guess;
+    }
+  }
+  guess.likely = dense >= 3;
+  guess.leftwards = across < 0;
+  guess.upwards = down < 0;
+  return guess;
+}
+TEXTPLANE_SIMD_INLINE bool make_windows(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height, int ox,
+                                        int oy, TapWindows* w) noexcept {
+  w->origin = data + (oy * stride + ox);
+  w->stride = stride;
+  w->x_high = width - 16 - ox;
+  w->y_high = height - 3 - oy;
+  w->guess.likely = false;
+  return kTapWindows != 0 && width >= 16 && height >= 3 && width < 16384 && height < 16384 && stride < 32768;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_AVX2
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,popcnt")
+#endif
+#define TEXTPLANE_SIMD_REGION 2
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace avx2 {
+TEXTPLANE_SIMD_INLINE TapGuess guess_windows(const float* u, const float* v, int n, float a, float b, float c,
+                                             float d) noexcept {
+  TapGuess guess = {false, false, false};
+  if (kTapWindows == 0 || n < 64) return guess;
+  const int quarter = n / 32 * 8;
+  int dense = 0;
+  float across = 0, down = 0;
+  for (int at = 0; at < 4 * quarter; at += quarter) {
+    const float du = u[at + 7] - u[at], dv = v[at + 7] - v[at], dx = a * du + b * dv, dy = c * du + d * dv;
+    if (dx > -13.0F && dx < 13.0F && dy > -1.0F && dy < 1.0F) {
+      across += dx;
+      down += dy;
+      ++dense;
+    } else if (dense == 0) {
+      return guess;
+    }
+  }
+  guess.likely = dense >= 3;
+  guess.leftwards = across < 0;
+  guess.upwards = down < 0;
+  return guess;
+}
+TEXTPLANE_SIMD_INLINE bool make_windows(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height, int ox,
+                                        int oy, TapWindows* w) noexcept {
+  w->origin = data + (oy * stride + ox);
+  w->stride = stride;
+  w->x_high = width - 16 - ox;
+  w->y_high = height - 3 - oy;
+  w->guess.likely = false;
+  return kTapWindows != 0 && width >= 16 && height >= 3 && width < 16384 && height < 16384 && stride < 32768;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_AVX512
+#if defined(TEXTPLANE_EMULATED_AVX512)
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,popcnt")
+#endif
+#elif defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,avx2,fma,popcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,avx2,fma,popcnt")
+#endif
+#define TEXTPLANE_SIMD_REGION 3
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace avx512 {
+TEXTPLANE_SIMD_INLINE TapGuess guess_windows(const float* u, const float* v, int n, float a, float b, float c,
+                                             float d) noexcept {
+  TapGuess guess = {false, false, false};
+  if (kTapWindows == 0 || n < 64) return guess;
+  const int quarter = n / 32 * 8;
+  int dense = 0;
+  float across = 0, down = 0;
+  for (int at = 0; at < 4 * quarter; at += quarter) {
+    const float du = u[at + 7] - u[at], dv = v[at + 7] - v[at], dx = a * du + b * dv, dy = c * du + d * dv;
+    if (dx > -13.0F && dx < 13.0F && dy > -1.0F && dy < 1.0F) {
+      across += dx;
+      down += dy;
+      ++dense;
+    } else if (dense == 0) {
+      return guess;
+    }
+  }
+  guess.likely = dense >= 3;
+  guess.leftwards = across < 0;
+  guess.upwards = down < 0;
+  return guess;
+}
+TEXTPLANE_SIMD_INLINE bool make_windows(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height, int ox,
+                                        int oy, TapWindows* w) noexcept {
+  w->origin = data + (oy * stride + ox);
+  w->stride = stride;
+  w->x_high = width - 16 - ox;
+  w->y_high = height - 3 - oy;
+  w->guess.likely = false;
+  return kTapWindows != 0 && width >= 16 && height >= 3 && width < 16384 && height < 16384 && stride < 32768;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+#if TEXTPLANE_HAS_NEON
+#define TEXTPLANE_SIMD_REGION 4
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace neon {
+TEXTPLANE_SIMD_INLINE TapGuess guess_windows(const float* u, const float* v, int n, float a, float b, float c,
+                                             float d) noexcept {
+  TapGuess guess = {false, false, false};
+  if (kTapWindows == 0 || n < 64) return guess;
+  const int quarter = n / 32 * 8;
+  int dense = 0;
+  float across = 0, down = 0;
+  for (int at = 0; at < 4 * quarter; at += quarter) {
+    const float du = u[at + 7] - u[at], dv = v[at + 7] - v[at], dx = a * du + b * dv, dy = c * du + d * dv;
+    if (dx > -13.0F && dx < 13.0F && dy > -1.0F && dy < 1.0F) {
+      across += dx;
+      down += dy;
+      ++dense;
+    } else if (dense == 0) {
+      return guess;
+    }
+  }
+  guess.likely = dense >= 3;
+  guess.leftwards = across < 0;
+  guess.upwards = down < 0;
+  return guess;
+}
+TEXTPLANE_SIMD_INLINE bool make_windows(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height, int ox,
+                                        int oy, TapWindows* w) noexcept {
+  w->origin = data + (oy * stride + ox);
+  w->stride = stride;
+  w->x_high = width - 16 - ox;
+  w->y_high = height - 3 - oy;
+  w->guess.likely = false;
+  return kTapWindows != 0 && width >= 16 && height >= 3 && width < 16384 && height < 16384 && stride < 32768;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+#undef TEXTPLANE_SIMD_REGION
+#endif
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(pop)
+#else
+#pragma STDC FP_CONTRACT DEFAULT
+#endif
+#elif defined(__GNUC__)
+#pragma GCC pop_options
+#endif
+#endif
+#undef TEXTPLANE_SIMD_KERNEL
+
+#endif  // TEXTPLANE_SIMD_WINDOWS_HPP
+
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace simd {
@@ -4713,11 +5914,13 @@ namespace detail {
 // Points are worked on in strips, so that what passes from one short loop to the next stays in the first cache.
 enum : int { kStrip = 256 };
 
-// Between the loops over a strip: position inside the cell, offset of the cell in bytes (or pairs), its four pixels.
+// Between the loops over a strip: position inside the cell, offset of the cell in bytes or pairs, its four pixels; for windows
+// the cell itself.
 struct SampleStrip {
   float fx[kStrip], fy[kStrip];
   std::int32_t offset[kStrip];
   std::uint32_t taps[kStrip];
+  std::int16_t x[kStrip], y[kStrip];
 };
 
 // The origin's pixel, bounds and stride in the units of the target that is read.
@@ -4893,26 +6096,57 @@ TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleS
   storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
 }
 
-// Warp of the n <= kStrip host pixels px, py: target coordinates to x and y, cells to the strip.
+// Warp of the host pixels px, py from `i` on, n <= kStrip in all: target coordinates to x and y, cells to the strip.
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                      int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                      int i, int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const WarpVectors warp = spread(w);
   const CellVectors cells = spread(f);
   vf tx, ty, divisor;
-  int i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
     cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-  if (i == n) return;
+  if (i >= n) return;
   warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
   cell_vector(cells, tx, ty, s, i);
   store(x + i, tx);
   store(y + i, ty);
+}
+
+// The same of the first n pixels, whole v16, for windows.
+TEXTPLANE_SIMD_INLINE vf window_cell(vf x, vf low, vf high, float* fraction) noexcept {
+  const vf cell = min_(max_(floor_(x), low), high);
+  store(fraction, sub(x, cell));
+  return cell;
+}
+TEXTPLANE_SIMD_INLINE void warp_windows(const simd::Warp8& w, const SampleFrame& f, const TapWindows& windows,
+                                        const float* TEXTPLANE_SIMD_RESTRICT px,
+                                        const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                        float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                        SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = spread(w);
+  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(windows.x_high));
+  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(windows.y_high));
+  for (int i = 0; i < n; i += k16Lanes) {
+    const int j = i + kLanes;
+    vf x0, y0, x1, y1, divisor;
+    warp_vector(warp, load(px + i), load(py + i), &x0, &y0, &divisor);
+    store(x + i, x0);
+    store(y + i, y0);
+    const vi a0 = to_int(window_cell(x0, x_low, x_high, s->fx + i)),
+             b0 = to_int(window_cell(y0, y_low, y_high, s->fy + i));
+    warp_vector(warp, load(px + j), load(py + j), &x1, &y1, &divisor);
+    store(x + j, x1);
+    store(y + j, y1);
+    const vi a1 = to_int(window_cell(x1, x_low, x_high, s->fx + j)),
+             b1 = to_int(window_cell(y1, y_low, y_high, s->fy + j));
+    store16(s->x + i, pack16(a0, a1));
+    store16(s->y + i, pack16(b0, b1));
+  }
 }
 
 // The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs the
@@ -4941,12 +6175,29 @@ TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip*
   }
   for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
 }
-TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
+// The same of n cells, whole v16, by windows, and then of the groups that these do not hold.
+TEXTPLANE_SIMD_INLINE void fetch_windows(const TapWindows& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t fours = 0;
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    fours |= static_cast<std::uint64_t>(window_words(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
+    store_taps(s->taps + i, first, second);
+  }
+  for (std::uint64_t groups = (fours | fours >> 1) & 0x5555555555555555ULL; groups != 0; groups &= groups - 1) {
+    const int i = 4 * lowest_bit(groups);
+    group_offsets(s->x + i, s->y + i, static_cast<int>(w.stride), s->offset + i);
+    fetch_four(v.upper, v.middle, s->offset + i, s->taps + i);
+    fetch_four(v.upper, v.middle, s->offset + i + 4, s->taps + i + 4);
+  }
+}
+// Those of the cells `from` on, n in all.
+TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, SampleStrip* s) noexcept {
   // Whole vectors of words are read later: those beyond n repeat the first.
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
+    fetch_rows(f.bytes, f.stride, s->offset + from, n - from, s->taps + from);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 
@@ -5112,23 +6363,52 @@ TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleS
 }
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                      int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                      int i, int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const WarpVectors warp = spread(w);
   const CellVectors cells = spread(f);
   vf tx, ty, divisor;
-  int i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
     cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-  if (i == n) return;
+  if (i >= n) return;
   warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
   cell_vector(cells, tx, ty, s, i);
   store(x + i, tx);
   store(y + i, ty);
+}
+TEXTPLANE_SIMD_INLINE vf window_cell(vf x, vf low, vf high, float* fraction) noexcept {
+  const vf cell = min_(max_(floor_(x), low), high);
+  store(fraction, sub(x, cell));
+  return cell;
+}
+TEXTPLANE_SIMD_INLINE void warp_windows(const simd::Warp8& w, const SampleFrame& f, const TapWindows& windows,
+                                        const float* TEXTPLANE_SIMD_RESTRICT px,
+                                        const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                        float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                        SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = spread(w);
+  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(windows.x_high));
+  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(windows.y_high));
+  for (int i = 0; i < n; i += k16Lanes) {
+    const int j = i + kLanes;
+    vf x0, y0, x1, y1, divisor;
+    warp_vector(warp, load(px + i), load(py + i), &x0, &y0, &divisor);
+    store(x + i, x0);
+    store(y + i, y0);
+    const vi a0 = to_int(window_cell(x0, x_low, x_high, s->fx + i)),
+             b0 = to_int(window_cell(y0, y_low, y_high, s->fy + i));
+    warp_vector(warp, load(px + j), load(py + j), &x1, &y1, &divisor);
+    store(x + j, x1);
+    store(y + j, y1);
+    const vi a1 = to_int(window_cell(x1, x_low, x_high, s->fx + j)),
+             b1 = to_int(window_cell(y1, y_low, y_high, s->fy + j));
+    store16(s->x + i, pack16(a0, a1));
+    store16(s->y + i, pack16(b0, b1));
+  }
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
                                       const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
@@ -5154,11 +6434,26 @@ TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip*
   }
   for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
 }
-TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
+TEXTPLANE_SIMD_INLINE void fetch_windows(const TapWindows& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t fours = 0;
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    fours |= static_cast<std::uint64_t>(window_words(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
+    store_taps(s->taps + i, first, second);
+  }
+  for (std::uint64_t groups = (fours | fours >> 1) & 0x5555555555555555ULL; groups != 0; groups &= groups - 1) {
+    const int i = 4 * lowest_bit(groups);
+    group_offsets(s->x + i, s->y + i, static_cast<int>(w.stride), s->offset + i);
+    fetch_four(v.upper, v.middle, s->offset + i, s->taps + i);
+    fetch_four(v.upper, v.middle, s->offset + i + 4, s->taps + i + 4);
+  }
+}
+TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, SampleStrip* s) noexcept {
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
+    fetch_rows(f.bytes, f.stride, s->offset + from, n - from, s->taps + from);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
@@ -5326,23 +6621,52 @@ TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleS
 }
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                      int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                      int i, int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const WarpVectors warp = spread(w);
   const CellVectors cells = spread(f);
   vf tx, ty, divisor;
-  int i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
     cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-  if (i == n) return;
+  if (i >= n) return;
   warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
   cell_vector(cells, tx, ty, s, i);
   store(x + i, tx);
   store(y + i, ty);
+}
+TEXTPLANE_SIMD_INLINE vf window_cell(vf x, vf low, vf high, float* fraction) noexcept {
+  const vf cell = min_(max_(floor_(x), low), high);
+  store(fraction, sub(x, cell));
+  return cell;
+}
+TEXTPLANE_SIMD_INLINE void warp_windows(const simd::Warp8& w, const SampleFrame& f, const TapWindows& windows,
+                                        const float* TEXTPLANE_SIMD_RESTRICT px,
+                                        const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                        float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                        SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = spread(w);
+  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(windows.x_high));
+  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(windows.y_high));
+  for (int i = 0; i < n; i += k16Lanes) {
+    const int j = i + kLanes;
+    vf x0, y0, x1, y1, divisor;
+    warp_vector(warp, load(px + i), load(py + i), &x0, &y0, &divisor);
+    store(x + i, x0);
+    store(y + i, y0);
+    const vi a0 = to_int(window_cell(x0, x_low, x_high, s->fx + i)),
+             b0 = to_int(window_cell(y0, y_low, y_high, s->fy + i));
+    warp_vector(warp, load(px + j), load(py + j), &x1, &y1, &divisor);
+    store(x + j, x1);
+    store(y + j, y1);
+    const vi a1 = to_int(window_cell(x1, x_low, x_high, s->fx + j)),
+             b1 = to_int(window_cell(y1, y_low, y_high, s->fy + j));
+    store16(s->x + i, pack16(a0, a1));
+    store16(s->y + i, pack16(b0, b1));
+  }
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
                                       const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
@@ -5368,11 +6692,26 @@ TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip*
   }
   for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
 }
-TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
+TEXTPLANE_SIMD_INLINE void fetch_windows(const TapWindows& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t fours = 0;
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    fours |= static_cast<std::uint64_t>(window_words(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
+    store_taps(s->taps + i, first, second);
+  }
+  for (std::uint64_t groups = (fours | fours >> 1) & 0x5555555555555555ULL; groups != 0; groups &= groups - 1) {
+    const int i = 4 * lowest_bit(groups);
+    group_offsets(s->x + i, s->y + i, static_cast<int>(w.stride), s->offset + i);
+    fetch_four(v.upper, v.middle, s->offset + i, s->taps + i);
+    fetch_four(v.upper, v.middle, s->offset + i + 4, s->taps + i + 4);
+  }
+}
+TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, SampleStrip* s) noexcept {
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
+    fetch_rows(f.bytes, f.stride, s->offset + from, n - from, s->taps + from);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
@@ -5547,23 +6886,52 @@ TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleS
 }
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                      int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                      int i, int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const WarpVectors warp = spread(w);
   const CellVectors cells = spread(f);
   vf tx, ty, divisor;
-  int i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
     cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-  if (i == n) return;
+  if (i >= n) return;
   warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
   cell_vector(cells, tx, ty, s, i);
   store(x + i, tx);
   store(y + i, ty);
+}
+TEXTPLANE_SIMD_INLINE vf window_cell(vf x, vf low, vf high, float* fraction) noexcept {
+  const vf cell = min_(max_(floor_(x), low), high);
+  store(fraction, sub(x, cell));
+  return cell;
+}
+TEXTPLANE_SIMD_INLINE void warp_windows(const simd::Warp8& w, const SampleFrame& f, const TapWindows& windows,
+                                        const float* TEXTPLANE_SIMD_RESTRICT px,
+                                        const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                        float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                        SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = spread(w);
+  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(windows.x_high));
+  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(windows.y_high));
+  for (int i = 0; i < n; i += k16Lanes) {
+    const int j = i + kLanes;
+    vf x0, y0, x1, y1, divisor;
+    warp_vector(warp, load(px + i), load(py + i), &x0, &y0, &divisor);
+    store(x + i, x0);
+    store(y + i, y0);
+    const vi a0 = to_int(window_cell(x0, x_low, x_high, s->fx + i)),
+             b0 = to_int(window_cell(y0, y_low, y_high, s->fy + i));
+    warp_vector(warp, load(px + j), load(py + j), &x1, &y1, &divisor);
+    store(x + j, x1);
+    store(y + j, y1);
+    const vi a1 = to_int(window_cell(x1, x_low, x_high, s->fx + j)),
+             b1 = to_int(window_cell(y1, y_low, y_high, s->fy + j));
+    store16(s->x + i, pack16(a0, a1));
+    store16(s->y + i, pack16(b0, b1));
+  }
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
                                       const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
@@ -5589,11 +6957,26 @@ TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip*
   }
   for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
 }
-TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
+TEXTPLANE_SIMD_INLINE void fetch_windows(const TapWindows& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t fours = 0;
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    fours |= static_cast<std::uint64_t>(window_words(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
+    store_taps(s->taps + i, first, second);
+  }
+  for (std::uint64_t groups = (fours | fours >> 1) & 0x5555555555555555ULL; groups != 0; groups &= groups - 1) {
+    const int i = 4 * lowest_bit(groups);
+    group_offsets(s->x + i, s->y + i, static_cast<int>(w.stride), s->offset + i);
+    fetch_four(v.upper, v.middle, s->offset + i, s->taps + i);
+    fetch_four(v.upper, v.middle, s->offset + i + 4, s->taps + i + 4);
+  }
+}
+TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, SampleStrip* s) noexcept {
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
+    fetch_rows(f.bytes, f.stride, s->offset + from, n - from, s->taps + from);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
@@ -5755,23 +7138,52 @@ TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleS
 }
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                      int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                      int i, int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const WarpVectors warp = spread(w);
   const CellVectors cells = spread(f);
   vf tx, ty, divisor;
-  int i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
     cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-  if (i == n) return;
+  if (i >= n) return;
   warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
   cell_vector(cells, tx, ty, s, i);
   store(x + i, tx);
   store(y + i, ty);
+}
+TEXTPLANE_SIMD_INLINE vf window_cell(vf x, vf low, vf high, float* fraction) noexcept {
+  const vf cell = min_(max_(floor_(x), low), high);
+  store(fraction, sub(x, cell));
+  return cell;
+}
+TEXTPLANE_SIMD_INLINE void warp_windows(const simd::Warp8& w, const SampleFrame& f, const TapWindows& windows,
+                                        const float* TEXTPLANE_SIMD_RESTRICT px,
+                                        const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                        float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                        SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = spread(w);
+  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(windows.x_high));
+  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(windows.y_high));
+  for (int i = 0; i < n; i += k16Lanes) {
+    const int j = i + kLanes;
+    vf x0, y0, x1, y1, divisor;
+    warp_vector(warp, load(px + i), load(py + i), &x0, &y0, &divisor);
+    store(x + i, x0);
+    store(y + i, y0);
+    const vi a0 = to_int(window_cell(x0, x_low, x_high, s->fx + i)),
+             b0 = to_int(window_cell(y0, y_low, y_high, s->fy + i));
+    warp_vector(warp, load(px + j), load(py + j), &x1, &y1, &divisor);
+    store(x + j, x1);
+    store(y + j, y1);
+    const vi a1 = to_int(window_cell(x1, x_low, x_high, s->fx + j)),
+             b1 = to_int(window_cell(y1, y_low, y_high, s->fy + j));
+    store16(s->x + i, pack16(a0, a1));
+    store16(s->y + i, pack16(b0, b1));
+  }
 }
 TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
                                       const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
@@ -5797,11 +7209,26 @@ TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip*
   }
   for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
 }
-TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
+TEXTPLANE_SIMD_INLINE void fetch_windows(const TapWindows& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t fours = 0;
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    fours |= static_cast<std::uint64_t>(window_words(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
+    store_taps(s->taps + i, first, second);
+  }
+  for (std::uint64_t groups = (fours | fours >> 1) & 0x5555555555555555ULL; groups != 0; groups &= groups - 1) {
+    const int i = 4 * lowest_bit(groups);
+    group_offsets(s->x + i, s->y + i, static_cast<int>(w.stride), s->offset + i);
+    fetch_four(v.upper, v.middle, s->offset + i, s->taps + i);
+    fetch_four(v.upper, v.middle, s->offset + i + 4, s->taps + i + 4);
+  }
+}
+TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, SampleStrip* s) noexcept {
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
+    fetch_rows(f.bytes, f.stride, s->offset + from, n - from, s->taps + from);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
@@ -5945,7 +7372,7 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
       if (a.inside)
         for (int k = 0; k < kLanes && i + k < n; ++k) a.inside[begin + i + k] = static_cast<std::uint8_t>(b >> k & 1U);
     }
-    fetch_taps(frame, n, &strip);
+    fetch_taps(frame, 0, n, &strip);
     for (int i = 0; i < n; i += kLanes) {
       vf v, dx, dy;
       interpolate_vector(strip, i, paired, &v, &dx, &dy);
@@ -6058,7 +7485,7 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
       if (a.inside)
         for (int k = 0; k < kLanes && i + k < n; ++k) a.inside[begin + i + k] = static_cast<std::uint8_t>(b >> k & 1U);
     }
-    fetch_taps(frame, n, &strip);
+    fetch_taps(frame, 0, n, &strip);
     for (int i = 0; i < n; i += kLanes) {
       vf v, dx, dy;
       interpolate_vector(strip, i, paired, &v, &dx, &dy);
@@ -6176,7 +7603,7 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
       if (a.inside)
         for (int k = 0; k < kLanes && i + k < n; ++k) a.inside[begin + i + k] = static_cast<std::uint8_t>(b >> k & 1U);
     }
-    fetch_taps(frame, n, &strip);
+    fetch_taps(frame, 0, n, &strip);
     for (int i = 0; i < n; i += kLanes) {
       vf v, dx, dy;
       interpolate_vector(strip, i, paired, &v, &dx, &dy);
@@ -6301,7 +7728,7 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
       if (a.inside)
         for (int k = 0; k < kLanes && i + k < n; ++k) a.inside[begin + i + k] = static_cast<std::uint8_t>(b >> k & 1U);
     }
-    fetch_taps(frame, n, &strip);
+    fetch_taps(frame, 0, n, &strip);
     for (int i = 0; i < n; i += kLanes) {
       vf v, dx, dy;
       interpolate_vector(strip, i, paired, &v, &dx, &dy);
@@ -6413,7 +7840,7 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
       if (a.inside)
         for (int k = 0; k < kLanes && i + k < n; ++k) a.inside[begin + i + k] = static_cast<std::uint8_t>(b >> k & 1U);
     }
-    fetch_taps(frame, n, &strip);
+    fetch_taps(frame, 0, n, &strip);
     for (int i = 0; i < n; i += kLanes) {
       vf v, dx, dy;
       interpolate_vector(strip, i, paired, &v, &dx, &dy);
@@ -7110,6 +8537,7 @@ enum : int {
 struct ResidualFrame {
   simd::Warp8 warp;
   SampleFrame sample;
+  TapWindows windows;  // used where its guess is likely
   float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
   double inverse[9];  // H^-1, row-major
   double q[3];        // theta^T H^-1
@@ -7156,18 +8584,28 @@ TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
 constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
 
-// That the points (u, v) are in front of both cameras and project into the target, with a margin for what rounding does here and
-// in the warp.
-TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+// That the points (u, v) are in front of both cameras and project into the target, whose bounds are those of `sample`, with a
+// margin for what rounding does here and in the warp.
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
   const float *g = f.warp.g, margin = 1e-3F;
   const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
            y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
   const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
   const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
   const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
-  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
-  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
   return all(and_(ahead, and_(across, down)));
+}
+
+// All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.
+TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
+                                      const simd::PointBounds& bounds) noexcept {
+  const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
+  bool inside = true;
+  for (int k = 0; k < 4; k += kLanes)
+    inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  return inside;
 }
 
 // False where float or H^-1 do not carry the case.
@@ -7230,11 +8668,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
 
-  // All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.
-  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
-  f->inside = bounds.n == a.n;
-  for (int k = 0; k < 4; k += kLanes)
-    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
+  f->windows.guess.likely = false;
   return true;
 }
 }
@@ -7255,16 +8690,24 @@ namespace sse41 {
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
 constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
-TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
   const float *g = f.warp.g, margin = 1e-3F;
   const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
            y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
   const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
   const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
   const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
-  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
-  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
   return all(and_(ahead, and_(across, down)));
+}
+TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
+                                      const simd::PointBounds& bounds) noexcept {
+  const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
+  bool inside = true;
+  for (int k = 0; k < 4; k += kLanes)
+    inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  return inside;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -7318,10 +8761,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
-  f->inside = bounds.n == a.n;
-  for (int k = 0; k < 4; k += kLanes)
-    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
+  f->windows.guess.likely = false;
   return true;
 }
 }
@@ -7348,16 +8789,24 @@ namespace avx2 {
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
 constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
-TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
   const float *g = f.warp.g, margin = 1e-3F;
   const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
            y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
   const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
   const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
   const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
-  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
-  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
   return all(and_(ahead, and_(across, down)));
+}
+TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
+                                      const simd::PointBounds& bounds) noexcept {
+  const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
+  bool inside = true;
+  for (int k = 0; k < 4; k += kLanes)
+    inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  return inside;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -7411,10 +8860,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
-  f->inside = bounds.n == a.n;
-  for (int k = 0; k < 4; k += kLanes)
-    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
+  f->windows.guess.likely = false;
   return true;
 }
 }
@@ -7448,16 +8895,24 @@ namespace avx512 {
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
 constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
-TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
   const float *g = f.warp.g, margin = 1e-3F;
   const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
            y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
   const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
   const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
   const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
-  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
-  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
   return all(and_(ahead, and_(across, down)));
+}
+TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
+                                      const simd::PointBounds& bounds) noexcept {
+  const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
+  bool inside = true;
+  for (int k = 0; k < 4; k += kLanes)
+    inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  return inside;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -7511,10 +8966,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
-  f->inside = bounds.n == a.n;
-  for (int k = 0; k < 4; k += kLanes)
-    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
+  f->windows.guess.likely = false;
   return true;
 }
 }
@@ -7535,16 +8988,24 @@ namespace neon {
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
 constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
-TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
   const float *g = f.warp.g, margin = 1e-3F;
   const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
            y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
   const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
   const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
   const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
-  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
-  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
   return all(and_(ahead, and_(across, down)));
+}
+TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
+                                      const simd::PointBounds& bounds) noexcept {
+  const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
+  bool inside = true;
+  for (int k = 0; k < 4; k += kLanes)
+    inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  return inside;
 }
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -7598,10 +9059,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
-  f->inside = bounds.n == a.n;
-  for (int k = 0; k < 4; k += kLanes)
-    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
+  f->windows.guess.likely = false;
   return true;
 }
 }
@@ -7739,12 +9198,41 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
   return HostPixels{s.hx, s.hy, s.h, info->visible};
 }
 
+// Decides whether these host pixels take windows. Where they do, no cell is closer to the right or the lower border than a window
+// and a pixel.
+TEXTPLANE_SIMD_ENTRY void choose_windows(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                         const HostPixels& host, ResidualFrame* f) noexcept {
+  const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
+  if (!f->inside || a.target.pairs) return;
+  const TapGuess guess = guess_windows(host.x, host.y, host.n, (g[0] - x * g[6]) * z, (g[1] - x * g[7]) * z,
+                                       (g[3] - y * g[6]) * z, (g[4] - y * g[7]) * z);
+  const simd::Image8& t = a.target;
+  if (!guess.likely || !make_windows(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->windows)) return;
+  SampleFrame inner = f->sample;
+  inner.x_last = static_cast<float>(f->windows.x_high);
+  inner.y_last = static_cast<float>(f->windows.y_high);
+  if (box_inside(*f, inner, bounds)) f->windows.guess = guess;
+}
+
+// Target coordinates, fractions and taps of n pixels, whole v16, by windows. (Inlined, it would slow down what is without.)
+TEXTPLANE_SIMD_ENTRY void collect_windows(const ResidualFrame& f, const float* px, const float* py, int n, float* x,
+                                          float* y, SampleStrip* strip) noexcept {
+  warp_windows(f.warp, f.sample, f.windows, px, py, n, x, y, strip);
+  fetch_windows(f.windows, n, strip);
+}
+
 // Strip of n host pixels from `begin` on: target coordinates, intensities, gradients (unless `values` alone are wanted). Whole
 // vectors are written, zero beyond n.
 TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
-  warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
-  fetch_taps(f.sample, n, strip);
+  const float *px = host.x + begin, *py = host.y + begin;
+  int held = 0;
+  if (kTapWindows != 0 && f.windows.guess.likely) {
+    held = n / k16Lanes * k16Lanes;
+    collect_windows(f, px, py, held, s.x + begin, s.y + begin, strip);
+  }
+  warp_strip(f.warp, f.sample, px, py, held, n, s.x + begin, s.y + begin, strip);
+  fetch_taps(f.sample, held, n, strip);
   const bool paired = f.sample.pairs != nullptr;
   if (values) {
     if (paired)
@@ -7875,10 +9363,34 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
   close_up(a, f, s, info);
   return HostPixels{s.hx, s.hy, s.h, info->visible};
 }
+TEXTPLANE_SIMD_ENTRY void choose_windows(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                         const HostPixels& host, ResidualFrame* f) noexcept {
+  const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
+  if (!f->inside || a.target.pairs) return;
+  const TapGuess guess = guess_windows(host.x, host.y, host.n, (g[0] - x * g[6]) * z, (g[1] - x * g[7]) * z,
+                                       (g[3] - y * g[6]) * z, (g[4] - y * g[7]) * z);
+  const simd::Image8& t = a.target;
+  if (!guess.likely || !make_windows(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->windows)) return;
+  SampleFrame inner = f->sample;
+  inner.x_last = static_cast<float>(f->windows.x_high);
+  inner.y_last = static_cast<float>(f->windows.y_high);
+  if (box_inside(*f, inner, bounds)) f->windows.guess = guess;
+}
+TEXTPLANE_SIMD_ENTRY void collect_windows(const ResidualFrame& f, const float* px, const float* py, int n, float* x,
+                                          float* y, SampleStrip* strip) noexcept {
+  warp_windows(f.warp, f.sample, f.windows, px, py, n, x, y, strip);
+  fetch_windows(f.windows, n, strip);
+}
 TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
-  warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
-  fetch_taps(f.sample, n, strip);
+  const float *px = host.x + begin, *py = host.y + begin;
+  int held = 0;
+  if (kTapWindows != 0 && f.windows.guess.likely) {
+    held = n / k16Lanes * k16Lanes;
+    collect_windows(f, px, py, held, s.x + begin, s.y + begin, strip);
+  }
+  warp_strip(f.warp, f.sample, px, py, held, n, s.x + begin, s.y + begin, strip);
+  fetch_taps(f.sample, held, n, strip);
   const bool paired = f.sample.pairs != nullptr;
   if (values) {
     if (paired)
@@ -8015,10 +9527,34 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
   close_up(a, f, s, info);
   return HostPixels{s.hx, s.hy, s.h, info->visible};
 }
+TEXTPLANE_SIMD_ENTRY void choose_windows(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                         const HostPixels& host, ResidualFrame* f) noexcept {
+  const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
+  if (!f->inside || a.target.pairs) return;
+  const TapGuess guess = guess_windows(host.x, host.y, host.n, (g[0] - x * g[6]) * z, (g[1] - x * g[7]) * z,
+                                       (g[3] - y * g[6]) * z, (g[4] - y * g[7]) * z);
+  const simd::Image8& t = a.target;
+  if (!guess.likely || !make_windows(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->windows)) return;
+  SampleFrame inner = f->sample;
+  inner.x_last = static_cast<float>(f->windows.x_high);
+  inner.y_last = static_cast<float>(f->windows.y_high);
+  if (box_inside(*f, inner, bounds)) f->windows.guess = guess;
+}
+TEXTPLANE_SIMD_ENTRY void collect_windows(const ResidualFrame& f, const float* px, const float* py, int n, float* x,
+                                          float* y, SampleStrip* strip) noexcept {
+  warp_windows(f.warp, f.sample, f.windows, px, py, n, x, y, strip);
+  fetch_windows(f.windows, n, strip);
+}
 TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
-  warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
-  fetch_taps(f.sample, n, strip);
+  const float *px = host.x + begin, *py = host.y + begin;
+  int held = 0;
+  if (kTapWindows != 0 && f.windows.guess.likely) {
+    held = n / k16Lanes * k16Lanes;
+    collect_windows(f, px, py, held, s.x + begin, s.y + begin, strip);
+  }
+  warp_strip(f.warp, f.sample, px, py, held, n, s.x + begin, s.y + begin, strip);
+  fetch_taps(f.sample, held, n, strip);
   const bool paired = f.sample.pairs != nullptr;
   if (values) {
     if (paired)
@@ -8162,10 +9698,34 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
   close_up(a, f, s, info);
   return HostPixels{s.hx, s.hy, s.h, info->visible};
 }
+TEXTPLANE_SIMD_ENTRY void choose_windows(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                         const HostPixels& host, ResidualFrame* f) noexcept {
+  const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
+  if (!f->inside || a.target.pairs) return;
+  const TapGuess guess = guess_windows(host.x, host.y, host.n, (g[0] - x * g[6]) * z, (g[1] - x * g[7]) * z,
+                                       (g[3] - y * g[6]) * z, (g[4] - y * g[7]) * z);
+  const simd::Image8& t = a.target;
+  if (!guess.likely || !make_windows(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->windows)) return;
+  SampleFrame inner = f->sample;
+  inner.x_last = static_cast<float>(f->windows.x_high);
+  inner.y_last = static_cast<float>(f->windows.y_high);
+  if (box_inside(*f, inner, bounds)) f->windows.guess = guess;
+}
+TEXTPLANE_SIMD_ENTRY void collect_windows(const ResidualFrame& f, const float* px, const float* py, int n, float* x,
+                                          float* y, SampleStrip* strip) noexcept {
+  warp_windows(f.warp, f.sample, f.windows, px, py, n, x, y, strip);
+  fetch_windows(f.windows, n, strip);
+}
 TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
-  warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
-  fetch_taps(f.sample, n, strip);
+  const float *px = host.x + begin, *py = host.y + begin;
+  int held = 0;
+  if (kTapWindows != 0 && f.windows.guess.likely) {
+    held = n / k16Lanes * k16Lanes;
+    collect_windows(f, px, py, held, s.x + begin, s.y + begin, strip);
+  }
+  warp_strip(f.warp, f.sample, px, py, held, n, s.x + begin, s.y + begin, strip);
+  fetch_taps(f.sample, held, n, strip);
   const bool paired = f.sample.pairs != nullptr;
   if (values) {
     if (paired)
@@ -8296,10 +9856,34 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
   close_up(a, f, s, info);
   return HostPixels{s.hx, s.hy, s.h, info->visible};
 }
+TEXTPLANE_SIMD_ENTRY void choose_windows(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                         const HostPixels& host, ResidualFrame* f) noexcept {
+  const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
+  if (!f->inside || a.target.pairs) return;
+  const TapGuess guess = guess_windows(host.x, host.y, host.n, (g[0] - x * g[6]) * z, (g[1] - x * g[7]) * z,
+                                       (g[3] - y * g[6]) * z, (g[4] - y * g[7]) * z);
+  const simd::Image8& t = a.target;
+  if (!guess.likely || !make_windows(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->windows)) return;
+  SampleFrame inner = f->sample;
+  inner.x_last = static_cast<float>(f->windows.x_high);
+  inner.y_last = static_cast<float>(f->windows.y_high);
+  if (box_inside(*f, inner, bounds)) f->windows.guess = guess;
+}
+TEXTPLANE_SIMD_ENTRY void collect_windows(const ResidualFrame& f, const float* px, const float* py, int n, float* x,
+                                          float* y, SampleStrip* strip) noexcept {
+  warp_windows(f.warp, f.sample, f.windows, px, py, n, x, y, strip);
+  fetch_windows(f.windows, n, strip);
+}
 TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
-  warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
-  fetch_taps(f.sample, n, strip);
+  const float *px = host.x + begin, *py = host.y + begin;
+  int held = 0;
+  if (kTapWindows != 0 && f.windows.guess.likely) {
+    held = n / k16Lanes * k16Lanes;
+    collect_windows(f, px, py, held, s.x + begin, s.y + begin, strip);
+  }
+  warp_strip(f.warp, f.sample, px, py, held, n, s.x + begin, s.y + begin, strip);
+  fetch_taps(f.sample, held, n, strip);
   const bool paired = f.sample.pairs != nullptr;
   if (values) {
     if (paired)
@@ -14679,6 +16263,7 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     if (parameters == 0)
       info->status = pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
     else
@@ -14740,6 +16325,7 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     if (parameters == 0)
       info->status = pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
     else
@@ -14805,6 +16391,7 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     if (parameters == 0)
       info->status = pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
     else
@@ -14877,6 +16464,7 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     if (parameters == 0)
       info->status = pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
     else
@@ -14937,6 +16525,7 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     if (parameters == 0)
       info->status = pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
     else
@@ -16776,6 +18365,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
   // As residual_any().
   for (int attempt = 0; attempt < 2; ++attempt) {
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
     const bool closed = pixels.x != a.x;
@@ -16965,6 +18555,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
   float *cx = e.scratch, *cy = e.scratch + simd::esm_scratch(a.n) / 2;
   for (int attempt = 0; attempt < 2; ++attempt) {
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
     const bool closed = pixels.x != a.x;
@@ -17160,6 +18751,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
   float *cx = e.scratch, *cy = e.scratch + simd::esm_scratch(a.n) / 2;
   for (int attempt = 0; attempt < 2; ++attempt) {
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
     const bool closed = pixels.x != a.x;
@@ -17362,6 +18954,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
   float *cx = e.scratch, *cy = e.scratch + simd::esm_scratch(a.n) / 2;
   for (int attempt = 0; attempt < 2; ++attempt) {
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
     const bool closed = pixels.x != a.x;
@@ -17551,6 +19144,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
   float *cx = e.scratch, *cy = e.scratch + simd::esm_scratch(a.n) / 2;
   for (int attempt = 0; attempt < 2; ++attempt) {
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
     const bool closed = pixels.x != a.x;
@@ -17602,522 +19196,6 @@ inline ResidualInfo linearise_esm(const EsmArgs& args, double* H, double* b) noe
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SIMD_ESM_HPP
-// Vectors of int16 for the bodies of kernels: `v16` with `k16Lanes` = 2 kLanes lanes in every target namespace, beside the vf and
-// vi of vec.hpp. Fixed-point interpolation and exact integer sums are made of them: their results are the same bits on all
-// targets. words_scalar.inl is the definition of the operations.
-#ifndef TEXTPLANE_SIMD_WORDS_HPP
-#define TEXTPLANE_SIMD_WORDS_HPP
-
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/words_region.inl"
-#ifndef TEXTPLANE_SIMD_KERNEL
-#error "define TEXTPLANE_SIMD_KERNEL as the file to include"
-#endif
-#if TEXTPLANE_HAS_KERNELS
-#if defined(__clang__)
-#if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(precise, on, push)
-#endif
-#pragma clang fp contract(off)
-#elif defined(__GNUC__)
-#pragma GCC push_options
-#pragma GCC optimize("fp-contract=off", "no-fast-math")
-#endif
-#define TEXTPLANE_SIMD_REGION 0
-TEXTPLANE_BEGIN_NAMESPACE
-namespace detail {
-namespace scalar {
-// The int16 vectors of the region that includes this file (see foreach_target.inl), after what they share.
-
-// Two words as a number, the first one low. Compilers make one load of it.
-TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
-}
-// Zeroes the words from..to-1, fewer than 32.
-TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
-  volatile std::int16_t* out = p;  // compilers would call memset, of whose instruction set nothing is known
-  for (int i = from; i < to; ++i) out[i] = 0;
-}
-
-// Two int16 in plain C++: the definition of every operation on words. Sums and differences must fit int16.
-
-enum : int { k16Lanes = 2 };
-struct v16 {
-  std::int16_t a, b;
-};
-
-TEXTPLANE_SIMD_INLINE v16 make16(int a, int b) noexcept {
-  return v16{static_cast<std::int16_t>(a), static_cast<std::int16_t>(b)};
-}
-TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return make16(value, value); }
-TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return v16{p[0], p[1]}; }
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
-  p[0] = v.a;
-  p[1] = v.b;
-}
-TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return make16(x.a + y.a, x.b + y.b); }
-TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return make16(x.a - y.a, x.b - y.b); }
-// x y / 2^15, rounded to the nearest, halves up; not both -2^15.
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept {
-  return make16((x.a * y.a + 16384) >> 15, (x.b * y.b + 16384) >> 15);
-}
-// Of each word's two bytes, unsigned: low * w0 + high * w1, weights in [-64, 64].
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return make16((t.a & 255) * w0 + ((t.a >> 8) & 255) * w1, (t.b & 255) * w0 + ((t.b >> 8) & 255) * w1);
-}
-// int32 lane i: x[2i] y[2i] + x[2i+1] y[2i+1].
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return x.a * y.a + x.b * y.b; }
-// 2 kLanes int32 that fit int16, in order.
-TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
-// Sum of the lanes; it wraps.
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return v; }
-// Word i: the two bytes at upper (lower) + offset[i], the first of them low. Reads these bytes alone.
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  *first = make16(static_cast<int>(load_half(upper + offset[0])), static_cast<int>(load_half(upper + offset[1])));
-  *second = make16(static_cast<int>(load_half(lower + offset[0])), static_cast<int>(load_half(lower + offset[1])));
-}
-// Word i: the low (high) half of lane i of the 2 kLanes int32 in a and b.
-TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return make16(a, b); }
-TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return make16(a >> 16, b >> 16); }
-// Lane i: the two words at p + offset[i], the first of them low. Reads these words alone.
-TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  return static_cast<int>(word_pair(p + offset[0]));
-}
-// The words' first and second half as int32.
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return v.a; }
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return v.b; }
-}
-}
-TEXTPLANE_END_NAMESPACE
-#undef TEXTPLANE_SIMD_REGION
-#if TEXTPLANE_HAS_SSE41
-#if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("sse4.1")
-#endif
-#define TEXTPLANE_SIMD_REGION 1
-TEXTPLANE_BEGIN_NAMESPACE
-namespace detail {
-namespace sse41 {
-TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
-}
-TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
-  volatile std::int16_t* out = p;
-  for (int i = from; i < to; ++i) out[i] = 0;
-}
-// What the int16 vectors of the x86 targets share: gathers of eight words, or of four pairs, into 128 bits.
-
-// pinsrw and pinsrd beat gathers and the way through general registers.
-TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
-  std::uint64_t pair;
-  __builtin_memcpy(&pair, offset, 8);
-  return pair;
-}
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
-  return static_cast<std::int64_t>(pair) >> 32;
-}
-TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                         __m128i* first, __m128i* second) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
-  __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
-  __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
-  *first = u;
-  *second = l;
-}
-TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
-  const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
-  __m128i v = _mm_cvtsi32_si128(static_cast<int>(word_pair(p + first_offset(a))));
-  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(a))), 1);
-  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + first_offset(b))), 2);
-  return _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(b))), 3);
-}
-// Eight int16. The operations are defined in words_scalar.inl.
-
-enum : int { k16Lanes = 8 };
-using v16 = __m128i;
-
-TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }
-TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm_add_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm_sub_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return _mm_maddubs_epi16(t, _mm_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
-}
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm_madd_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
-  const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
-}
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  gather_words8(upper, lower, offset, first, second);
-}
-TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept { return gather_pairs4(p, offset); }
-TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
-  return _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(a, 16), 16), _mm_srai_epi32(_mm_slli_epi32(b, 16), 16));
-}
-TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
-  return _mm_packs_epi32(_mm_srai_epi32(a, 16), _mm_srai_epi32(b, 16));
-}
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm_cvtepi16_epi32(v); }
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm_cvtepi16_epi32(_mm_srli_si128(v, 8)); }
-}
-}
-TEXTPLANE_END_NAMESPACE
-#undef TEXTPLANE_SIMD_REGION
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
-#endif
-#if TEXTPLANE_HAS_AVX2
-#if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx2,fma,popcnt"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2,fma,popcnt")
-#endif
-#define TEXTPLANE_SIMD_REGION 2
-TEXTPLANE_BEGIN_NAMESPACE
-namespace detail {
-namespace avx2 {
-TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
-}
-TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
-  volatile std::int16_t* out = p;
-  for (int i = from; i < to; ++i) out[i] = 0;
-}
-TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
-  std::uint64_t pair;
-  __builtin_memcpy(&pair, offset, 8);
-  return pair;
-}
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
-  return static_cast<std::int64_t>(pair) >> 32;
-}
-TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                         __m128i* first, __m128i* second) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
-  __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
-  __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
-  *first = u;
-  *second = l;
-}
-TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
-  const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
-  __m128i v = _mm_cvtsi32_si128(static_cast<int>(word_pair(p + first_offset(a))));
-  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(a))), 1);
-  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + first_offset(b))), 2);
-  return _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(b))), 3);
-}
-// Sixteen int16. The operations are defined in words_scalar.inl.
-
-enum : int { k16Lanes = 16 };
-using v16 = __m256i;
-
-TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm256_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), v);
-}
-TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm256_add_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm256_sub_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm256_mulhrs_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return _mm256_maddubs_epi16(t, _mm256_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
-}
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm256_madd_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
-  return _mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xd8);
-}
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
-  const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
-  const __m128i a = _mm_add_epi32(h, _mm_shuffle_epi32(h, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
-}
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  __m128i u0, l0, u1, l1;
-  gather_words8(upper, lower, offset, &u0, &l0);
-  gather_words8(upper, lower, offset + 8, &u1, &l1);
-  *first = _mm256_inserti128_si256(_mm256_castsi128_si256(u0), u1, 1);
-  *second = _mm256_inserti128_si256(_mm256_castsi128_si256(l0), l1, 1);
-}
-TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  return _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
-}
-TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
-  const __m256i low = _mm256_set1_epi32(65535);
-  return _mm256_permute4x64_epi64(_mm256_packus_epi32(_mm256_and_si256(a, low), _mm256_and_si256(b, low)), 0xd8);
-}
-TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
-  return _mm256_permute4x64_epi64(_mm256_packs_epi32(_mm256_srai_epi32(a, 16), _mm256_srai_epi32(b, 16)), 0xd8);
-}
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm256_cvtepi16_epi32(_mm256_castsi256_si128(v)); }
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm256_cvtepi16_epi32(_mm256_extracti128_si256(v, 1)); }
-}
-}
-TEXTPLANE_END_NAMESPACE
-#undef TEXTPLANE_SIMD_REGION
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
-#endif
-#if TEXTPLANE_HAS_AVX512
-#if defined(TEXTPLANE_EMULATED_AVX512)
-#if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx2,fma,popcnt"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2,fma,popcnt")
-#endif
-#elif defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,avx2,fma,popcnt"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,avx2,fma,popcnt")
-#endif
-#define TEXTPLANE_SIMD_REGION 3
-TEXTPLANE_BEGIN_NAMESPACE
-namespace detail {
-namespace avx512 {
-TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
-}
-TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
-  volatile std::int16_t* out = p;
-  for (int i = from; i < to; ++i) out[i] = 0;
-}
-TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
-  std::uint64_t pair;
-  __builtin_memcpy(&pair, offset, 8);
-  return pair;
-}
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
-  return static_cast<std::int64_t>(pair) >> 32;
-}
-TEXTPLANE_SIMD_INLINE void gather_words8(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
-                                         __m128i* first, __m128i* second) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
-  __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_half(upper + o0)));
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o1)), 1);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o2)), 2);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o3)), 3);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o4)), 4);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o5)), 5);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o6)), 6);
-  u = _mm_insert_epi16(u, static_cast<short>(load_half(upper + o7)), 7);
-  __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_half(lower + o0)));
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o1)), 1);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o2)), 2);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o3)), 3);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o4)), 4);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o5)), 5);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o6)), 6);
-  l = _mm_insert_epi16(l, static_cast<short>(load_half(lower + o7)), 7);
-  *first = u;
-  *second = l;
-}
-TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
-  const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);
-  __m128i v = _mm_cvtsi32_si128(static_cast<int>(word_pair(p + first_offset(a))));
-  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(a))), 1);
-  v = _mm_insert_epi32(v, static_cast<int>(word_pair(p + first_offset(b))), 2);
-  return _mm_insert_epi32(v, static_cast<int>(word_pair(p + second_offset(b))), 3);
-}
-// 32 int16. The operations are defined in words_scalar.inl.
-
-enum : int { k16Lanes = 32 };
-using v16 = __m512i;
-
-TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm512_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return _mm512_loadu_si512(p); }
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { _mm512_storeu_si512(p, v); }
-TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm512_add_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm512_sub_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm512_mulhrs_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return _mm512_maddubs_epi16(t, _mm512_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
-}
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm512_madd_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
-  const __m512i order = _mm512_set_epi64(7, 5, 3, 1, 6, 4, 2, 0);
-  return _mm512_maskz_permutexvar_epi64(0xff, order, _mm512_packs_epi32(low, high));
-}
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
-  const __m256i q =
-      _mm256_add_epi32(_mm512_maskz_extracti64x4_epi64(0xf, v, 0), _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
-  const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(q), _mm256_extracti128_si256(q, 1));
-  const __m128i a = _mm_add_epi32(h, _mm_shuffle_epi32(h, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
-}
-TEXTPLANE_SIMD_INLINE v16 join_words8(const __m128i* p) noexcept {
-  const __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(p[0]), p[1], 1);
-  const __m256i b = _mm256_inserti128_si256(_mm256_castsi128_si256(p[2]), p[3], 1);
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
-}
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  __m128i u[4], l[4];
-  gather_words8(upper, lower, offset, u, l);
-  gather_words8(upper, lower, offset + 8, u + 1, l + 1);
-  gather_words8(upper, lower, offset + 16, u + 2, l + 2);
-  gather_words8(upper, lower, offset + 24, u + 3, l + 3);
-  *first = join_words8(u);
-  *second = join_words8(l);
-}
-TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  const __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
-  const __m256i b =
-      _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset + 8)), gather_pairs4(p, offset + 12), 1);
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
-}
-TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(_mm512_maskz_cvtepi32_epi16(0xffff, a)),
-                                  _mm512_maskz_cvtepi32_epi16(0xffff, b), 1);
-}
-TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
-  return low16(_mm512_maskz_srli_epi32(0xffff, a, 16), _mm512_maskz_srli_epi32(0xffff, b, 16));
-}
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept {
-  return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 0));
-}
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept {
-  return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
-}
-}
-}
-TEXTPLANE_END_NAMESPACE
-#undef TEXTPLANE_SIMD_REGION
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
-#endif
-#if TEXTPLANE_HAS_NEON
-#define TEXTPLANE_SIMD_REGION 4
-TEXTPLANE_BEGIN_NAMESPACE
-namespace detail {
-namespace neon {
-TEXTPLANE_SIMD_INLINE unsigned word_pair(const std::uint16_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
-}
-TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
-  volatile std::int16_t* out = p;
-  for (int i = from; i < to; ++i) out[i] = 0;
-}
-// Eight int16. The operations are defined in words_scalar.inl.
-
-enum : int { k16Lanes = 8 };
-using v16 = int16x8_t;
-
-TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return vdupq_n_s16(static_cast<std::int16_t>(value)); }
-TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return vld1q_s16(p); }
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { vst1q_s16(p, v); }
-TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return vaddq_s16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return vsubq_s16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return vqrdmulhq_s16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  const uint16x8_t u = vreinterpretq_u16_s16(t);
-  const int16x8_t low = vreinterpretq_s16_u16(vandq_u16(u, vdupq_n_u16(255)));
-  const int16x8_t high = vreinterpretq_s16_u16(vshrq_n_u16(u, 8));
-  return vmlaq_n_s16(vmulq_n_s16(low, static_cast<std::int16_t>(w0)), high, static_cast<std::int16_t>(w1));
-}
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept {
-  return vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y));
-}
-TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)); }
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return vaddvq_s32(v); }
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  std::uint16_t u[8], l[8];
-  for (int i = 0; i < 8; ++i) {
-    u[i] = static_cast<std::uint16_t>(load_half(upper + offset[i]));
-    l[i] = static_cast<std::uint16_t>(load_half(lower + offset[i]));
-  }
-  *first = vreinterpretq_s16_u16(vld1q_u16(u));
-  *second = vreinterpretq_s16_u16(vld1q_u16(l));
-}
-TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  std::uint32_t w[4];
-  for (int i = 0; i < 4; ++i) w[i] = word_pair(p + offset[i]);
-  return vreinterpretq_s32_u32(vld1q_u32(w));
-}
-TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
-  return vuzp1q_s16(vreinterpretq_s16_s32(a), vreinterpretq_s16_s32(b));
-}
-TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
-  return vuzp2q_s16(vreinterpretq_s16_s32(a), vreinterpretq_s16_s32(b));
-}
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return vmovl_s16(vget_low_s16(v)); }
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return vmovl_high_s16(v); }
-}
-}
-TEXTPLANE_END_NAMESPACE
-#undef TEXTPLANE_SIMD_REGION
-#endif
-#if defined(__clang__)
-#if defined(__x86_64__) || defined(__i386__)
-#pragma float_control(pop)
-#else
-#pragma STDC FP_CONTRACT DEFAULT
-#endif
-#elif defined(__GNUC__)
-#pragma GCC pop_options
-#endif
-#endif
-#undef TEXTPLANE_SIMD_KERNEL
-
-#endif  // TEXTPLANE_SIMD_WORDS_HPP
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -18204,9 +19282,11 @@ enum : int {
   kTemplateSums = 11,
 };
 
+// Between the loops: divisors, then offsets or, for windows, cells, and fractions.
 struct TemplateStrip {
   float inverse[kTemplateStrip];
   std::int32_t offset[kTemplateStrip];
+  std::int16_t x[kTemplateStrip], y[kTemplateStrip];
   std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
 };
 
@@ -18224,13 +19304,14 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
 }
 
 // Positions in units of 2^-15 px; of them the offsets of the cells, in elements of what is read, clamped so that a cell lies in the
-// buffer whatever its position, and the fractions.
-TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset,
-                                          int high_offset, int n, TemplateStrip& s) noexcept {
+// buffer whatever its position, and the fractions. With windows, the cells instead of offsets.
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const TapWindows* windows, int from, int stride,
+                                          int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
   const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  const v16 x_high = set16(windows ? windows->x_high : 0), y_high = set16(windows ? windows->y_high : 0);
   const float *u = a.u + from, *v = a.v + from;
   for (int i = 0; i < n; i += k16Lanes) {
     const vf p0 = load(u + i), q0 = load(v + i), z0 = load(s.inverse + i);
@@ -18239,12 +19320,22 @@ TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from,
     const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
     const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
     const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
-    const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
-    storei(s.offset + i, mini(maxi(o0, low), high));
-    storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    if (windows) {
+      store16(s.x + i, below16(pack16(shr(x0, 15), shr(x1, 15)), x_high));
+      store16(s.y + i, below16(pack16(shr(y0, 15), shr(y1, 15)), y_high));
+    } else {
+      const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
+      storei(s.offset + i, mini(maxi(o0, low), high));
+      storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    }
     store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
     store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
   }
+}
+
+TEXTPLANE_SIMD_ENTRY void template_window_cells(const simd::TemplateArgs& a, const TapWindows& w, int from, int n,
+                                                TemplateStrip& s) noexcept {
+  template_cells(a, &w, from, 0, 0, 0, n, s);
 }
 
 // Two words of two pixels each: along f inside them, then along g from the first to the second.
@@ -18262,6 +19353,31 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
     v16 first, second;
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+  }
+}
+
+// The same by windows, and then of the groups that these do not hold.
+TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
+                                           std::int16_t* values) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t groups = 0;  // bit 2 i + k: group i of the k-th 256 pixels
+  for (int begin = 0; begin < n; begin += 256) {
+    const int end = n - begin < 256 ? n : begin + 256;
+    std::uint64_t fours = 0;
+    for (int i = begin; i < end; i += k16Lanes) {
+      v16 first, second;
+      fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
+      store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+    }
+    groups |= ((fours | fours >> 1) & 0x5555555555555555ULL) << (begin / 256);
+  }
+  for (; groups != 0; groups &= groups - 1) {
+    const int bit = lowest_bit(groups), i = bit / 2 * 8 + (bit & 1) * 256;
+    int offset[8];
+    group_offsets(s.x + i, s.y + i, static_cast<int>(w.stride), offset);
+    v16 first, second;
+    fetch_group(v.upper, v.middle, offset, &first, &second);
+    store_group(values + i, template_value(first, second, load_group(s.fx + i), load_group(s.fy + i)));
   }
 }
 
@@ -18318,7 +19434,7 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   template_flush(c3, first, low + 3, high + 3);
 }
 
-TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives,
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
   const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
   const int used = derivatives ? kTemplateSums : 3;
@@ -18337,11 +19453,16 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       template_divide(a, from, n, strip);
-      template_cells(a, from, stride, low_offset, high_offset, n, strip);
-      if (paired)
-        template_pairs(a, n, strip, values);
-      else
-        template_rows(a, n, strip, values);
+      if (kTapWindows != 0 && windows) {
+        template_window_cells(a, *windows, from, n, strip);
+        template_windows(*windows, n, strip, values);
+      } else {
+        template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
+        if (paired)
+          template_pairs(a, n, strip, values);
+        else
+          template_rows(a, n, strip, values);
+      }
       if (a.n - from < n) zero16(values, a.n - from, n);
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
@@ -18358,11 +19479,11 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
 }
 
 TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, true, out);
+  template_run(a, nullptr, true, out);
 }
 
 TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, false, out);
+  template_run(a, nullptr, false, out);
 }
 }
 }
@@ -18387,6 +19508,7 @@ enum : int {
 struct TemplateStrip {
   float inverse[kTemplateStrip];
   std::int32_t offset[kTemplateStrip];
+  std::int16_t x[kTemplateStrip], y[kTemplateStrip];
   std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
 };
 TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
@@ -18400,12 +19522,13 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
     store(s.inverse + i + kLanes, mul(r, w0));
   }
 }
-TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset,
-                                          int high_offset, int n, TemplateStrip& s) noexcept {
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const TapWindows* windows, int from, int stride,
+                                          int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
   const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  const v16 x_high = set16(windows ? windows->x_high : 0), y_high = set16(windows ? windows->y_high : 0);
   const float *u = a.u + from, *v = a.v + from;
   for (int i = 0; i < n; i += k16Lanes) {
     const vf p0 = load(u + i), q0 = load(v + i), z0 = load(s.inverse + i);
@@ -18414,12 +19537,21 @@ TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from,
     const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
     const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
     const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
-    const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
-    storei(s.offset + i, mini(maxi(o0, low), high));
-    storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    if (windows) {
+      store16(s.x + i, below16(pack16(shr(x0, 15), shr(x1, 15)), x_high));
+      store16(s.y + i, below16(pack16(shr(y0, 15), shr(y1, 15)), y_high));
+    } else {
+      const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
+      storei(s.offset + i, mini(maxi(o0, low), high));
+      storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    }
     store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
     store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
   }
+}
+TEXTPLANE_SIMD_ENTRY void template_window_cells(const simd::TemplateArgs& a, const TapWindows& w, int from, int n,
+                                                TemplateStrip& s) noexcept {
+  template_cells(a, &w, from, 0, 0, 0, n, s);
 }
 TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) noexcept {
   const v16 a = add16(dot_pair(first, 64, 0), mul15(dot_pair(first, -64, 64), f));
@@ -18434,6 +19566,29 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
     v16 first, second;
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+  }
+}
+TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
+                                           std::int16_t* values) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t groups = 0;
+  for (int begin = 0; begin < n; begin += 256) {
+    const int end = n - begin < 256 ? n : begin + 256;
+    std::uint64_t fours = 0;
+    for (int i = begin; i < end; i += k16Lanes) {
+      v16 first, second;
+      fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
+      store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+    }
+    groups |= ((fours | fours >> 1) & 0x5555555555555555ULL) << (begin / 256);
+  }
+  for (; groups != 0; groups &= groups - 1) {
+    const int bit = lowest_bit(groups), i = bit / 2 * 8 + (bit & 1) * 256;
+    int offset[8];
+    group_offsets(s.x + i, s.y + i, static_cast<int>(w.stride), offset);
+    v16 first, second;
+    fetch_group(v.upper, v.middle, offset, &first, &second);
+    store_group(values + i, template_value(first, second, load_group(s.fx + i), load_group(s.fy + i)));
   }
 }
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
@@ -18482,7 +19637,7 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
 }
-TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives,
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
   const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
   const int used = derivatives ? kTemplateSums : 3;
@@ -18501,11 +19656,16 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       template_divide(a, from, n, strip);
-      template_cells(a, from, stride, low_offset, high_offset, n, strip);
-      if (paired)
-        template_pairs(a, n, strip, values);
-      else
-        template_rows(a, n, strip, values);
+      if (kTapWindows != 0 && windows) {
+        template_window_cells(a, *windows, from, n, strip);
+        template_windows(*windows, n, strip, values);
+      } else {
+        template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
+        if (paired)
+          template_pairs(a, n, strip, values);
+        else
+          template_rows(a, n, strip, values);
+      }
       if (a.n - from < n) zero16(values, a.n - from, n);
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
@@ -18521,10 +19681,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
   }
 }
 TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, true, out);
+  template_run(a, nullptr, true, out);
 }
 TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, false, out);
+  template_run(a, nullptr, false, out);
 }
 }
 }
@@ -18555,6 +19715,7 @@ enum : int {
 struct TemplateStrip {
   float inverse[kTemplateStrip];
   std::int32_t offset[kTemplateStrip];
+  std::int16_t x[kTemplateStrip], y[kTemplateStrip];
   std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
 };
 TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
@@ -18568,12 +19729,13 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
     store(s.inverse + i + kLanes, mul(r, w0));
   }
 }
-TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset,
-                                          int high_offset, int n, TemplateStrip& s) noexcept {
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const TapWindows* windows, int from, int stride,
+                                          int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
   const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  const v16 x_high = set16(windows ? windows->x_high : 0), y_high = set16(windows ? windows->y_high : 0);
   const float *u = a.u + from, *v = a.v + from;
   for (int i = 0; i < n; i += k16Lanes) {
     const vf p0 = load(u + i), q0 = load(v + i), z0 = load(s.inverse + i);
@@ -18582,12 +19744,21 @@ TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from,
     const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
     const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
     const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
-    const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
-    storei(s.offset + i, mini(maxi(o0, low), high));
-    storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    if (windows) {
+      store16(s.x + i, below16(pack16(shr(x0, 15), shr(x1, 15)), x_high));
+      store16(s.y + i, below16(pack16(shr(y0, 15), shr(y1, 15)), y_high));
+    } else {
+      const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
+      storei(s.offset + i, mini(maxi(o0, low), high));
+      storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    }
     store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
     store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
   }
+}
+TEXTPLANE_SIMD_ENTRY void template_window_cells(const simd::TemplateArgs& a, const TapWindows& w, int from, int n,
+                                                TemplateStrip& s) noexcept {
+  template_cells(a, &w, from, 0, 0, 0, n, s);
 }
 TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) noexcept {
   const v16 a = add16(dot_pair(first, 64, 0), mul15(dot_pair(first, -64, 64), f));
@@ -18602,6 +19773,29 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
     v16 first, second;
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+  }
+}
+TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
+                                           std::int16_t* values) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t groups = 0;
+  for (int begin = 0; begin < n; begin += 256) {
+    const int end = n - begin < 256 ? n : begin + 256;
+    std::uint64_t fours = 0;
+    for (int i = begin; i < end; i += k16Lanes) {
+      v16 first, second;
+      fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
+      store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+    }
+    groups |= ((fours | fours >> 1) & 0x5555555555555555ULL) << (begin / 256);
+  }
+  for (; groups != 0; groups &= groups - 1) {
+    const int bit = lowest_bit(groups), i = bit / 2 * 8 + (bit & 1) * 256;
+    int offset[8];
+    group_offsets(s.x + i, s.y + i, static_cast<int>(w.stride), offset);
+    v16 first, second;
+    fetch_group(v.upper, v.middle, offset, &first, &second);
+    store_group(values + i, template_value(first, second, load_group(s.fx + i), load_group(s.fy + i)));
   }
 }
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
@@ -18650,7 +19844,7 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
 }
-TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives,
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
   const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
   const int used = derivatives ? kTemplateSums : 3;
@@ -18669,11 +19863,16 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       template_divide(a, from, n, strip);
-      template_cells(a, from, stride, low_offset, high_offset, n, strip);
-      if (paired)
-        template_pairs(a, n, strip, values);
-      else
-        template_rows(a, n, strip, values);
+      if (kTapWindows != 0 && windows) {
+        template_window_cells(a, *windows, from, n, strip);
+        template_windows(*windows, n, strip, values);
+      } else {
+        template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
+        if (paired)
+          template_pairs(a, n, strip, values);
+        else
+          template_rows(a, n, strip, values);
+      }
       if (a.n - from < n) zero16(values, a.n - from, n);
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
@@ -18689,10 +19888,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
   }
 }
 TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, true, out);
+  template_run(a, nullptr, true, out);
 }
 TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, false, out);
+  template_run(a, nullptr, false, out);
 }
 }
 }
@@ -18730,6 +19929,7 @@ enum : int {
 struct TemplateStrip {
   float inverse[kTemplateStrip];
   std::int32_t offset[kTemplateStrip];
+  std::int16_t x[kTemplateStrip], y[kTemplateStrip];
   std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
 };
 TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
@@ -18743,12 +19943,13 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
     store(s.inverse + i + kLanes, mul(r, w0));
   }
 }
-TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset,
-                                          int high_offset, int n, TemplateStrip& s) noexcept {
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const TapWindows* windows, int from, int stride,
+                                          int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
   const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  const v16 x_high = set16(windows ? windows->x_high : 0), y_high = set16(windows ? windows->y_high : 0);
   const float *u = a.u + from, *v = a.v + from;
   for (int i = 0; i < n; i += k16Lanes) {
     const vf p0 = load(u + i), q0 = load(v + i), z0 = load(s.inverse + i);
@@ -18757,12 +19958,21 @@ TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from,
     const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
     const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
     const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
-    const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
-    storei(s.offset + i, mini(maxi(o0, low), high));
-    storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    if (windows) {
+      store16(s.x + i, below16(pack16(shr(x0, 15), shr(x1, 15)), x_high));
+      store16(s.y + i, below16(pack16(shr(y0, 15), shr(y1, 15)), y_high));
+    } else {
+      const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
+      storei(s.offset + i, mini(maxi(o0, low), high));
+      storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    }
     store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
     store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
   }
+}
+TEXTPLANE_SIMD_ENTRY void template_window_cells(const simd::TemplateArgs& a, const TapWindows& w, int from, int n,
+                                                TemplateStrip& s) noexcept {
+  template_cells(a, &w, from, 0, 0, 0, n, s);
 }
 TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) noexcept {
   const v16 a = add16(dot_pair(first, 64, 0), mul15(dot_pair(first, -64, 64), f));
@@ -18777,6 +19987,29 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
     v16 first, second;
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+  }
+}
+TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
+                                           std::int16_t* values) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t groups = 0;
+  for (int begin = 0; begin < n; begin += 256) {
+    const int end = n - begin < 256 ? n : begin + 256;
+    std::uint64_t fours = 0;
+    for (int i = begin; i < end; i += k16Lanes) {
+      v16 first, second;
+      fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
+      store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+    }
+    groups |= ((fours | fours >> 1) & 0x5555555555555555ULL) << (begin / 256);
+  }
+  for (; groups != 0; groups &= groups - 1) {
+    const int bit = lowest_bit(groups), i = bit / 2 * 8 + (bit & 1) * 256;
+    int offset[8];
+    group_offsets(s.x + i, s.y + i, static_cast<int>(w.stride), offset);
+    v16 first, second;
+    fetch_group(v.upper, v.middle, offset, &first, &second);
+    store_group(values + i, template_value(first, second, load_group(s.fx + i), load_group(s.fy + i)));
   }
 }
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
@@ -18825,7 +20058,7 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
 }
-TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives,
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
   const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
   const int used = derivatives ? kTemplateSums : 3;
@@ -18844,11 +20077,16 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       template_divide(a, from, n, strip);
-      template_cells(a, from, stride, low_offset, high_offset, n, strip);
-      if (paired)
-        template_pairs(a, n, strip, values);
-      else
-        template_rows(a, n, strip, values);
+      if (kTapWindows != 0 && windows) {
+        template_window_cells(a, *windows, from, n, strip);
+        template_windows(*windows, n, strip, values);
+      } else {
+        template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
+        if (paired)
+          template_pairs(a, n, strip, values);
+        else
+          template_rows(a, n, strip, values);
+      }
       if (a.n - from < n) zero16(values, a.n - from, n);
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
@@ -18864,10 +20102,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
   }
 }
 TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, true, out);
+  template_run(a, nullptr, true, out);
 }
 TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, false, out);
+  template_run(a, nullptr, false, out);
 }
 }
 }
@@ -18892,6 +20130,7 @@ enum : int {
 struct TemplateStrip {
   float inverse[kTemplateStrip];
   std::int32_t offset[kTemplateStrip];
+  std::int16_t x[kTemplateStrip], y[kTemplateStrip];
   std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
 };
 TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
@@ -18905,12 +20144,13 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
     store(s.inverse + i + kLanes, mul(r, w0));
   }
 }
-TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset,
-                                          int high_offset, int n, TemplateStrip& s) noexcept {
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const TapWindows* windows, int from, int stride,
+                                          int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
   const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  const v16 x_high = set16(windows ? windows->x_high : 0), y_high = set16(windows ? windows->y_high : 0);
   const float *u = a.u + from, *v = a.v + from;
   for (int i = 0; i < n; i += k16Lanes) {
     const vf p0 = load(u + i), q0 = load(v + i), z0 = load(s.inverse + i);
@@ -18919,12 +20159,21 @@ TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from,
     const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
     const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
     const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
-    const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
-    storei(s.offset + i, mini(maxi(o0, low), high));
-    storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    if (windows) {
+      store16(s.x + i, below16(pack16(shr(x0, 15), shr(x1, 15)), x_high));
+      store16(s.y + i, below16(pack16(shr(y0, 15), shr(y1, 15)), y_high));
+    } else {
+      const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
+      storei(s.offset + i, mini(maxi(o0, low), high));
+      storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    }
     store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
     store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
   }
+}
+TEXTPLANE_SIMD_ENTRY void template_window_cells(const simd::TemplateArgs& a, const TapWindows& w, int from, int n,
+                                                TemplateStrip& s) noexcept {
+  template_cells(a, &w, from, 0, 0, 0, n, s);
 }
 TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) noexcept {
   const v16 a = add16(dot_pair(first, 64, 0), mul15(dot_pair(first, -64, 64), f));
@@ -18939,6 +20188,29 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
     v16 first, second;
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+  }
+}
+TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
+                                           std::int16_t* values) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t groups = 0;
+  for (int begin = 0; begin < n; begin += 256) {
+    const int end = n - begin < 256 ? n : begin + 256;
+    std::uint64_t fours = 0;
+    for (int i = begin; i < end; i += k16Lanes) {
+      v16 first, second;
+      fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
+      store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+    }
+    groups |= ((fours | fours >> 1) & 0x5555555555555555ULL) << (begin / 256);
+  }
+  for (; groups != 0; groups &= groups - 1) {
+    const int bit = lowest_bit(groups), i = bit / 2 * 8 + (bit & 1) * 256;
+    int offset[8];
+    group_offsets(s.x + i, s.y + i, static_cast<int>(w.stride), offset);
+    v16 first, second;
+    fetch_group(v.upper, v.middle, offset, &first, &second);
+    store_group(values + i, template_value(first, second, load_group(s.fx + i), load_group(s.fy + i)));
   }
 }
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
@@ -18987,7 +20259,7 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
 }
-TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives,
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
   const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
   const int used = derivatives ? kTemplateSums : 3;
@@ -19006,11 +20278,16 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       template_divide(a, from, n, strip);
-      template_cells(a, from, stride, low_offset, high_offset, n, strip);
-      if (paired)
-        template_pairs(a, n, strip, values);
-      else
-        template_rows(a, n, strip, values);
+      if (kTapWindows != 0 && windows) {
+        template_window_cells(a, *windows, from, n, strip);
+        template_windows(*windows, n, strip, values);
+      } else {
+        template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
+        if (paired)
+          template_pairs(a, n, strip, values);
+        else
+          template_rows(a, n, strip, values);
+      }
       if (a.n - from < n) zero16(values, a.n - from, n);
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
@@ -19026,10 +20303,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
   }
 }
 TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, true, out);
+  template_run(a, nullptr, true, out);
 }
 TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, false, out);
+  template_run(a, nullptr, false, out);
 }
 }
 }
@@ -19068,12 +20345,14 @@ namespace scalar {
 // Costs and normal equations from the exact sums of template.inl, in double: see simd/template.hpp.
 
 // The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are visible.
-TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t) noexcept {
+TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
+                                          TapWindows* windows) noexcept {
   if (!f.inside) return false;
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx, v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
+               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -19094,6 +20373,15 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   t->g[7] = static_cast<float>(g[7]);
   t->ox = f.warp.ox + dx;
   t->oy = f.warp.oy + dy;
+  // A pixel from where a window would leave the image, no cell is moved.
+  const simd::Image8& target = t->target;
+  if (make_windows(target.data, target.stride, target.width, target.height, t->ox, t->oy, windows) && !target.pairs &&
+      x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+      y_high + f.warp.oy < target.height - 3) {
+    const float* k = t->g;
+    windows->guess =
+        guess_windows(m.u, m.v, m.n, k[0] - k[2] * k[6], k[1] - k[2] * k[7], k[3] - k[5] * k[6], k[4] - k[5] * k[7]);
+  }
   return true;
 }
 
@@ -19142,8 +20430,8 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
 }
 
 // What the weights of the outliers in the list take away from the sums.
-TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root, float delta,
-                                             WeightedSums* sums) noexcept {
+TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root,
+                                             float delta, WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
@@ -19177,8 +20465,10 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   info->status = Status::rank_deficient;
   if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
   simd::TemplateArgs t;
+  t.target = a.target;
+  TapWindows windows;
   info->status = Status::out_of_view;
-  if (!template_frame(m, f, &t)) return;
+  if (!template_frame(m, f, &t, &windows)) return;
   info->candidates = info->visible = m.n;
   if (a.flags) set_all(a.flags, a.n);
   info->status = Status::too_few;
@@ -19187,10 +20477,9 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   t.v = m.v;
   t.rows = m.rows;
   t.n = m.n;
-  t.target = a.target;
   t.values = values;
   simd::TemplateSums exact;
-  template_run(t, derivatives, exact);
+  template_run(t, windows.guess.likely ? &windows : nullptr, derivatives, exact);
 
   Residual r;
   double mean, norm;
@@ -19202,7 +20491,8 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   if (a.huber) {
     double squares = 0, rho = 0;
     widen_values(values, m.n, s.d);
-    outliers = add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
+    outliers =
+        add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
     info->cost = rho / count;
   }
   if (!derivatives) return;
@@ -19239,13 +20529,14 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   change_parameters(M, sums.S, sums.wr, H, b);
 }
 
-TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                             simd::ResidualInfo* info, double* H, double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                             std::int16_t* values, simd::ResidualInfo* info, double* H,
+                                             double* b) noexcept {
   template_any(m, a, values, true, info, H, b);
   if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
 }
-TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                            simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                            std::int16_t* values, simd::ResidualInfo* info) noexcept {
   template_any(m, a, values, false, info, nullptr, nullptr);
 }
 }
@@ -19263,12 +20554,14 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace sse41 {
-TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t) noexcept {
+TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
+                                          TapWindows* windows) noexcept {
   if (!f.inside) return false;
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx, v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
+               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -19289,6 +20582,14 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   t->g[7] = static_cast<float>(g[7]);
   t->ox = f.warp.ox + dx;
   t->oy = f.warp.oy + dy;
+  const simd::Image8& target = t->target;
+  if (make_windows(target.data, target.stride, target.width, target.height, t->ox, t->oy, windows) && !target.pairs &&
+      x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+      y_high + f.warp.oy < target.height - 3) {
+    const float* k = t->g;
+    windows->guess =
+        guess_windows(m.u, m.v, m.n, k[0] - k[2] * k[6], k[1] - k[2] * k[7], k[3] - k[5] * k[6], k[4] - k[5] * k[7]);
+  }
   return true;
 }
 TEXTPLANE_SIMD_INLINE Status template_residual(const simd::TemplateModel& m, const simd::ResidualArgs& a,
@@ -19329,8 +20630,8 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
   s.i = const_cast<float*>(m.intensity);
   return s;
 }
-TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root, float delta,
-                                             WeightedSums* sums) noexcept {
+TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root,
+                                             float delta, WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
@@ -19362,8 +20663,10 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   info->status = Status::rank_deficient;
   if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
   simd::TemplateArgs t;
+  t.target = a.target;
+  TapWindows windows;
   info->status = Status::out_of_view;
-  if (!template_frame(m, f, &t)) return;
+  if (!template_frame(m, f, &t, &windows)) return;
   info->candidates = info->visible = m.n;
   if (a.flags) set_all(a.flags, a.n);
   info->status = Status::too_few;
@@ -19372,10 +20675,9 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   t.v = m.v;
   t.rows = m.rows;
   t.n = m.n;
-  t.target = a.target;
   t.values = values;
   simd::TemplateSums exact;
-  template_run(t, derivatives, exact);
+  template_run(t, windows.guess.likely ? &windows : nullptr, derivatives, exact);
   Residual r;
   double mean, norm;
   info->status = template_residual(m, a, exact, &mean, &norm, &r, info);
@@ -19386,7 +20688,8 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   if (a.huber) {
     double squares = 0, rho = 0;
     widen_values(values, m.n, s.d);
-    outliers = add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
+    outliers =
+        add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
     info->cost = rho / count;
   }
   if (!derivatives) return;
@@ -19419,13 +20722,14 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                             simd::ResidualInfo* info, double* H, double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                             std::int16_t* values, simd::ResidualInfo* info, double* H,
+                                             double* b) noexcept {
   template_any(m, a, values, true, info, H, b);
   if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
 }
-TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                            simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                            std::int16_t* values, simd::ResidualInfo* info) noexcept {
   template_any(m, a, values, false, info, nullptr, nullptr);
 }
 }
@@ -19449,12 +20753,14 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace avx2 {
-TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t) noexcept {
+TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
+                                          TapWindows* windows) noexcept {
   if (!f.inside) return false;
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx, v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
+               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -19475,6 +20781,14 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   t->g[7] = static_cast<float>(g[7]);
   t->ox = f.warp.ox + dx;
   t->oy = f.warp.oy + dy;
+  const simd::Image8& target = t->target;
+  if (make_windows(target.data, target.stride, target.width, target.height, t->ox, t->oy, windows) && !target.pairs &&
+      x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+      y_high + f.warp.oy < target.height - 3) {
+    const float* k = t->g;
+    windows->guess =
+        guess_windows(m.u, m.v, m.n, k[0] - k[2] * k[6], k[1] - k[2] * k[7], k[3] - k[5] * k[6], k[4] - k[5] * k[7]);
+  }
   return true;
 }
 TEXTPLANE_SIMD_INLINE Status template_residual(const simd::TemplateModel& m, const simd::ResidualArgs& a,
@@ -19515,8 +20829,8 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
   s.i = const_cast<float*>(m.intensity);
   return s;
 }
-TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root, float delta,
-                                             WeightedSums* sums) noexcept {
+TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root,
+                                             float delta, WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
@@ -19548,8 +20862,10 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   info->status = Status::rank_deficient;
   if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
   simd::TemplateArgs t;
+  t.target = a.target;
+  TapWindows windows;
   info->status = Status::out_of_view;
-  if (!template_frame(m, f, &t)) return;
+  if (!template_frame(m, f, &t, &windows)) return;
   info->candidates = info->visible = m.n;
   if (a.flags) set_all(a.flags, a.n);
   info->status = Status::too_few;
@@ -19558,10 +20874,9 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   t.v = m.v;
   t.rows = m.rows;
   t.n = m.n;
-  t.target = a.target;
   t.values = values;
   simd::TemplateSums exact;
-  template_run(t, derivatives, exact);
+  template_run(t, windows.guess.likely ? &windows : nullptr, derivatives, exact);
   Residual r;
   double mean, norm;
   info->status = template_residual(m, a, exact, &mean, &norm, &r, info);
@@ -19572,7 +20887,8 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   if (a.huber) {
     double squares = 0, rho = 0;
     widen_values(values, m.n, s.d);
-    outliers = add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
+    outliers =
+        add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
     info->cost = rho / count;
   }
   if (!derivatives) return;
@@ -19605,13 +20921,14 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                             simd::ResidualInfo* info, double* H, double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                             std::int16_t* values, simd::ResidualInfo* info, double* H,
+                                             double* b) noexcept {
   template_any(m, a, values, true, info, H, b);
   if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
 }
-TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                            simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                            std::int16_t* values, simd::ResidualInfo* info) noexcept {
   template_any(m, a, values, false, info, nullptr, nullptr);
 }
 }
@@ -19642,12 +20959,14 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace avx512 {
-TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t) noexcept {
+TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
+                                          TapWindows* windows) noexcept {
   if (!f.inside) return false;
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx, v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
+               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -19668,6 +20987,14 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   t->g[7] = static_cast<float>(g[7]);
   t->ox = f.warp.ox + dx;
   t->oy = f.warp.oy + dy;
+  const simd::Image8& target = t->target;
+  if (make_windows(target.data, target.stride, target.width, target.height, t->ox, t->oy, windows) && !target.pairs &&
+      x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+      y_high + f.warp.oy < target.height - 3) {
+    const float* k = t->g;
+    windows->guess =
+        guess_windows(m.u, m.v, m.n, k[0] - k[2] * k[6], k[1] - k[2] * k[7], k[3] - k[5] * k[6], k[4] - k[5] * k[7]);
+  }
   return true;
 }
 TEXTPLANE_SIMD_INLINE Status template_residual(const simd::TemplateModel& m, const simd::ResidualArgs& a,
@@ -19708,8 +21035,8 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
   s.i = const_cast<float*>(m.intensity);
   return s;
 }
-TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root, float delta,
-                                             WeightedSums* sums) noexcept {
+TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root,
+                                             float delta, WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
@@ -19741,8 +21068,10 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   info->status = Status::rank_deficient;
   if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
   simd::TemplateArgs t;
+  t.target = a.target;
+  TapWindows windows;
   info->status = Status::out_of_view;
-  if (!template_frame(m, f, &t)) return;
+  if (!template_frame(m, f, &t, &windows)) return;
   info->candidates = info->visible = m.n;
   if (a.flags) set_all(a.flags, a.n);
   info->status = Status::too_few;
@@ -19751,10 +21080,9 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   t.v = m.v;
   t.rows = m.rows;
   t.n = m.n;
-  t.target = a.target;
   t.values = values;
   simd::TemplateSums exact;
-  template_run(t, derivatives, exact);
+  template_run(t, windows.guess.likely ? &windows : nullptr, derivatives, exact);
   Residual r;
   double mean, norm;
   info->status = template_residual(m, a, exact, &mean, &norm, &r, info);
@@ -19765,7 +21093,8 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   if (a.huber) {
     double squares = 0, rho = 0;
     widen_values(values, m.n, s.d);
-    outliers = add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
+    outliers =
+        add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
     info->cost = rho / count;
   }
   if (!derivatives) return;
@@ -19798,13 +21127,14 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                             simd::ResidualInfo* info, double* H, double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                             std::int16_t* values, simd::ResidualInfo* info, double* H,
+                                             double* b) noexcept {
   template_any(m, a, values, true, info, H, b);
   if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
 }
-TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                            simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                            std::int16_t* values, simd::ResidualInfo* info) noexcept {
   template_any(m, a, values, false, info, nullptr, nullptr);
 }
 }
@@ -19822,12 +21152,14 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace neon {
-TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t) noexcept {
+TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
+                                          TapWindows* windows) noexcept {
   if (!f.inside) return false;
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx, v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
+               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -19848,6 +21180,14 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   t->g[7] = static_cast<float>(g[7]);
   t->ox = f.warp.ox + dx;
   t->oy = f.warp.oy + dy;
+  const simd::Image8& target = t->target;
+  if (make_windows(target.data, target.stride, target.width, target.height, t->ox, t->oy, windows) && !target.pairs &&
+      x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+      y_high + f.warp.oy < target.height - 3) {
+    const float* k = t->g;
+    windows->guess =
+        guess_windows(m.u, m.v, m.n, k[0] - k[2] * k[6], k[1] - k[2] * k[7], k[3] - k[5] * k[6], k[4] - k[5] * k[7]);
+  }
   return true;
 }
 TEXTPLANE_SIMD_INLINE Status template_residual(const simd::TemplateModel& m, const simd::ResidualArgs& a,
@@ -19888,8 +21228,8 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
   s.i = const_cast<float*>(m.intensity);
   return s;
 }
-TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root, float delta,
-                                             WeightedSums* sums) noexcept {
+TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root,
+                                             float delta, WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
@@ -19921,8 +21261,10 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   info->status = Status::rank_deficient;
   if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
   simd::TemplateArgs t;
+  t.target = a.target;
+  TapWindows windows;
   info->status = Status::out_of_view;
-  if (!template_frame(m, f, &t)) return;
+  if (!template_frame(m, f, &t, &windows)) return;
   info->candidates = info->visible = m.n;
   if (a.flags) set_all(a.flags, a.n);
   info->status = Status::too_few;
@@ -19931,10 +21273,9 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   t.v = m.v;
   t.rows = m.rows;
   t.n = m.n;
-  t.target = a.target;
   t.values = values;
   simd::TemplateSums exact;
-  template_run(t, derivatives, exact);
+  template_run(t, windows.guess.likely ? &windows : nullptr, derivatives, exact);
   Residual r;
   double mean, norm;
   info->status = template_residual(m, a, exact, &mean, &norm, &r, info);
@@ -19945,7 +21286,8 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   if (a.huber) {
     double squares = 0, rho = 0;
     widen_values(values, m.n, s.d);
-    outliers = add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
+    outliers =
+        add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
     info->cost = rho / count;
   }
   if (!derivatives) return;
@@ -19978,13 +21320,14 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                             simd::ResidualInfo* info, double* H, double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                             std::int16_t* values, simd::ResidualInfo* info, double* H,
+                                             double* b) noexcept {
   template_any(m, a, values, true, info, H, b);
   if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
 }
-TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                            simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                            std::int16_t* values, simd::ResidualInfo* info) noexcept {
   template_any(m, a, values, false, info, nullptr, nullptr);
 }
 }

@@ -84,6 +84,7 @@ enum : int {
 struct ResidualFrame {
   simd::Warp8 warp;
   SampleFrame sample;
+  TapWindows windows;  // used where its guess is likely
   float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
   double inverse[9];  // H^-1, row-major
   double q[3];        // theta^T H^-1

@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "textplane/simd/vec.hpp"
+#include "textplane/simd/windows.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -83,11 +83,13 @@ namespace detail {
 // Points are worked on in strips, so that what passes from one short loop to the next stays in the first cache.
 enum : int { kStrip = 256 };
 
-// Between the loops over a strip: position inside the cell, offset of the cell in bytes (or pairs), its four pixels.
+// Between the loops over a strip: position inside the cell, offset of the cell in bytes or pairs, its four pixels; for windows
+// the cell itself.
 struct SampleStrip {
   float fx[kStrip], fy[kStrip];
   std::int32_t offset[kStrip];
   std::uint32_t taps[kStrip];
+  std::int16_t x[kStrip], y[kStrip];
 };
 
 // The origin's pixel, bounds and stride in the units of the target that is read.

@@ -13,10 +13,13 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm512_maddubs_epi16(t, _mm512_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
 TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm512_madd_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
-  const __m512i order = _mm512_set_epi64(7, 5, 3, 1, 6, 4, 2, 0);
-  return _mm512_maskz_permutexvar_epi64(0xff, order, _mm512_packs_epi32(low, high));
+// Numbers of words, two a lane: (first, second) in lane 0 and (step, step) more in each lane after it.
+TEXTPLANE_SIMD_INLINE __m512i word_order(int first, int second, int step) noexcept {
+  return addi(muli(ioti(), seti(step * 0x00010001)), seti(second * 0x00010000 + first));
 }
+TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return _mm512_permutex2var_epi16(a, word_order(0, 2, 4), b); }
+TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return _mm512_permutex2var_epi16(a, word_order(1, 3, 4), b); }
+TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return low16(low, high); }
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
   const __m256i q =
       _mm256_add_epi32(_mm512_maskz_extracti64x4_epi64(0xf, v, 0), _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
@@ -40,17 +43,11 @@ TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_
   *second = join_words8(l);
 }
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  const __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
+  const __m256i a =
+      _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
   const __m256i b =
       _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset + 8)), gather_pairs4(p, offset + 12), 1);
   return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
-}
-TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(_mm512_maskz_cvtepi32_epi16(0xffff, a)),
-                                  _mm512_maskz_cvtepi32_epi16(0xffff, b), 1);
-}
-TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept {
-  return low16(_mm512_maskz_srli_epi32(0xffff, a, 16), _mm512_maskz_srli_epi32(0xffff, b, 16));
 }
 TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept {
   return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 0));

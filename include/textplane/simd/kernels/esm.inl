@@ -179,6 +179,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
   // As residual_any().
   for (int attempt = 0; attempt < 2; ++attempt) {
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
     const bool closed = pixels.x != a.x;

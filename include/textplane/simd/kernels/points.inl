@@ -77,7 +77,7 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
       if (a.inside)
         for (int k = 0; k < kLanes && i + k < n; ++k) a.inside[begin + i + k] = static_cast<std::uint8_t>(b >> k & 1U);
     }
-    fetch_taps(frame, n, &strip);
+    fetch_taps(frame, 0, n, &strip);
     for (int i = 0; i < n; i += kLanes) {
       vf v, dx, dy;
       interpolate_vector(strip, i, paired, &v, &dx, &dy);

@@ -15,6 +15,7 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
     info->status = Status::too_few;
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     if (parameters == 0)
       info->status = pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
     else

@@ -99,12 +99,41 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
   return HostPixels{s.hx, s.hy, s.h, info->visible};
 }
 
+// Decides whether these host pixels take windows. Where they do, no cell is closer to the right or the lower border than a window
+// and a pixel.
+TEXTPLANE_SIMD_ENTRY void choose_windows(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                         const HostPixels& host, ResidualFrame* f) noexcept {
+  const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
+  if (!f->inside || a.target.pairs) return;
+  const TapGuess guess = guess_windows(host.x, host.y, host.n, (g[0] - x * g[6]) * z, (g[1] - x * g[7]) * z,
+                                       (g[3] - y * g[6]) * z, (g[4] - y * g[7]) * z);
+  const simd::Image8& t = a.target;
+  if (!guess.likely || !make_windows(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->windows)) return;
+  SampleFrame inner = f->sample;
+  inner.x_last = static_cast<float>(f->windows.x_high);
+  inner.y_last = static_cast<float>(f->windows.y_high);
+  if (box_inside(*f, inner, bounds)) f->windows.guess = guess;
+}
+
+// Target coordinates, fractions and taps of n pixels, whole v16, by windows. (Inlined, it would slow down what is without.)
+TEXTPLANE_SIMD_ENTRY void collect_windows(const ResidualFrame& f, const float* px, const float* py, int n, float* x,
+                                          float* y, SampleStrip* strip) noexcept {
+  warp_windows(f.warp, f.sample, f.windows, px, py, n, x, y, strip);
+  fetch_windows(f.windows, n, strip);
+}
+
 // Strip of n host pixels from `begin` on: target coordinates, intensities, gradients (unless `values` alone are wanted). Whole
 // vectors are written, zero beyond n.
 TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
-  warp_strip(f.warp, f.sample, host.x + begin, host.y + begin, n, s.x + begin, s.y + begin, strip);
-  fetch_taps(f.sample, n, strip);
+  const float *px = host.x + begin, *py = host.y + begin;
+  int held = 0;
+  if (kTapWindows != 0 && f.windows.guess.likely) {
+    held = n / k16Lanes * k16Lanes;
+    collect_windows(f, px, py, held, s.x + begin, s.y + begin, strip);
+  }
+  warp_strip(f.warp, f.sample, px, py, held, n, s.x + begin, s.y + begin, strip);
+  fetch_taps(f.sample, held, n, strip);
   const bool paired = f.sample.pairs != nullptr;
   if (values) {
     if (paired)

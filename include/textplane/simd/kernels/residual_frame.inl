@@ -6,18 +6,28 @@ TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
 constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
 
-// That the points (u, v) are in front of both cameras and project into the target, with a margin for what rounding does here and
-// in the warp.
-TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, vf u, vf v) noexcept {
+// That the points (u, v) are in front of both cameras and project into the target, whose bounds are those of `sample`, with a
+// margin for what rounding does here and in the warp.
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
   const float *g = f.warp.g, margin = 1e-3F;
   const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
            y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
   const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
   const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
   const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
-  const vm across = and_(gt(x, mul(set1(f.sample.x_low + margin), z)), lt(x, mul(set1(f.sample.x_last - margin), z)));
-  const vm down = and_(gt(y, mul(set1(f.sample.y_low + margin), z)), lt(y, mul(set1(f.sample.y_last - margin), z)));
+  const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
   return all(and_(ahead, and_(across, down)));
+}
+
+// All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.
+TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
+                                      const simd::PointBounds& bounds) noexcept {
+  const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
+  bool inside = true;
+  for (int k = 0; k < 4; k += kLanes)
+    inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  return inside;
 }
 
 // False where float or H^-1 do not carry the case.
@@ -80,10 +90,7 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
   f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
 
-  // All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.
-  const vf ru = set1(bounds.x_high - hx + 1e-3F), rv = set1(bounds.y_high - hy + 1e-3F);
-  f->inside = bounds.n == a.n;
-  for (int k = 0; k < 4; k += kLanes)
-    f->inside = f->inside && corners_inside(*f, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
+  f->windows.guess.likely = false;
   return true;
 }

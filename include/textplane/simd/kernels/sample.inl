@@ -141,26 +141,57 @@ TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleS
   storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
 }
 
-// Warp of the n <= kStrip host pixels px, py: target coordinates to x and y, cells to the strip.
+// Warp of the host pixels px, py from `i` on, n <= kStrip in all: target coordinates to x and y, cells to the strip.
 TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
-                                      int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                      int i, int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const WarpVectors warp = spread(w);
   const CellVectors cells = spread(f);
   vf tx, ty, divisor;
-  int i = 0;
   for (; i + kLanes <= n; i += kLanes) {
     warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
     cell_vector(cells, tx, ty, s, i);
     store(x + i, tx);
     store(y + i, ty);
   }
-  if (i == n) return;
+  if (i >= n) return;
   warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
   cell_vector(cells, tx, ty, s, i);
   store(x + i, tx);
   store(y + i, ty);
+}
+
+// The same of the first n pixels, whole v16, for windows.
+TEXTPLANE_SIMD_INLINE vf window_cell(vf x, vf low, vf high, float* fraction) noexcept {
+  const vf cell = min_(max_(floor_(x), low), high);
+  store(fraction, sub(x, cell));
+  return cell;
+}
+TEXTPLANE_SIMD_INLINE void warp_windows(const simd::Warp8& w, const SampleFrame& f, const TapWindows& windows,
+                                        const float* TEXTPLANE_SIMD_RESTRICT px,
+                                        const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                        float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                        SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = spread(w);
+  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(windows.x_high));
+  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(windows.y_high));
+  for (int i = 0; i < n; i += k16Lanes) {
+    const int j = i + kLanes;
+    vf x0, y0, x1, y1, divisor;
+    warp_vector(warp, load(px + i), load(py + i), &x0, &y0, &divisor);
+    store(x + i, x0);
+    store(y + i, y0);
+    const vi a0 = to_int(window_cell(x0, x_low, x_high, s->fx + i)),
+             b0 = to_int(window_cell(y0, y_low, y_high, s->fy + i));
+    warp_vector(warp, load(px + j), load(py + j), &x1, &y1, &divisor);
+    store(x + j, x1);
+    store(y + j, y1);
+    const vi a1 = to_int(window_cell(x1, x_low, x_high, s->fx + j)),
+             b1 = to_int(window_cell(y1, y_low, y_high, s->fy + j));
+    store16(s->x + i, pack16(a0, a1));
+    store16(s->y + i, pack16(b0, b1));
+  }
 }
 
 // The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs the
@@ -189,12 +220,29 @@ TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip*
   }
   for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
 }
-TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int n, SampleStrip* s) noexcept {
+// The same of n cells, whole v16, by windows, and then of the groups that these do not hold.
+TEXTPLANE_SIMD_INLINE void fetch_windows(const TapWindows& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t fours = 0;
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    fours |= static_cast<std::uint64_t>(window_words(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
+    store_taps(s->taps + i, first, second);
+  }
+  for (std::uint64_t groups = (fours | fours >> 1) & 0x5555555555555555ULL; groups != 0; groups &= groups - 1) {
+    const int i = 4 * lowest_bit(groups);
+    group_offsets(s->x + i, s->y + i, static_cast<int>(w.stride), s->offset + i);
+    fetch_four(v.upper, v.middle, s->offset + i, s->taps + i);
+    fetch_four(v.upper, v.middle, s->offset + i + 4, s->taps + i + 4);
+  }
+}
+// Those of the cells `from` on, n in all.
+TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, SampleStrip* s) noexcept {
   // Whole vectors of words are read later: those beyond n repeat the first.
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
-    fetch_rows(f.bytes, f.stride, s->offset, n, s->taps);
+    fetch_rows(f.bytes, f.stride, s->offset + from, n - from, s->taps + from);
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 

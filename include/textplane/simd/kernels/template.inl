@@ -10,9 +10,11 @@ enum : int {
   kTemplateSums = 11,
 };
 
+// Between the loops: divisors, then offsets or, for windows, cells, and fractions.
 struct TemplateStrip {
   float inverse[kTemplateStrip];
   std::int32_t offset[kTemplateStrip];
+  std::int16_t x[kTemplateStrip], y[kTemplateStrip];
   std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
 };
 
@@ -30,13 +32,14 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
 }
 
 // Positions in units of 2^-15 px; of them the offsets of the cells, in elements of what is read, clamped so that a cell lies in the
-// buffer whatever its position, and the fractions.
-TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from, int stride, int low_offset,
-                                          int high_offset, int n, TemplateStrip& s) noexcept {
+// buffer whatever its position, and the fractions. With windows, the cells instead of offsets.
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const TapWindows* windows, int from, int stride,
+                                          int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
   const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  const v16 x_high = set16(windows ? windows->x_high : 0), y_high = set16(windows ? windows->y_high : 0);
   const float *u = a.u + from, *v = a.v + from;
   for (int i = 0; i < n; i += k16Lanes) {
     const vf p0 = load(u + i), q0 = load(v + i), z0 = load(s.inverse + i);
@@ -45,12 +48,22 @@ TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, int from,
     const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
     const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
     const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
-    const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
-    storei(s.offset + i, mini(maxi(o0, low), high));
-    storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    if (windows) {
+      store16(s.x + i, below16(pack16(shr(x0, 15), shr(x1, 15)), x_high));
+      store16(s.y + i, below16(pack16(shr(y0, 15), shr(y1, 15)), y_high));
+    } else {
+      const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
+      storei(s.offset + i, mini(maxi(o0, low), high));
+      storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+    }
     store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
     store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
   }
+}
+
+TEXTPLANE_SIMD_ENTRY void template_window_cells(const simd::TemplateArgs& a, const TapWindows& w, int from, int n,
+                                                TemplateStrip& s) noexcept {
+  template_cells(a, &w, from, 0, 0, 0, n, s);
 }
 
 // Two words of two pixels each: along f inside them, then along g from the first to the second.
@@ -68,6 +81,31 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
     v16 first, second;
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+  }
+}
+
+// The same by windows, and then of the groups that these do not hold.
+TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
+                                           std::int16_t* values) noexcept {
+  const TapWindowVectors v = spread(w);
+  std::uint64_t groups = 0;  // bit 2 i + k: group i of the k-th 256 pixels
+  for (int begin = 0; begin < n; begin += 256) {
+    const int end = n - begin < 256 ? n : begin + 256;
+    std::uint64_t fours = 0;
+    for (int i = begin; i < end; i += k16Lanes) {
+      v16 first, second;
+      fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
+      store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+    }
+    groups |= ((fours | fours >> 1) & 0x5555555555555555ULL) << (begin / 256);
+  }
+  for (; groups != 0; groups &= groups - 1) {
+    const int bit = lowest_bit(groups), i = bit / 2 * 8 + (bit & 1) * 256;
+    int offset[8];
+    group_offsets(s.x + i, s.y + i, static_cast<int>(w.stride), offset);
+    v16 first, second;
+    fetch_group(v.upper, v.middle, offset, &first, &second);
+    store_group(values + i, template_value(first, second, load_group(s.fx + i), load_group(s.fy + i)));
   }
 }
 
@@ -124,7 +162,7 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   template_flush(c3, first, low + 3, high + 3);
 }
 
-TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool derivatives,
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
   const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
   const int used = derivatives ? kTemplateSums : 3;
@@ -143,11 +181,16 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       template_divide(a, from, n, strip);
-      template_cells(a, from, stride, low_offset, high_offset, n, strip);
-      if (paired)
-        template_pairs(a, n, strip, values);
-      else
-        template_rows(a, n, strip, values);
+      if (kTapWindows != 0 && windows) {
+        template_window_cells(a, *windows, from, n, strip);
+        template_windows(*windows, n, strip, values);
+      } else {
+        template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
+        if (paired)
+          template_pairs(a, n, strip, values);
+        else
+          template_rows(a, n, strip, values);
+      }
       if (a.n - from < n) zero16(values, a.n - from, n);
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
@@ -164,9 +207,9 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, bool deriva
 }
 
 TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, true, out);
+  template_run(a, nullptr, true, out);
 }
 
 TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, false, out);
+  template_run(a, nullptr, false, out);
 }

@@ -1,12 +1,14 @@
 // Costs and normal equations from the exact sums of template.inl, in double: see simd/template.hpp.
 
 // The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are visible.
-TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t) noexcept {
+TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
+                                          TapWindows* windows) noexcept {
   if (!f.inside) return false;
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx, v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
+               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -27,6 +29,15 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   t->g[7] = static_cast<float>(g[7]);
   t->ox = f.warp.ox + dx;
   t->oy = f.warp.oy + dy;
+  // A pixel from where a window would leave the image, no cell is moved.
+  const simd::Image8& target = t->target;
+  if (make_windows(target.data, target.stride, target.width, target.height, t->ox, t->oy, windows) && !target.pairs &&
+      x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
+      y_high + f.warp.oy < target.height - 3) {
+    const float* k = t->g;
+    windows->guess =
+        guess_windows(m.u, m.v, m.n, k[0] - k[2] * k[6], k[1] - k[2] * k[7], k[3] - k[5] * k[6], k[4] - k[5] * k[7]);
+  }
   return true;
 }
 
@@ -75,8 +86,8 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
 }
 
 // What the weights of the outliers in the list take away from the sums.
-TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root, float delta,
-                                             WeightedSums* sums) noexcept {
+TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root,
+                                             float delta, WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
@@ -110,8 +121,10 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   info->status = Status::rank_deficient;
   if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
   simd::TemplateArgs t;
+  t.target = a.target;
+  TapWindows windows;
   info->status = Status::out_of_view;
-  if (!template_frame(m, f, &t)) return;
+  if (!template_frame(m, f, &t, &windows)) return;
   info->candidates = info->visible = m.n;
   if (a.flags) set_all(a.flags, a.n);
   info->status = Status::too_few;
@@ -120,10 +133,9 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   t.v = m.v;
   t.rows = m.rows;
   t.n = m.n;
-  t.target = a.target;
   t.values = values;
   simd::TemplateSums exact;
-  template_run(t, derivatives, exact);
+  template_run(t, windows.guess.likely ? &windows : nullptr, derivatives, exact);
 
   Residual r;
   double mean, norm;
@@ -135,7 +147,8 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   if (a.huber) {
     double squares = 0, rho = 0;
     widen_values(values, m.n, s.d);
-    outliers = add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
+    outliers =
+        add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
     info->cost = rho / count;
   }
   if (!derivatives) return;
@@ -172,12 +185,13 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   change_parameters(M, sums.S, sums.wr, H, b);
 }
 
-TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                             simd::ResidualInfo* info, double* H, double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                             std::int16_t* values, simd::ResidualInfo* info, double* H,
+                                             double* b) noexcept {
   template_any(m, a, values, true, info, H, b);
   if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
 }
-TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
-                                            simd::ResidualInfo* info) noexcept {
+TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                            std::int16_t* values, simd::ResidualInfo* info) noexcept {
   template_any(m, a, values, false, info, nullptr, nullptr);
 }
