@@ -24,6 +24,50 @@ Matrix3<double> horn_rotation(const Matrix3<double>& m /* sum from_i to_i^T */) 
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }
 
+// What an alignment needs of two sets of positions.
+struct Moments {
+  std::size_t n = 0;
+  Vector from_mean = Vector::Zero(), to_mean = Vector::Zero();
+  Matrix3<double> correlation = Matrix3<double>::Zero();
+  double from_spread = 0, to_spread = 0;
+
+  // Either of them. What is left of identical points after rounding is not a spread.
+  bool is_single_place() const {
+    const auto is_place = [this](double spread, const Vector& mean) {
+      return !(spread > 1e-24 * static_cast<double>(n) * mean.squaredNorm()) || !(spread > 0);
+    };
+    return is_place(from_spread, from_mean) || is_place(to_spread, to_mean);
+  }
+};
+
+// False where a position is not finite.
+template <class From, class To>
+bool find_moments(std::size_t n, const From& from, const To& to, Moments* m) {
+  m->n = n;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!textplane::all_finite(from(i)) || !textplane::all_finite(to(i))) return false;
+    m->from_mean += from(i);
+    m->to_mean += to(i);
+  }
+  m->from_mean /= static_cast<double>(n);
+  m->to_mean /= static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector a = from(i) - m->from_mean, b = to(i) - m->to_mean;
+    m->correlation += a * b.transpose();
+    m->from_spread += a.squaredNorm();
+    m->to_spread += b.squaredNorm();
+  }
+  return true;
+}
+
+// With the translation that belongs to rotation and scale.
+Status finish(const Moments& m, Similarity result, Similarity* out) {
+  if (!(result.scale > 0) || !textplane::is_finite(result.scale)) return Status::degenerate;
+  result.t = m.to_mean - result.scale * (result.R * m.from_mean);
+  *out = result;
+  return Status::ok;
+}
+
 // The errors in order stand at 0, 1/(n - 1), ..., 1; between them the line from one to the next.
 double quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
@@ -99,35 +143,39 @@ std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const 
 Status align_points(const std::vector<Vector>& from, const std::vector<Vector>& to, bool with_scale, Similarity* out) {
   const std::size_t n = from.size();
   if (n < 3 || to.size() != n) return Status::too_few;
-  Vector from_mean = Vector::Zero(), to_mean = Vector::Zero();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!textplane::all_finite(from[i]) || !textplane::all_finite(to[i])) return Status::non_finite;
-    from_mean += from[i];
-    to_mean += to[i];
-  }
-  from_mean /= static_cast<double>(n);
-  to_mean /= static_cast<double>(n);
-  Matrix3<double> correlation = Matrix3<double>::Zero();
-  double from_spread = 0, to_spread = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector a = from[i] - from_mean, b = to[i] - to_mean;
-    correlation += a * b.transpose();
-    from_spread += a.squaredNorm();
-    to_spread += b.squaredNorm();
-  }
-  // What is left of identical points after rounding is not a spread.
-  const auto is_single_place = [n](double spread, const Vector& mean) {
-    return !(spread > 1e-24 * static_cast<double>(n) * mean.squaredNorm()) || !(spread > 0);
-  };
-  if (is_single_place(from_spread, from_mean) || is_single_place(to_spread, to_mean)) return Status::degenerate;
+  Moments m;
+  if (!find_moments(
+          n, [&](std::size_t i) { return from[i]; }, [&](std::size_t i) { return to[i]; }, &m))
+    return Status::non_finite;
+  if (m.is_single_place()) return Status::degenerate;
   Similarity result;
-  result.R = horn_rotation(correlation);
+  result.R = horn_rotation(m.correlation);
   // sum to . R from = trace(R correlation); it can be negative only where no rotation fits better than a point would.
-  if (with_scale) result.scale = (result.R * correlation).trace() / from_spread;
-  if (!(result.scale > 0) || !textplane::is_finite(result.scale)) return Status::degenerate;
-  result.t = to_mean - result.scale * (result.R * from_mean);
-  *out = result;
-  return Status::ok;
+  if (with_scale) result.scale = (result.R * m.correlation).trace() / m.from_spread;
+  return finish(m, result, out);
+}
+
+Status align_poses(const std::vector<SE3d>& from, const std::vector<SE3d>& to, Similarity* out) {
+  const std::size_t n = from.size();
+  if (n < 1 || to.size() != n) return Status::too_few;
+  Moments m;
+  if (!find_moments(
+          n, [&](std::size_t i) { return from[i].t; }, [&](std::size_t i) { return to[i].t; }, &m))
+    return Status::non_finite;
+  Matrix3<double> turns = Matrix3<double>::Zero();
+  for (std::size_t i = 0; i < n; ++i) turns += from[i].R * to[i].R.transpose();
+  if (!textplane::all_finite(turns)) return Status::non_finite;
+  Similarity result;
+  result.scale = out->scale;
+  if (m.is_single_place()) {
+    result.R = horn_rotation(turns);
+  } else {
+    constexpr double kShare = 0.1;  // the traces of both are at most 1
+    result.R = horn_rotation(m.correlation / std::sqrt(m.from_spread * m.to_spread) +
+                             kShare / (3.0 * static_cast<double>(n)) * turns);
+    result.scale = (result.R * m.correlation).trace() / m.from_spread;
+  }
+  return finish(m, result, out);
 }
 
 ErrorStatistics error_statistics(std::vector<double> errors) {

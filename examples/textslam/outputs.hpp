@@ -1,7 +1,7 @@
 // The output folder: trajectories, text map, timings and metrics, each file whole or absent.
 //
 //   trajectory.txt       TUM, camera to world, final poses
-//   trajectory_live.txt  each pose as known when its frame was processed
+//   trajectory_live.txt  each pose as known when its frame was processed, in a world that stays (System::live_world())
 //   keyframes.txt        TUM, final poses of the key frames
 //   text_map.json        {"texts":[{"id","text","corners","normal","theta","host","observations","zncc"}]}, world frame
 //   text_map.ply         text quads as faces, points, colours

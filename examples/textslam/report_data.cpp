@@ -5,6 +5,7 @@
 
 #include "io/data_uri.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textslam/pose_graph.hpp"
 #include "textslam/report_frames.hpp"
 #include "textslam/statistics.hpp"
 
@@ -115,6 +116,7 @@ Json series_json(const System& system, const Sequence& sequence, const RunSummar
   Json times = Json::array(), points = Json::array(), texts = Json::array(), errors = Json::array(),
        live_errors = Json::array(), costs = Json::array(), live_costs = Json::array();
   std::string states;
+  const Similarity map_world = inverse(system.live_world());
   const bool aligned = is_aligned(summary);
   const bool live_aligned = aligned && textplane::is_ok(summary.live.status);
   const auto truth = truth_of_frames(system, sequence);
@@ -135,8 +137,8 @@ Json series_json(const System& system, const Sequence& sequence, const RunSummar
     live_errors.push_back(
         live_aligned && record.live && known ? error(summary.live.alignment, record.T_w_c_live.t, *truth[i]) : Json());
     costs.push_back(tracked ? short_number(reprojection(system.map(), seen, T_w_c.inverse())) : Json());
-    live_costs.push_back(record.live ? short_number(reprojection(system.map(), seen, record.T_w_c_live.inverse()))
-                                     : Json());
+    const SE3d T_w_c_live = map_world * record.T_w_c_live;
+    live_costs.push_back(record.live ? short_number(reprojection(system.map(), seen, T_w_c_live.inverse())) : Json());
   }
   return {{"time", times},   {"state", states},           {"points", points}, {"texts", texts},
           {"error", errors}, {"error_live", live_errors}, {"cost", costs},    {"cost_live", live_costs}};

@@ -57,8 +57,24 @@ void System::set_pose(FrameRecord& record, const SE3d& T_c_w) {
   record.live = true;
   record.map = map_.number;
   record.keyframe = last_keyframe_;
-  record.T_w_c_live = T_c_w.inverse();
-  record.T_k_c = map_.keyframe(last_keyframe_).T_w_c.inverse() * record.T_w_c_live;
+  const SE3d T_w_c = T_c_w.inverse();
+  record.T_w_c_live = live_world_ * T_w_c;
+  record.T_k_c = map_.keyframe(last_keyframe_).T_w_c.inverse() * T_w_c;
+}
+
+// After each change of the map's key frames; without the newest frame, whose live pose is yet to be given.
+void System::align_live_world() {
+  constexpr std::size_t kFrames = 256;  // at least, where there are more; evenly spread
+  std::vector<const FrameRecord*> live;
+  for (const FrameRecord& record : records_)
+    if (record.live && record.map == map_.number && &record != &records_.back()) live.push_back(&record);
+  const std::size_t step = std::max<std::size_t>(1, live.size() / kFrames);
+  std::vector<SE3d> now, given;
+  for (std::size_t i = 0; i < live.size(); i += step) {
+    now.push_back(final_pose(*live[i]));
+    given.push_back(live[i]->T_w_c_live);
+  }
+  align_poses(now, given, &live_world_);  // or it stays as it was
 }
 
 void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecord& record) {
@@ -70,6 +86,7 @@ void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecor
   first_record.map = map_.number;
   first_record.keyframe = 0;
   last_keyframe_ = 1;
+  live_world_ = {};
   const SE3d T_c_w = map_.keyframe(1).T_w_c.inverse();
   set_pose(record, T_c_w);
   record.points = static_cast<int>(map_.points.size());
@@ -169,6 +186,7 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   for (const Track& track : tracks) last_keyframe_points_ += track.point >= 0 ? 1 : 0;
   add_corners(frame, last_keyframe_, quads, parameters_, tracks);
   tracker_->correct(T_c_w);
+  align_live_world();
   set_pose(record, T_c_w);
   record.seen.clear();
 }
@@ -196,6 +214,7 @@ void System::take_over(const Adjuster::Collected& adjusted) {
   if (!adjusted.changed) return;
   records_[static_cast<std::size_t>(adjusted.frame)].adjust_ms = adjusted.ms;
   if (tracker_) tracker_->correct(tracker_->pose() * adjusted.moved.inverse());
+  align_live_world();
 }
 
 void System::refit(FrameRecord& record) const {
@@ -248,6 +267,7 @@ void System::finish() {
     TextRefiner(map_, parameters_).refine();
   }
   for (FrameRecord& record : records_) refit(record);
+  align_live_world();
 }
 
 void System::read_texts(TextReader& reader) { textslam::read_texts(map_, parameters_, reader); }

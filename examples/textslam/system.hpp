@@ -17,6 +17,7 @@
 #include <memory>
 #include <vector>
 
+#include "io/evaluate.hpp"
 #include "textslam/adjuster.hpp"
 #include "textslam/initialiser.hpp"
 #include "textslam/local_map.hpp"
@@ -52,7 +53,7 @@ struct FrameRecord {
   int map = -1;  ///< Number of the map that it was tracked in; in the end those of other maps than the result are lost.
   int keyframe = -1;  ///< The key frame that the pose is relative to.
   SE3d T_k_c;         ///< Camera to that key frame.
-  SE3d T_w_c_live;    ///< Camera to world as known when the frame was processed; tracked frames alone.
+  SE3d T_w_c_live;    ///< Camera to the live world as known when the frame was processed; tracked frames alone.
   bool live = false;  ///< Tracked in the map when it came, not filled in or joined afterwards.
   int points = 0, texts = 0;
   std::vector<SeenPoint> seen;  ///< Between key frames: what the pose rests on.
@@ -88,6 +89,11 @@ class System {
   std::vector<std::size_t> map_frames() const;
   const std::deque<FrameRecord>& records() const { return records_; }
   const std::vector<LoopRecord>& loops() const { return loops_; }
+  /// The map's world to the one that live poses are given in, which stays where it is. A monocular map has no place, direction
+  /// and scale of its own: what fixes them, its oldest key frames, moves with each adjustment. So live poses are of the world
+  /// that fits best those given before: today's poses of all frames tracked so far, moved by this similarity, are as near to
+  /// their live ones as can be.
+  const Similarity& live_world() const { return live_world_; }
   /// Final pose of a tracked frame.
   SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
 
@@ -115,6 +121,7 @@ class System {
   void apply(const LoopCorrection& correction);
 
   void set_pose(FrameRecord& record, const SE3d& T_c_w);
+  void align_live_world();
   bool keyframe_needed(const Frame& frame) const;
   void add_keyframe(const Frame& frame, FrameRecord& record);
   void cull_keyframes();
@@ -131,6 +138,7 @@ class System {
   std::unique_ptr<Tracker> tracker_;  // null until the map begins
   std::deque<FrameRecord> records_;   // grows without copies of itself
   std::vector<LoopRecord> loops_;
+  Similarity live_world_;         // see live_world()
   int last_keyframe_ = -1;        // id of the newest
   int last_keyframe_points_ = 0;  // tracked in it
   int lost_frames_ = 0;           // in a row

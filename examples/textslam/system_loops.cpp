@@ -54,6 +54,7 @@ void System::close_loops(FrameRecord& record) {
   local_ = local_map(map_, parameters_, last_keyframe_);
   const SE3d T_c_w = map_.keyframe(last_keyframe_).T_w_c.inverse();
   tracker_->correct(T_c_w, correction.scales[static_cast<std::size_t>(last_keyframe_)]);
+  align_live_world();
   set_pose(record, T_c_w);
 }
 

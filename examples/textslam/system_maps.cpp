@@ -32,6 +32,7 @@ void System::take_map(std::size_t stored) {
   store_map();
   map_ = std::move(taken);
   last_keyframe_ = static_cast<int>(map_.keyframes.size()) - 1;
+  align_live_world();
 }
 
 bool System::recover(const Frame& frame, FrameRecord& record) {
@@ -65,6 +66,7 @@ void System::join_stored(const Frame& frame, FrameRecord& record) {
     local_ = local_map(map_, parameters_, last_keyframe_);
     std::vector<Track> tracks = std::move(tracker_->tracks());
     begin_tracking(frame, T_c_w, std::move(tracks));
+    align_live_world();
     set_pose(record, T_c_w);
     return;
   }

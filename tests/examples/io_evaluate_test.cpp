@@ -197,6 +197,87 @@ TEST(AlignPoints, Refusals) {
   EXPECT_EQ(out.scale, 42) << "untouched";
 }
 
+SE3d random_pose(Random& random, double reach) { return {so3_exp(random.vector(3)), random.vector(reach)}; }
+
+TEST(AlignPoses, FindsTheSimilarity) {
+  Random random(31);
+  for (const std::size_t n : {2U, 3U, 20U}) {
+    const Similarity truth = random.similarity();
+    std::vector<SE3d> from, to;
+    for (std::size_t i = 0; i < n; ++i) {
+      from.push_back(random_pose(random, 3));
+      to.push_back(truth * from.back());
+    }
+    Similarity found;
+    ASSERT_EQ(align_poses(from, to, &found), Status::ok) << n;
+    EXPECT_NEAR(found.scale / truth.scale, 1, 1e-12);
+    EXPECT_LT((found.R - truth.R).cwiseAbs().maxCoeff(), 1e-11);
+    EXPECT_LT((found.t - truth.t).cwiseAbs().maxCoeff(), 1e-10);
+  }
+}
+
+// Positions on a line do not tell the turn about it, the cameras' rotations do.
+TEST(AlignPoses, PathOnALine) {
+  Random random(32);
+  const Similarity truth = random.similarity();
+  const Vector direction = random.vector(1);
+  std::vector<SE3d> from, to;
+  for (int i = 0; i < 10; ++i) {
+    from.push_back({so3_exp(random.vector(0.3)), i * direction});
+    to.push_back(truth * from.back());
+  }
+  Similarity found;
+  ASSERT_EQ(align_poses(from, to, &found), Status::ok);
+  EXPECT_LT((found.R - truth.R).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+// Where positions and rotations disagree, a tenth's share is the rotations'.
+TEST(AlignPoses, PositionsCountForMost) {
+  Random random(33);
+  const double turn = 0.1;
+  const Matrix3<double> by_positions = so3_exp(Vector(0, 0, turn));
+  std::vector<SE3d> from, to;
+  for (int i = 0; i < 50; ++i) {
+    from.push_back(random_pose(random, 3));
+    to.push_back({from.back().R, by_positions * from.back().t});
+  }
+  Similarity found;
+  ASSERT_EQ(align_poses(from, to, &found), Status::ok);
+  const double angle = std::atan2(found.R(1, 0), found.R(0, 0));
+  EXPECT_GT(angle, 0.8 * turn);
+  EXPECT_LT(angle, 0.99 * turn);
+}
+
+// What positions cannot say of the scale is left as it was.
+TEST(AlignPoses, OnePlaceKeepsTheScale) {
+  Random random(34);
+  const SE3d a = random_pose(random, 2), b = random_pose(random, 2);
+  Similarity found;
+  found.scale = 3;
+  ASSERT_EQ(align_poses({a}, {b}, &found), Status::ok);
+  EXPECT_EQ(found.scale, 3);
+  EXPECT_LT(((found * a).t - b.t).norm(), 1e-12);
+  EXPECT_LT(((found * a).R - b.R).norm(), 1e-12);
+  ASSERT_EQ(align_poses({a, a}, {b, b}, &found), Status::ok);
+  EXPECT_EQ(found.scale, 3);
+}
+
+TEST(AlignPoses, Refusals) {
+  Random random(35);
+  Similarity out;
+  out.scale = 42;
+  const SE3d a = random_pose(random, 2), b = random_pose(random, 2);
+  EXPECT_EQ(align_poses({}, {}, &out), Status::too_few);
+  EXPECT_EQ(align_poses({a, b}, {a}, &out), Status::too_few);
+  SE3d bad = a;
+  bad.t[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(align_poses({a, bad}, {a, b}, &out), Status::non_finite);
+  bad = a;
+  bad.R(2, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(align_poses({a, b}, {bad, b}, &out), Status::non_finite);
+  EXPECT_EQ(out.scale, 42);
+}
+
 TEST(ErrorStatistics, ByHand) {
   const ErrorStatistics s = error_statistics({3, 1, 2, 4});
   EXPECT_EQ(s.n, 4u);
