@@ -1,4 +1,7 @@
-// Adjuster: the local adjustment that follows a key frame, in step with the frames or on a thread of its own.
+// Adjuster: the adjustment that follows a key frame, in step with the frames or on a thread of its own.
+//
+// It is one around the newest key frame, or, as often as the map has grown by a share, one of the whole map: what is fixed at
+// the rim of a local one keeps the errors of its time, and live poses inherit them.
 //
 // In step, the adjustment is done when keyframe_added() returns, and the same frames give the same bytes. On its own thread
 // the tracker goes on with the map as it is; the result is taken over between two frames, by collect(). A key frame that
@@ -37,12 +40,16 @@ class Adjuster {
 
  private:
   void begin(const Map& map);
+  std::unique_ptr<StagedAdjustment> prepare(const Map& map);
+  bool has_grown(const Map& map);
 
   const Parameters& parameters_;
-  std::unique_ptr<LocalAdjustment> adjustment_;
+  std::unique_ptr<StagedAdjustment> adjustment_;
   std::future<double> solved_;  // valid while one is under way; gives the ms it took
   int frame_ = -1;
-  bool waiting_ = false;  // a key frame came meanwhile
+  bool waiting_ = false;             // a key frame came meanwhile
+  int whole_map_ = -1;               // number of the map that was last adjusted as a whole,
+  std::size_t whole_keyframes_ = 0;  // and how many key frames it had
 };
 
 }  // namespace textslam

@@ -228,9 +228,22 @@ Selection local_selection(const Map& map, const Parameters& parameters) {
   return selection;
 }
 
-class AdjustmentAroundNewest : public LocalAdjustment {
+// All but the first key frame, which is fixed; the distance to its farthest neighbour holds the scale.
+Selection whole_selection(const Map& map, const Parameters& parameters) {
+  Selection selection;
+  selection.free_frames = map.keyframe_ids();
+  selection.fixed_frames.push_back(selection.free_frames.front());
+  selection.free_frames.erase(selection.free_frames.begin());
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    if (!map.points[i].bad) selection.points.push_back(static_cast<int>(i));
+  selection.scale_frame = farthest_neighbour(map, parameters, selection.fixed_frames.front(), selection.free_frames);
+  if (selection.scale_frame < 0) selection.scale_frame = selection.free_frames.front();
+  return selection;
+}
+
+class StagedWindow : public StagedAdjustment {
  public:
-  AdjustmentAroundNewest(const Map& map, const Parameters& parameters, const Selection& selection)
+  StagedWindow(const Map& map, const Parameters& parameters, const Selection& selection)
       : adjustment_(map, parameters, selection, parameters.text_targets),
         iterations_(parameters.window_iterations),
         newest_(static_cast<int>(map.keyframes.size()) - 1),
@@ -260,16 +273,21 @@ class AdjustmentAroundNewest : public LocalAdjustment {
 
 }  // namespace
 
-std::unique_ptr<LocalAdjustment> LocalAdjustment::prepare(const Map& map, const Parameters& parameters) {
+std::unique_ptr<StagedAdjustment> StagedAdjustment::around_newest(const Map& map, const Parameters& parameters) {
   if (map.keyframes.size() < 3) return nullptr;
   const Selection selection = local_selection(map, parameters);
   if (selection.free_frames.empty()) return nullptr;
-  return std::make_unique<AdjustmentAroundNewest>(map, parameters, selection);
+  return std::make_unique<StagedWindow>(map, parameters, selection);
+}
+
+std::unique_ptr<StagedAdjustment> StagedAdjustment::of_all(const Map& map, const Parameters& parameters) {
+  if (map.keyframe_ids().size() < 3) return nullptr;
+  return std::make_unique<StagedWindow>(map, parameters, whole_selection(map, parameters));
 }
 
 void adjust_local(Map& map, const Parameters& parameters) {
   if (map.keyframes.size() < 3) return adjust_all(map, parameters, parameters.window_iterations);
-  const auto adjustment = LocalAdjustment::prepare(map, parameters);
+  const auto adjustment = StagedAdjustment::around_newest(map, parameters);
   if (!adjustment) return;
   adjustment->solve();
   adjustment->apply(map);
@@ -277,14 +295,7 @@ void adjust_local(Map& map, const Parameters& parameters) {
 
 void adjust_all(Map& map, const Parameters& parameters, int iterations) {
   if (map.keyframes.size() < 2) return;
-  Selection selection;
-  selection.fixed_frames.push_back(0);
-  selection.free_frames = map.keyframe_ids();
-  selection.free_frames.erase(selection.free_frames.begin());
-  for (std::size_t i = 0; i < map.points.size(); ++i)
-    if (!map.points[i].bad) selection.points.push_back(static_cast<int>(i));
-  selection.scale_frame = farthest_neighbour(map, parameters, 0, selection.free_frames);
-  if (selection.scale_frame < 0) selection.scale_frame = selection.free_frames.front();
+  Selection selection = whole_selection(map, parameters);
   for (int round = 0; round < 2; ++round) {
     Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
     adjustment.weigh_texts(map);

@@ -9,13 +9,15 @@
 
 namespace textslam {
 
-/// The local adjustment in its three steps, so that the long one may run beside tracking: solve() touches nothing but
-/// what prepare() copied (images are shared and constant).
-class LocalAdjustment {
+/// An adjustment in its three steps, so that the long one may run beside tracking: solve() touches nothing but what was copied
+/// before (images are shared and constant).
+class StagedAdjustment {
  public:
-  /// Around the newest key frame; null where there is nothing to adjust, as in a map of fewer than three key frames.
-  static std::unique_ptr<LocalAdjustment> prepare(const Map& map, const Parameters& parameters);
-  virtual ~LocalAdjustment() = default;
+  /// Around the newest key frame, or of the whole map; null where there is nothing to adjust, as in a map of fewer than three key
+  /// frames.
+  static std::unique_ptr<StagedAdjustment> around_newest(const Map& map, const Parameters& parameters);
+  static std::unique_ptr<StagedAdjustment> of_all(const Map& map, const Parameters& parameters);
+  virtual ~StagedAdjustment() = default;
   virtual void solve() = 0;
   /// Writes the result into the map it was prepared from, which may have grown since: key frames and points that came later
   /// move along with the newest of then. Returns this motion of the world, for what else came later.

@@ -117,8 +117,10 @@ struct Parameters {
   int window_frames = 20;  ///< Free key frames of the local adjustment.
   int window_fixed = 25;   ///< Fixed key frames around them.
   int window_iterations = 8;
-  int final_iterations = 30;        ///< Of the adjustment over all key frames at the end,
-  int final_text_targets = 64;      ///< in which a plane meets this many key frames.
+  double whole_growth = 1.05;   ///< A map with so many times the key frames of then is adjusted as a whole again,
+  int whole_most_frames = 150;  ///< up to this many key frames: beyond, it would take long, and adjustments are local.
+  int final_iterations = 30;    ///< Of the adjustment over all key frames at the end,
+  int final_text_targets = 64;  ///< in which a plane meets this many key frames.
   double window_point_sigma = 0.5;  ///< px; below point_sigma: what does not fit weighs little.
 
   // Last poses of the frames between key frames

@@ -1,4 +1,4 @@
-// The local adjustment beside tracking: the same result as in step, and a map that grew meanwhile stays in one piece.
+// The adjustment beside tracking: the same result as in step, and a map that grew meanwhile stays in one piece.
 #include "textslam/adjuster.hpp"
 
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ TEST_F(AdjusterTest, InStepItIsDoneAtOnce) {
 TEST_F(AdjusterTest, BesideTheFramesItChangesNothingUntilItIsCollected) {
   const Map before = map_;
   Map in_step = map_;
-  adjust_local(in_step, parameters_);
+  Adjuster(parameters_).keyframe_added(in_step);
   parameters_.real_time = true;
   Adjuster adjuster(parameters_);
   adjuster.keyframe_added(map_);
@@ -104,7 +104,7 @@ TEST_F(AdjusterTest, BesideTheFramesItChangesNothingUntilItIsCollected) {
 TEST_F(AdjusterTest, WhatCameMeanwhileMovesAlong) {
   Map in_step = map_;
   adjust_local(in_step, parameters_);
-  const auto adjustment = LocalAdjustment::prepare(map_, parameters_);
+  const auto adjustment = StagedAdjustment::around_newest(map_, parameters_);
   ASSERT_NE(adjustment, nullptr);
   adjustment->solve();
 
@@ -135,6 +135,38 @@ TEST_F(AdjusterTest, AKeyFrameThatComesMeanwhileIsNotForgotten) {
   EXPECT_EQ(done.frame, 24) << "the second adjustment ran, too";
   EXPECT_LT(error_px(map_, 8), 0.05);
   EXPECT_FALSE(adjuster.settle(map_).changed);
+}
+
+// Around the newest key frame the oldest ones are out of reach.
+TEST_F(AdjusterTest, AMapThatHasGrownIsAdjustedAsAWhole) {
+  parameters_.window_frames = parameters_.window_fixed = 2;
+  const auto error_after = [&](double growth, int most_frames) {
+    parameters_.whole_growth = growth;
+    parameters_.whole_most_frames = most_frames;
+    Map map = map_;
+    Adjuster adjuster(parameters_);
+    adjuster.keyframe_added(map);
+    map.keyframe(2).T_w_c.t.x() += 0.05;
+    add_keyframe(map);
+    adjuster.keyframe_added(map);
+    return error_px(map, 2);
+  };
+  EXPECT_LT(error_after(9.0 / 8, 9), 0.05);
+  EXPECT_GT(error_after(9.1 / 8, 9), 1) << "it has not grown enough";
+  EXPECT_GT(error_after(9.0 / 8, 8), 1) << "it is too large";
+}
+
+// Another map may have fewer key frames than the one before: it has not been adjusted yet.
+TEST_F(AdjusterTest, GrowthIsThatOfTheMap) {
+  parameters_.window_frames = parameters_.window_fixed = 2;
+  parameters_.whole_growth = 2;
+  Adjuster adjuster(parameters_);
+  Map other = map_;
+  adjuster.keyframe_added(other);
+  map_.number = 1;
+  map_.keyframe(2).T_w_c.t.x() += 0.05;
+  adjuster.keyframe_added(map_);
+  EXPECT_LT(error_px(map_, 2), 0.05);
 }
 
 TEST_F(AdjusterTest, MayBeLeftWhileItRuns) {

@@ -39,7 +39,7 @@ class AdjustedMeanwhile : public TextHostingTest {
 };
 
 TEST_F(AdjustedMeanwhile, ThePlaneIsCarriedToTheNewHost) {
-  const auto adjustment = LocalAdjustment::prepare(map, parameters);
+  const auto adjustment = StagedAdjustment::around_newest(map, parameters);
   ASSERT_NE(adjustment, nullptr);
   adjustment->solve();
   Map rehosted = map;
@@ -58,7 +58,7 @@ TEST_F(AdjustedMeanwhile, ThePlaneIsCarriedToTheNewHost) {
 }
 
 TEST_F(AdjustedMeanwhile, AndToOneThatCameSince) {
-  const auto adjustment = LocalAdjustment::prepare(map, parameters);
+  const auto adjustment = StagedAdjustment::around_newest(map, parameters);
   ASSERT_NE(adjustment, nullptr);
   adjustment->solve();
   Map rehosted = map;
