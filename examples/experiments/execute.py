@@ -14,7 +14,6 @@ import threading
 import time
 from pathlib import Path
 
-import to_date
 from plan import MODES
 
 INTERRUPTED = (-signal.SIGINT, -signal.SIGTERM)
@@ -55,18 +54,16 @@ def load(path):
 
 
 class Runner:
-    def __init__(self, textslam, output, retry_failed=False, keep_frames=False, to_date=False):
+    def __init__(self, textslam, output, retry_failed=False, keep_frames=False):
         self.textslam, self.output = str(textslam), Path(output)
         self.program = fingerprint(textslam)
-        self.retry_failed, self.keep_frames, self.to_date = retry_failed, keep_frames, to_date
+        self.retry_failed, self.keep_frames = retry_failed, keep_frames
 
     def folder(self, case, mode):
         return self.output / "runs" / case.name / mode
 
     def key(self, case, mode):
         source = ([str(Path(case.sequence).resolve())] if case.sequence else []) + case.arguments
-        if mode == "to_date":
-            return {"program": self.program, "arguments": source, "step": to_date.STEP}
         return {"program": self.program, "arguments": source + ["--mode", mode]}
 
     def result(self, case, mode):
@@ -81,17 +78,13 @@ class Runner:
     def run_case(self, case):
         """Whatever of the case is not finished; its frames are gone afterwards, unless they are to be kept."""
         missing = [mode for mode in MODES if not self.is_finished(case, mode)]
-        whole = case.group == "kinds" or (case.group == "sequence" and not case.arguments)
-        asked_to_date = self.to_date and whole and self.result(case, "to_date") is None
-        if not missing and not asked_to_date:
+        if not missing:
             return
         scratch = self.output / "frames" / case.name
         try:
             rendering = None if case.sequence else self.render(case, scratch)
             for mode in missing:
                 self.run_mode(case, mode, case.sequence or scratch / "sequence", rendering)
-            if asked_to_date:
-                self.run_to_date(case, case.sequence or scratch / "sequence")
         finally:
             if not self.keep_frames:
                 shutil.rmtree(scratch, ignore_errors=True)
@@ -124,18 +117,6 @@ class Runner:
         part.rename(folder / "result.json")
         outcome = "done" if run["code"] == 0 else f"failed ({run['code']}): {run['error']}"
         say(f"{case.name} {mode}: {outcome}, {run['wall_s']:.1f} s")
-
-    def run_to_date(self, case, sequence):
-        """Mode `text` alone; nothing where its run gave no metrics."""
-        text, folder = self.result(case, "text"), self.folder(case, "to_date")
-        if not text or not text["metrics"]:
-            return
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
-        ate = to_date.measure(Path(self.textslam), sequence, text["metrics"]["frames"], folder, call)
-        result = {"key": self.key(case, "to_date"), "code": 0, "ate_rmse": ate}
-        (folder / "result.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-        say(f"{case.name} poses to date: done")
 
     def run_all(self, cases, jobs):
         """All cases, `jobs` at a time."""

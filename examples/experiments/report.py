@@ -18,7 +18,6 @@ from figures import (
 )
 from plan import MODES, STARTS, SWEEP_KIND, SWEEP_SEED, SWEEPS
 from plot import plot
-from to_date import STEP
 
 WITH_PLANES = ("text", "loose")
 
@@ -63,7 +62,7 @@ class Report:
         return mapped, visible or None, strays
 
     def text(self):
-        parts = [self.head(), self.accuracy(), self.to_date(), self.planes(), self.angle_histogram(), self.time()]
+        parts = [self.head(), self.accuracy(), self.live(), self.planes(), self.angle_histogram(), self.time()]
         parts += [self.sweep(name) for name in SWEEPS if self.sweep_cases(name)]
         return "\n".join(part for part in parts + [self.failures()] if part)
 
@@ -95,23 +94,21 @@ signs count as not mapped, and it is listed at the end.
         head = ["sequence", "mode", "ATE, mm", "mean", "% of path", "live", "RPE, mm", "RPE, deg", "frames with a pose", "failed"]
         return "## Trajectories (the paper's Table I)\n\n" + table(head, rows, 2)
 
-    def to_date(self):
-        """ATE of each run's final, live and to-date poses, mode `text`."""
+    def live(self):
+        """ATE of each run's final and live poses, mode `text`."""
         rows = []
         for kind, cases in by_kind(self.cases):
             for case in cases:
-                text, known = self.results(case, "text"), self.results(case, "to_date")
-                if not text or not known:
-                    continue
-                final, live = trajectory_value(text, "ate_rmse"), trajectory_value(text, "ate_rmse", live=True)
-                ratio = live / final if live and final else None
-                rows.append([f"`{kind}`", "-" if case.seed is None else str(case.seed), millimetres(final), millimetres(live),
-                             millimetres(known["ate_rmse"]), written(ratio, 2)])
+                run = self.results(case, "text")
+                final = trajectory_value(run, "ate_rmse") if run else None
+                live = trajectory_value(run, "ate_rmse", live=True) if run else None
+                if final and live:
+                    which = f"from frame {case.arguments[-1] if case.arguments else 0}" if case.seed is None else f"seed {case.seed}"
+                    rows.append([f"`{kind}`", which, millimetres(final), millimetres(live), written(live / final, 2)])
         if not rows:
             return ""
-        return ("## Live poses\n\nWhat a live pose is off that could not have been known at its time: `to date` is the ATE of the newest poses of "
-                f"runs that end every {STEP} frames\nand adjust everything seen until then (`--to-date`). Mode `text`, mm.\n\n"
-                + table(["sequence", "seed", "final", "live", "to date", "live / final"], rows, 1))
+        return ("## Live poses\n\nEach run of mode `text`, ATE in mm.\n\n"
+                + table(["sequence", "", "final", "live", "live / final"], rows, 2))
 
     @staticmethod
     def accuracy_row(kind, mode, runs):

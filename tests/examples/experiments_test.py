@@ -14,7 +14,6 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "examples/experiments"))
 import figures  # noqa: E402
 import plan  # noqa: E402
-import to_date  # noqa: E402
 
 # Renders a file that holds its arguments, and finds errors that depend on mode, seed and condition; seed 3 fails in mode points.
 STAND_IN = """#!/usr/bin/env python3
@@ -29,8 +28,6 @@ if "--render-only" in arguments:
     json.dump({"seed": int(value("--seed")), "blur": float(value("--blur") or 0)}, open(output + "/sequence/frames", "w"))
     sys.exit(0)
 frames = json.load(open(arguments[0] + "/frames"))
-if "--last" in arguments:
-    sys.exit(0)
 mode = value("--mode")
 if frames["seed"] == 3 and mode == "points":
     sys.exit("textslam: out of luck")
@@ -63,29 +60,6 @@ class Figures(unittest.TestCase):
         self.assertEqual(figures.histogram([0.1, 0.25, 0.3, 10, 11]), [2, 1, 0, 0, 0, 1, 1])
 
 
-class ToDate(unittest.TestCase):
-    def test_each_run_gives_its_newest_poses(self):
-        with tempfile.TemporaryDirectory() as temporary:
-            folder = Path(temporary)
-            evaluation = folder / "textslam-eval"
-            evaluation.write_text("#!/bin/sh\necho run,status,ate_rmse\necho $1,ok,0.$(wc -l < $1/trajectory.txt)\n")
-            evaluation.chmod(0o755)
-            ends = []
-
-            def call(command):  # runs of up to 20 frames have no map; later ones have poses from their second frame on
-                end, output = int(command[command.index("--last") + 1]) + 1, Path(command[-1])
-                ends.append(end)
-                if end > 20:
-                    output.mkdir(parents=True)
-                    (output / "trajectory.txt").write_text("# made by a test\n" + "".join(f"{t} {end}\n" for t in range(1, end)))
-
-            ate = to_date.measure(folder / "textslam", folder / "sequence", 50, folder / "out", call)
-            poses = (folder / "out/whole/trajectory.txt").read_text().splitlines()
-        self.assertEqual(ends, [20, 40, 50])
-        self.assertEqual(poses, [f"{t} 40" for t in range(1, 40)] + [f"{t} 50" for t in range(40, 50)])
-        self.assertEqual(ate, 0.49)
-
-
 class Experiments(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -112,23 +86,13 @@ class Experiments(unittest.TestCase):
         self.assertIn("| `room` | text | 1.00, 2.00, 3.00 | 2.00 | 0.040 | 4.00 | 0.50 | 0.020 | 100.0 % | 0 of 3 |", report)
         self.assertIn("| `room` | points | 2.00, 4.00, failed | 3.00 | 0.060 | 6.00 | 0.50 | 0.020 | 100.0 % | 1 of 3 |", report)
         self.assertIn("- `room-3`, points: exit code 1: textslam: out of luck", report)
+        self.assertIn("| `room` | seed 2 | 2.00 | 4.00 | 2.00 |", report)
         # 0.2, 0.2, 0.2, 0.6, 0.6, 0.6 degrees, and four times that
         self.assertIn("| `room` | text | 0.40 | 0.60 | 0.60 | 20.0 | 30.0 | 6 of 9 | 3 |", report)
         self.assertIn("| all | loose | 1.60 | 2.40 | 2.40 | 20.0 | 30.0 | 6 of 9 | 3 |", report)
         self.assertIn("| up to 0.25 | 3 | 50 % ██████████ | 0 | 0 %  |", report)
         self.assertIn("| `room` | text | 250 |", report)  # 4 ms a frame
         self.assertEqual(list((self.folder / "out").glob("frames/*")), [], "rendered frames are deleted")
-
-    def test_poses_to_date_stand_beside_live_and_final_ones(self):
-        evaluation = self.folder / "textslam-eval"
-        evaluation.write_text("#!/bin/sh\necho run,status,ate_rmse\necho $1,ok,0.0015\n")
-        evaluation.chmod(0o755)
-        part = ("--kinds", "room", "--seeds", "1", "2", "--sweeps", "--frames", "10", "--to-date")
-        report = self.run_part(*part)
-        self.assertEqual(sum("--last 9" in call for call in self.called), 2)
-        self.assertIn("| `room` | 2 | 2.00 | 4.00 | 1.50 | 2.00 |", report)
-        self.assertEqual(self.run_part(*part), report)
-        self.assertEqual(self.called, [], "they are kept, too")
 
     def test_finished_runs_are_kept_until_the_program_changes(self):
         part = ("--kinds", "room", "--seeds", "2", "3", "--sweeps", "--frames", "10")
