@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 123 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 74ac408ec31b0fff
+// Hash of these files: db8ecd84de829285
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 74ac408ec31b0fff"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 db8ecd84de829285"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -4717,8 +4717,9 @@ TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept {
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return make16((t.a & 255) * w0 + ((t.a >> 8) & 255) * w1, (t.b & 255) * w0 + ((t.b >> 8) & 255) * w1);
 }
-// int32 lane i: x[2i] y[2i] + x[2i+1] y[2i+1].
+// int32 lane i: x[2i] y[2i] + x[2i+1] y[2i+1]; and the same added to a sum.
 TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return x.a * y.a + x.b * y.b; }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
 // 2 kLanes int32 that fit int16, in order.
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
 // Sum of the lanes; it wraps.
@@ -4769,7 +4770,9 @@ TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   __builtin_memcpy(&pair, offset, 8);
   return pair;
 }
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
+  return static_cast<std::int32_t>(pair);
+}
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
   return static_cast<std::int64_t>(pair) >> 32;
 }
@@ -4812,7 +4815,9 @@ TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm_set1_epi16(stat
 TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
   return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
 }
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v);
+}
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm_add_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm_sub_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16(x, y); }
@@ -4820,6 +4825,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm_maddubs_epi16(t, _mm_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
 TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm_madd_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
   const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
@@ -4829,7 +4835,9 @@ TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_
                                     v16* second) noexcept {
   gather_words8(upper, lower, offset, first, second);
 }
-TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept { return gather_pairs4(p, offset); }
+TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
+  return gather_pairs4(p, offset);
+}
 TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
   return _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(a, 16), 16), _mm_srai_epi32(_mm_slli_epi32(b, 16), 16));
 }
@@ -4871,7 +4879,9 @@ TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   __builtin_memcpy(&pair, offset, 8);
   return pair;
 }
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
+  return static_cast<std::int32_t>(pair);
+}
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
   return static_cast<std::int64_t>(pair) >> 32;
 }
@@ -4924,6 +4934,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm256_maddubs_epi16(t, _mm256_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
 TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm256_madd_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
   return _mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xd8);
 }
@@ -4992,7 +5003,9 @@ TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   __builtin_memcpy(&pair, offset, 8);
   return pair;
 }
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
+  return static_cast<std::int32_t>(pair);
+}
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
   return static_cast<std::int64_t>(pair) >> 32;
 }
@@ -5041,6 +5054,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm512_maddubs_epi16(t, _mm512_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
 TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm512_madd_epi16(x, y); }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return _mm512_dpwssd_epi32(sum, x, y); }
 // Numbers of words, two a lane: (first, second) in lane 0 and (step, step) more in each lane after it.
 TEXTPLANE_SIMD_INLINE __m512i word_order(int first, int second, int step) noexcept {
   return addi(muli(ioti(), seti(step * 0x00010001)), seti(second * 0x00010000 + first));
@@ -5125,6 +5139,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
 TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept {
   return vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y));
 }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)); }
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return vaddvq_s32(v); }
 TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
@@ -19405,9 +19420,9 @@ TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      total = addi(total, dot16(value, ones));
-      square = addi(square, dot16(value, value));
-      host = addi(host, dot16(value, load16(rows + j)));
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
     }
   }
   template_flush(total, first, low, high);
@@ -19422,16 +19437,52 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      c0 = addi(c0, dot16(value, load16(rows + j)));
-      c1 = addi(c1, dot16(value, load16(rows + j + simd::kTemplateBlock)));
-      c2 = addi(c2, dot16(value, load16(rows + j + 2 * simd::kTemplateBlock)));
-      c3 = addi(c3, dot16(value, load16(rows + j + 3 * simd::kTemplateBlock)));
+      c0 = add_dot16(c0, value, load16(rows + j));
+      c1 = add_dot16(c1, value, load16(rows + j + simd::kTemplateBlock));
+      c2 = add_dot16(c2, value, load16(rows + j + 2 * simd::kTemplateBlock));
+      c3 = add_dot16(c3, value, load16(rows + j + 3 * simd::kTemplateBlock));
     }
   }
   template_flush(c0, first, low, high);
   template_flush(c1, first, low + 1, high + 1);
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
+}
+
+// All of them in one loop, for targets whose registers hold as many sums.
+TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  vi total = seti(0), square = total, host = total;
+  vi c0 = total, c1 = total, c2 = total, c3 = total, c4 = total, c5 = total, c6 = total, c7 = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += kStep, rows += simd::kTemplateColumns * kStep) {
+    for (int j = 0; j < kStep; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
+      c0 = add_dot16(c0, value, load16(rows + j + kStep));
+      c1 = add_dot16(c1, value, load16(rows + j + 2 * kStep));
+      c2 = add_dot16(c2, value, load16(rows + j + 3 * kStep));
+      c3 = add_dot16(c3, value, load16(rows + j + 4 * kStep));
+      c4 = add_dot16(c4, value, load16(rows + j + 5 * kStep));
+      c5 = add_dot16(c5, value, load16(rows + j + 6 * kStep));
+      c6 = add_dot16(c6, value, load16(rows + j + 7 * kStep));
+      c7 = add_dot16(c7, value, load16(rows + j + 8 * kStep));
+    }
+  }
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
+  template_flush(c0, first, low + 3, high + 3);
+  template_flush(c1, first, low + 4, high + 4);
+  template_flush(c2, first, low + 5, high + 5);
+  template_flush(c3, first, low + 6, high + 6);
+  template_flush(c4, first, low + 7, high + 7);
+  template_flush(c5, first, low + 8, high + 8);
+  template_flush(c6, first, low + 9, high + 9);
+  template_flush(c7, first, low + 10, high + 10);
 }
 
 TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
@@ -19464,6 +19515,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
           template_rows(a, n, strip, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
+      if (kManyRegisters && derivatives) {
+        template_products11(rows, values, n, from == begin, low, high);
+        continue;
+      }
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
         template_products4(rows + simd::kTemplateBlock, values, n, from == begin, low + 3, high + 3);
@@ -19611,9 +19666,9 @@ TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      total = addi(total, dot16(value, ones));
-      square = addi(square, dot16(value, value));
-      host = addi(host, dot16(value, load16(rows + j)));
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
     }
   }
   template_flush(total, first, low, high);
@@ -19626,16 +19681,50 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      c0 = addi(c0, dot16(value, load16(rows + j)));
-      c1 = addi(c1, dot16(value, load16(rows + j + simd::kTemplateBlock)));
-      c2 = addi(c2, dot16(value, load16(rows + j + 2 * simd::kTemplateBlock)));
-      c3 = addi(c3, dot16(value, load16(rows + j + 3 * simd::kTemplateBlock)));
+      c0 = add_dot16(c0, value, load16(rows + j));
+      c1 = add_dot16(c1, value, load16(rows + j + simd::kTemplateBlock));
+      c2 = add_dot16(c2, value, load16(rows + j + 2 * simd::kTemplateBlock));
+      c3 = add_dot16(c3, value, load16(rows + j + 3 * simd::kTemplateBlock));
     }
   }
   template_flush(c0, first, low, high);
   template_flush(c1, first, low + 1, high + 1);
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
+}
+TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  vi total = seti(0), square = total, host = total;
+  vi c0 = total, c1 = total, c2 = total, c3 = total, c4 = total, c5 = total, c6 = total, c7 = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += kStep, rows += simd::kTemplateColumns * kStep) {
+    for (int j = 0; j < kStep; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
+      c0 = add_dot16(c0, value, load16(rows + j + kStep));
+      c1 = add_dot16(c1, value, load16(rows + j + 2 * kStep));
+      c2 = add_dot16(c2, value, load16(rows + j + 3 * kStep));
+      c3 = add_dot16(c3, value, load16(rows + j + 4 * kStep));
+      c4 = add_dot16(c4, value, load16(rows + j + 5 * kStep));
+      c5 = add_dot16(c5, value, load16(rows + j + 6 * kStep));
+      c6 = add_dot16(c6, value, load16(rows + j + 7 * kStep));
+      c7 = add_dot16(c7, value, load16(rows + j + 8 * kStep));
+    }
+  }
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
+  template_flush(c0, first, low + 3, high + 3);
+  template_flush(c1, first, low + 4, high + 4);
+  template_flush(c2, first, low + 5, high + 5);
+  template_flush(c3, first, low + 6, high + 6);
+  template_flush(c4, first, low + 7, high + 7);
+  template_flush(c5, first, low + 8, high + 8);
+  template_flush(c6, first, low + 9, high + 9);
+  template_flush(c7, first, low + 10, high + 10);
 }
 TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
@@ -19667,6 +19756,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
           template_rows(a, n, strip, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
+      if (kManyRegisters && derivatives) {
+        template_products11(rows, values, n, from == begin, low, high);
+        continue;
+      }
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
         template_products4(rows + simd::kTemplateBlock, values, n, from == begin, low + 3, high + 3);
@@ -19818,9 +19911,9 @@ TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      total = addi(total, dot16(value, ones));
-      square = addi(square, dot16(value, value));
-      host = addi(host, dot16(value, load16(rows + j)));
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
     }
   }
   template_flush(total, first, low, high);
@@ -19833,16 +19926,50 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      c0 = addi(c0, dot16(value, load16(rows + j)));
-      c1 = addi(c1, dot16(value, load16(rows + j + simd::kTemplateBlock)));
-      c2 = addi(c2, dot16(value, load16(rows + j + 2 * simd::kTemplateBlock)));
-      c3 = addi(c3, dot16(value, load16(rows + j + 3 * simd::kTemplateBlock)));
+      c0 = add_dot16(c0, value, load16(rows + j));
+      c1 = add_dot16(c1, value, load16(rows + j + simd::kTemplateBlock));
+      c2 = add_dot16(c2, value, load16(rows + j + 2 * simd::kTemplateBlock));
+      c3 = add_dot16(c3, value, load16(rows + j + 3 * simd::kTemplateBlock));
     }
   }
   template_flush(c0, first, low, high);
   template_flush(c1, first, low + 1, high + 1);
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
+}
+TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  vi total = seti(0), square = total, host = total;
+  vi c0 = total, c1 = total, c2 = total, c3 = total, c4 = total, c5 = total, c6 = total, c7 = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += kStep, rows += simd::kTemplateColumns * kStep) {
+    for (int j = 0; j < kStep; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
+      c0 = add_dot16(c0, value, load16(rows + j + kStep));
+      c1 = add_dot16(c1, value, load16(rows + j + 2 * kStep));
+      c2 = add_dot16(c2, value, load16(rows + j + 3 * kStep));
+      c3 = add_dot16(c3, value, load16(rows + j + 4 * kStep));
+      c4 = add_dot16(c4, value, load16(rows + j + 5 * kStep));
+      c5 = add_dot16(c5, value, load16(rows + j + 6 * kStep));
+      c6 = add_dot16(c6, value, load16(rows + j + 7 * kStep));
+      c7 = add_dot16(c7, value, load16(rows + j + 8 * kStep));
+    }
+  }
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
+  template_flush(c0, first, low + 3, high + 3);
+  template_flush(c1, first, low + 4, high + 4);
+  template_flush(c2, first, low + 5, high + 5);
+  template_flush(c3, first, low + 6, high + 6);
+  template_flush(c4, first, low + 7, high + 7);
+  template_flush(c5, first, low + 8, high + 8);
+  template_flush(c6, first, low + 9, high + 9);
+  template_flush(c7, first, low + 10, high + 10);
 }
 TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
@@ -19874,6 +20001,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
           template_rows(a, n, strip, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
+      if (kManyRegisters && derivatives) {
+        template_products11(rows, values, n, from == begin, low, high);
+        continue;
+      }
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
         template_products4(rows + simd::kTemplateBlock, values, n, from == begin, low + 3, high + 3);
@@ -20032,9 +20163,9 @@ TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      total = addi(total, dot16(value, ones));
-      square = addi(square, dot16(value, value));
-      host = addi(host, dot16(value, load16(rows + j)));
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
     }
   }
   template_flush(total, first, low, high);
@@ -20047,16 +20178,50 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      c0 = addi(c0, dot16(value, load16(rows + j)));
-      c1 = addi(c1, dot16(value, load16(rows + j + simd::kTemplateBlock)));
-      c2 = addi(c2, dot16(value, load16(rows + j + 2 * simd::kTemplateBlock)));
-      c3 = addi(c3, dot16(value, load16(rows + j + 3 * simd::kTemplateBlock)));
+      c0 = add_dot16(c0, value, load16(rows + j));
+      c1 = add_dot16(c1, value, load16(rows + j + simd::kTemplateBlock));
+      c2 = add_dot16(c2, value, load16(rows + j + 2 * simd::kTemplateBlock));
+      c3 = add_dot16(c3, value, load16(rows + j + 3 * simd::kTemplateBlock));
     }
   }
   template_flush(c0, first, low, high);
   template_flush(c1, first, low + 1, high + 1);
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
+}
+TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  vi total = seti(0), square = total, host = total;
+  vi c0 = total, c1 = total, c2 = total, c3 = total, c4 = total, c5 = total, c6 = total, c7 = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += kStep, rows += simd::kTemplateColumns * kStep) {
+    for (int j = 0; j < kStep; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
+      c0 = add_dot16(c0, value, load16(rows + j + kStep));
+      c1 = add_dot16(c1, value, load16(rows + j + 2 * kStep));
+      c2 = add_dot16(c2, value, load16(rows + j + 3 * kStep));
+      c3 = add_dot16(c3, value, load16(rows + j + 4 * kStep));
+      c4 = add_dot16(c4, value, load16(rows + j + 5 * kStep));
+      c5 = add_dot16(c5, value, load16(rows + j + 6 * kStep));
+      c6 = add_dot16(c6, value, load16(rows + j + 7 * kStep));
+      c7 = add_dot16(c7, value, load16(rows + j + 8 * kStep));
+    }
+  }
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
+  template_flush(c0, first, low + 3, high + 3);
+  template_flush(c1, first, low + 4, high + 4);
+  template_flush(c2, first, low + 5, high + 5);
+  template_flush(c3, first, low + 6, high + 6);
+  template_flush(c4, first, low + 7, high + 7);
+  template_flush(c5, first, low + 8, high + 8);
+  template_flush(c6, first, low + 9, high + 9);
+  template_flush(c7, first, low + 10, high + 10);
 }
 TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
@@ -20088,6 +20253,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
           template_rows(a, n, strip, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
+      if (kManyRegisters && derivatives) {
+        template_products11(rows, values, n, from == begin, low, high);
+        continue;
+      }
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
         template_products4(rows + simd::kTemplateBlock, values, n, from == begin, low + 3, high + 3);
@@ -20233,9 +20402,9 @@ TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      total = addi(total, dot16(value, ones));
-      square = addi(square, dot16(value, value));
-      host = addi(host, dot16(value, load16(rows + j)));
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
     }
   }
   template_flush(total, first, low, high);
@@ -20248,16 +20417,50 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      c0 = addi(c0, dot16(value, load16(rows + j)));
-      c1 = addi(c1, dot16(value, load16(rows + j + simd::kTemplateBlock)));
-      c2 = addi(c2, dot16(value, load16(rows + j + 2 * simd::kTemplateBlock)));
-      c3 = addi(c3, dot16(value, load16(rows + j + 3 * simd::kTemplateBlock)));
+      c0 = add_dot16(c0, value, load16(rows + j));
+      c1 = add_dot16(c1, value, load16(rows + j + simd::kTemplateBlock));
+      c2 = add_dot16(c2, value, load16(rows + j + 2 * simd::kTemplateBlock));
+      c3 = add_dot16(c3, value, load16(rows + j + 3 * simd::kTemplateBlock));
     }
   }
   template_flush(c0, first, low, high);
   template_flush(c1, first, low + 1, high + 1);
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
+}
+TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  vi total = seti(0), square = total, host = total;
+  vi c0 = total, c1 = total, c2 = total, c3 = total, c4 = total, c5 = total, c6 = total, c7 = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += kStep, rows += simd::kTemplateColumns * kStep) {
+    for (int j = 0; j < kStep; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
+      c0 = add_dot16(c0, value, load16(rows + j + kStep));
+      c1 = add_dot16(c1, value, load16(rows + j + 2 * kStep));
+      c2 = add_dot16(c2, value, load16(rows + j + 3 * kStep));
+      c3 = add_dot16(c3, value, load16(rows + j + 4 * kStep));
+      c4 = add_dot16(c4, value, load16(rows + j + 5 * kStep));
+      c5 = add_dot16(c5, value, load16(rows + j + 6 * kStep));
+      c6 = add_dot16(c6, value, load16(rows + j + 7 * kStep));
+      c7 = add_dot16(c7, value, load16(rows + j + 8 * kStep));
+    }
+  }
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
+  template_flush(c0, first, low + 3, high + 3);
+  template_flush(c1, first, low + 4, high + 4);
+  template_flush(c2, first, low + 5, high + 5);
+  template_flush(c3, first, low + 6, high + 6);
+  template_flush(c4, first, low + 7, high + 7);
+  template_flush(c5, first, low + 8, high + 8);
+  template_flush(c6, first, low + 9, high + 9);
+  template_flush(c7, first, low + 10, high + 10);
 }
 TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
                                         simd::TemplateSums& out) noexcept {
@@ -20289,6 +20492,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
           template_rows(a, n, strip, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
+      if (kManyRegisters && derivatives) {
+        template_products11(rows, values, n, from == begin, low, high);
+        continue;
+      }
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
         template_products4(rows + simd::kTemplateBlock, values, n, from == begin, low + 3, high + 3);

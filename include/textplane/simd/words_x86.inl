@@ -6,7 +6,9 @@ TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   __builtin_memcpy(&pair, offset, 8);
   return pair;
 }
-TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept { return static_cast<std::int32_t>(pair); }
+TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
+  return static_cast<std::int32_t>(pair);
+}
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
   return static_cast<std::int64_t>(pair) >> 32;
 }

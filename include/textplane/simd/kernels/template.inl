@@ -133,9 +133,9 @@ TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      total = addi(total, dot16(value, ones));
-      square = addi(square, dot16(value, value));
-      host = addi(host, dot16(value, load16(rows + j)));
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
     }
   }
   template_flush(total, first, low, high);
@@ -150,16 +150,52 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
     for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
       const v16 value = load16(values + i + j);
-      c0 = addi(c0, dot16(value, load16(rows + j)));
-      c1 = addi(c1, dot16(value, load16(rows + j + simd::kTemplateBlock)));
-      c2 = addi(c2, dot16(value, load16(rows + j + 2 * simd::kTemplateBlock)));
-      c3 = addi(c3, dot16(value, load16(rows + j + 3 * simd::kTemplateBlock)));
+      c0 = add_dot16(c0, value, load16(rows + j));
+      c1 = add_dot16(c1, value, load16(rows + j + simd::kTemplateBlock));
+      c2 = add_dot16(c2, value, load16(rows + j + 2 * simd::kTemplateBlock));
+      c3 = add_dot16(c3, value, load16(rows + j + 3 * simd::kTemplateBlock));
     }
   }
   template_flush(c0, first, low, high);
   template_flush(c1, first, low + 1, high + 1);
   template_flush(c2, first, low + 2, high + 2);
   template_flush(c3, first, low + 3, high + 3);
+}
+
+// All of them in one loop, for targets whose registers hold as many sums.
+TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  vi total = seti(0), square = total, host = total;
+  vi c0 = total, c1 = total, c2 = total, c3 = total, c4 = total, c5 = total, c6 = total, c7 = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += kStep, rows += simd::kTemplateColumns * kStep) {
+    for (int j = 0; j < kStep; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
+      c0 = add_dot16(c0, value, load16(rows + j + kStep));
+      c1 = add_dot16(c1, value, load16(rows + j + 2 * kStep));
+      c2 = add_dot16(c2, value, load16(rows + j + 3 * kStep));
+      c3 = add_dot16(c3, value, load16(rows + j + 4 * kStep));
+      c4 = add_dot16(c4, value, load16(rows + j + 5 * kStep));
+      c5 = add_dot16(c5, value, load16(rows + j + 6 * kStep));
+      c6 = add_dot16(c6, value, load16(rows + j + 7 * kStep));
+      c7 = add_dot16(c7, value, load16(rows + j + 8 * kStep));
+    }
+  }
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
+  template_flush(c0, first, low + 3, high + 3);
+  template_flush(c1, first, low + 4, high + 4);
+  template_flush(c2, first, low + 5, high + 5);
+  template_flush(c3, first, low + 6, high + 6);
+  template_flush(c4, first, low + 7, high + 7);
+  template_flush(c5, first, low + 8, high + 8);
+  template_flush(c6, first, low + 9, high + 9);
+  template_flush(c7, first, low + 10, high + 10);
 }
 
 TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWindows* windows, bool derivatives,
@@ -192,6 +228,10 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
           template_rows(a, n, strip, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
+      if (kManyRegisters && derivatives) {
+        template_products11(rows, values, n, from == begin, low, high);
+        continue;
+      }
       template_products(rows, values, n, from == begin, low, high);
       if (derivatives) {
         template_products4(rows + simd::kTemplateBlock, values, n, from == begin, low + 3, high + 3);
