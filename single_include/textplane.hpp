@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 123 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: db8ecd84de829285
+// Hash of these files: 866138caf7ea310c
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 db8ecd84de829285"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 866138caf7ea310c"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -4717,9 +4717,8 @@ TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept {
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return make16((t.a & 255) * w0 + ((t.a >> 8) & 255) * w1, (t.b & 255) * w0 + ((t.b >> 8) & 255) * w1);
 }
-// int32 lane i: x[2i] y[2i] + x[2i+1] y[2i+1]; and the same added to a sum.
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return x.a * y.a + x.b * y.b; }
-TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
+// int32 lane i: sum[i] + x[2i] y[2i] + x[2i+1] y[2i+1].
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return sum + (x.a * y.a + x.b * y.b); }
 // 2 kLanes int32 that fit int16, in order.
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
 // Sum of the lanes; it wraps.
@@ -4824,8 +4823,7 @@ TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm_maddubs_epi16(t, _mm_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm_madd_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
   const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
@@ -4933,8 +4931,7 @@ TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm256_mulhrs_ep
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm256_maddubs_epi16(t, _mm256_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm256_madd_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm256_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
   return _mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xd8);
 }
@@ -5053,7 +5050,6 @@ TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm512_mulhrs_ep
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm512_maddubs_epi16(t, _mm512_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm512_madd_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return _mm512_dpwssd_epi32(sum, x, y); }
 // Numbers of words, two a lane: (first, second) in lane 0 and (step, step) more in each lane after it.
 TEXTPLANE_SIMD_INLINE __m512i word_order(int first, int second, int step) noexcept {
@@ -5136,10 +5132,9 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   const int16x8_t high = vreinterpretq_s16_u16(vshrq_n_u16(u, 8));
   return vmlaq_n_s16(vmulq_n_s16(low, static_cast<std::int16_t>(w0)), high, static_cast<std::int16_t>(w1));
 }
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept {
-  return vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y));
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept {
+  return addi(sum, vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y)));
 }
-TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)); }
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return vaddvq_s32(v); }
 TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,

@@ -95,6 +95,17 @@ void expect_same(const tp::NormalEquations<P>& a, const tp::NormalEquations<P>& 
   EXPECT_EQ(a.error, b.error);
 }
 
+constexpr int kWidth = 211, kHeight = 173;
+
+// The patch, its middle on the host's axis, and cameras for targets of kWidth x kHeight.
+tp::PhotometricInput input_of(const Patch& patch) {
+  tp::PhotometricInput in;
+  in.patch = patch.view();
+  in.host_camera = tp::Pinhole<double>(150, 150, 0, 0);
+  in.target_camera = tp::Pinhole<double>(150, 150, kWidth / 2.0, kHeight / 2.0);
+  return in;
+}
+
 // The patch turned by `angle` about the middle of the host, `scale` times as large, with its middle at (x, y) of the target.
 tp::SE3d motion(double angle, double scale, double x, double y, const tp::PhotometricInput& in) {
   const double z = 1 / scale, f = in.target_camera.fx;
@@ -129,8 +140,6 @@ bool expect_same_of_all(tp::PhotometricInput in, const tp::SE3d& T, const Target
   return near.visible == in.patch.n;
 }
 
-constexpr int kWidth = 211, kHeight = 173;
-
 TEST(Windows, SameBitsInEveryOrderAndPose) {
   const Targets targets(kWidth, kHeight, 240, true);
   const int sizes[][2] = {{37, 29}, {100, 40}, {13, 31}, {64, 9}};
@@ -139,10 +148,7 @@ TEST(Windows, SameBitsInEveryOrderAndPose) {
     for (const Order order : {Order::rows, Order::reversed, Order::mirrored, Order::upside_down, Order::serpentine,
                               Order::columns, Order::holes, Order::shuffled}) {
       const Patch patch(size[0], size[1], order, static_cast<unsigned>(size[0]));
-      tp::PhotometricInput in;
-      in.patch = patch.view();
-      in.host_camera = tp::Pinhole<double>(150, 150, 0, 0);
-      in.target_camera = tp::Pinhole<double>(150, 150, kWidth / 2.0, kHeight / 2.0);
+      tp::PhotometricInput in = input_of(patch);
       tp::PhotometricWorkspace workspace(in.patch.n);
       tp::TemplatePatch prepared;
       ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
@@ -168,10 +174,7 @@ TEST(Windows, EveryBorder) {
       const Targets targets(kWidth, kHeight, stride, at_end);
       for (const Order order : {Order::rows, Order::reversed, Order::mirrored, Order::upside_down}) {
         const Patch patch(41, 21, order, 7);
-        tp::PhotometricInput in;
-        in.patch = patch.view();
-        in.host_camera = tp::Pinhole<double>(150, 150, 0, 0);
-        in.target_camera = tp::Pinhole<double>(150, 150, kWidth / 2.0, kHeight / 2.0);
+        tp::PhotometricInput in = input_of(patch);
         tp::PhotometricWorkspace workspace(in.patch.n);
         tp::TemplatePatch prepared;
         ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
@@ -197,11 +200,8 @@ TEST(Windows, EveryBorder) {
 // Bounds that lie about the pixels: nothing outside of the image is read, whatever comes of it.
 TEST(Windows, WrongBoundsReadNothingOutside) {
   Patch patch(48, 20, Order::rows, 3);
-  tp::PhotometricInput in;
-  in.patch = patch.view();
+  tp::PhotometricInput in = input_of(patch);
   in.patch.bounds = tp::simd::point_bounds(in.patch.x, in.patch.y, in.patch.n);
-  in.host_camera = tp::Pinhole<double>(150, 150, 0, 0);
-  in.target_camera = tp::Pinhole<double>(150, 150, kWidth / 2.0, kHeight / 2.0);
   tp::PhotometricWorkspace workspace(in.patch.n);
   for (const double away : {-1e30, -300.0, -100.0, 100.0, 300.0, 1e30}) {
     for (std::size_t i = 300; i < 600; ++i) patch.x[i] = patch.y[i] = static_cast<float>(away);
@@ -226,10 +226,7 @@ TEST(Windows, NormalEquationsOfDensePatches) {
   const auto image = texture<std::uint8_t>(kWidth, kHeight, 5);
   for (const Order order : {Order::rows, Order::mirrored, Order::reversed}) {
     Patch patch(50, 20, order, 11);
-    tp::PhotometricInput in;
-    in.patch = patch.view();
-    in.host_camera = tp::Pinhole<double>(150, 150, 0, 0);
-    in.target_camera = tp::Pinhole<double>(150, 150, kWidth / 2.0, kHeight / 2.0);
+    tp::PhotometricInput in = input_of(patch);
     in.target = image.view();
     tp::PhotometricWorkspace workspace(in.patch.n);
     const tp::Vector3<double> theta(0, 0, 1);

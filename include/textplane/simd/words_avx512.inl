@@ -12,7 +12,6 @@ TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm512_mulhrs_ep
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm512_maddubs_epi16(t, _mm512_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm512_madd_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return _mm512_dpwssd_epi32(sum, x, y); }
 // Numbers of words, two a lane: (first, second) in lane 0 and (step, step) more in each lane after it.
 TEXTPLANE_SIMD_INLINE __m512i word_order(int first, int second, int step) noexcept {

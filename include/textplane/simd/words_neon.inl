@@ -15,10 +15,9 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   const int16x8_t high = vreinterpretq_s16_u16(vshrq_n_u16(u, 8));
   return vmlaq_n_s16(vmulq_n_s16(low, static_cast<std::int16_t>(w0)), high, static_cast<std::int16_t>(w1));
 }
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept {
-  return vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y));
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept {
+  return addi(sum, vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y)));
 }
-TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)); }
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return vaddvq_s32(v); }
 TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,

@@ -24,9 +24,8 @@ TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept {
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return make16((t.a & 255) * w0 + ((t.a >> 8) & 255) * w1, (t.b & 255) * w0 + ((t.b >> 8) & 255) * w1);
 }
-// int32 lane i: x[2i] y[2i] + x[2i+1] y[2i+1]; and the same added to a sum.
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return x.a * y.a + x.b * y.b; }
-TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
+// int32 lane i: sum[i] + x[2i] y[2i] + x[2i+1] y[2i+1].
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return sum + (x.a * y.a + x.b * y.b); }
 // 2 kLanes int32 that fit int16, in order.
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
 // Sum of the lanes; it wraps.

@@ -16,8 +16,7 @@ TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   return _mm_maddubs_epi16(t, _mm_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
 }
-TEXTPLANE_SIMD_INLINE vi dot16(v16 x, v16 y) noexcept { return _mm_madd_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, dot16(x, y)); }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
 TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
   const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
