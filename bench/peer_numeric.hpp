@@ -8,8 +8,10 @@
 
 namespace textplane_bench {
 
-/// ceres::NumericDiffCostFunction, central differences, by two world poses (quaternion x y z w and translation each) and
-/// theta: 17 columns. A residual block has eight pixels, mean and norm of both sides are held. The host's pose is the identity.
+/// ceres::NumericDiffCostFunction, central differences, by the world-to-camera poses of host and target (quaternion x y z w and
+/// translation each) and theta: 17 columns. A residual block has eight pixels with rays of their own, mean and norm of both sides
+/// are held. As the published one does, each evaluation makes both 4 x 4 poses, inverts the host's, and meets the plane ray by
+/// ray, H = R + t theta^T being its short form. The host's pose is the identity.
 class NumericCost {
  public:
   __attribute__((visibility("default"))) explicit NumericCost(const Problem& problem);
