@@ -97,7 +97,7 @@ struct Parameters {
   double blur_spread = 2.5;     ///< See textplane::match_blur().
 
   // Surface that a text lies on, in that refinement
-  double surface_reach = 2;      ///< Map points up to so many times the text's longer side beside it tell of its plane.
+  double surface_reach = 3;      ///< Map points up to so many times the text's longer side beside it tell of its plane.
   double surface_relief = 0.06;  ///< What lies beside a text is off its plane by this share of the distance: a sigma,
   double surface_bend = 0.25;    ///< and all of it together turned from the text's normal by this: a sigma, degrees.
   double surface_min_points = 6;  ///< That count, each by its weight of at most 1; fewer change nothing.

@@ -7,6 +7,7 @@
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/residual.hpp"
+#include "textslam/jackknife.hpp"
 #include "textslam/statistics.hpp"
 #include "textslam/text_surface.hpp"
 
@@ -87,7 +88,6 @@ bool TextRefiner::drop_unlike(const Vec3& theta) {
   std::vector<double> unlike;
   for (const textplane::PlaneTarget& target : targets_) {
     const auto input = textplane::photometric_input(*target.patch, 0, target.image, map_.camera);
-    photometric_.reserve(input.patch.n);
     const auto cost = textplane::evaluate(input, theta, target.T_t_h, textplane::PhotometricOptions{}, photometric_);
     unlike.push_back(textplane::is_ok(cost.status) ? 1 - cost.zncc : 2);
   }
@@ -98,6 +98,18 @@ bool TextRefiner::drop_unlike(const Vec3& theta) {
   const bool dropped = kept < targets_.size();
   targets_.resize(kept);
   return dropped;
+}
+
+// How far the views pull the plane apart: by errors of their poses, by what shines, by neighbouring pixels that err together.
+Eigen::Matrix3d TextRefiner::disagreement(const Vec3& theta) {
+  std::vector<GroupEquations> views;
+  for (const textplane::PlaneTarget& target : targets_) {
+    const auto input = textplane::photometric_input(*target.patch, 0, target.image, map_.camera);
+    const auto view =
+        textplane::linearise_plane(input, theta, target.T_t_h, textplane::PhotometricOptions{}, photometric_);
+    if (textplane::is_ok(view.status)) views.push_back({view.visible * view.H, view.visible * view.b});
+  }
+  return jackknife_covariance(views);
 }
 
 bool TextRefiner::estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out) {
@@ -123,6 +135,7 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
   for (std::size_t i = 0; i < targets_.size(); ++i) targets_[i].patch = &patches_[i];
 
   workspace_.reserve(patch, static_cast<int>(targets_.size()));
+  photometric_.reserve(patch.max_pixels());
   textplane::PlaneOptions plane;
   plane.coarsest_level = 0;
   const auto fit_to_targets = [&](const Vec3& start) {
@@ -135,7 +148,7 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
   if (!textplane::is_ok(fit.status) || fit.zncc < parameters_.text_min_zncc) return false;
   textplane::Matrix3<double> J;
   out->theta = textplane::reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
-  out->covariance = J * fit.covariance * J.transpose();
+  out->covariance = J * (fit.covariance + disagreement(fit.theta)) * J.transpose();
   out->zncc = fit.zncc;
   return out->theta.norm() > 0;
 }
@@ -168,10 +181,8 @@ void TextRefiner::refine(TextObject& text) {
     covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
   text.theta = mean;
   text.covariance = covariance;
-  if (normal_sigma(text) <= parameters_.refine_max_sigma * M_PI / 180)
-    fit_to_surface(map_, parameters_, text);
-  else
-    drop(text);
+  fit_to_surface(map_, parameters_, text);
+  if (!(normal_sigma(text) <= parameters_.refine_max_sigma * M_PI / 180)) drop(text);
 }
 
 void TextRefiner::refine() {

@@ -114,9 +114,9 @@ TEST_F(TextSurfaceTest, PointsBesideATextAreSurerTheNearerTheyAre) {
   };
   add(0.05, 0, {0, 1, 2});
   add(0.25, 0, {0, 1, 2});
-  add(0.4, 0, {0, 1, 2});      // too far beside it
-  add(0.05, -0.5, {0, 1, 2});  // too far below it
-  add(0.05, 0, {1});           // at no known distance
+  add(0.1 + 0.12 * parameters.surface_reach, 0, {0, 1, 2});  // too far beside it
+  add(0.05, -0.5, {0, 1, 2});                                // too far below it
+  add(0.05, 0, {1});                                         // at no known distance
   add(0.05, 0, {0, 1, 2});
   map.points.back().bad = true;
   const std::vector<SurfacePoint> points = points_beside(map, parameters, text);
