@@ -96,11 +96,12 @@ struct Parameters {
   double blur_variance = 0.25;  ///< px^2 of a camera's own blur.
   double blur_spread = 2.5;     ///< See textplane::match_blur().
 
-  // Surface that a text lies on, in that refinement
+  // Surface that a text lies on, in that refinement, and first of all for a text whose corners are lost
   double surface_reach = 3;      ///< Map points up to so many times the text's longer side beside it tell of its plane.
   double surface_relief = 0.06;  ///< What lies beside a text is off its plane by this share of the distance: a sigma,
   double surface_bend = 0.25;    ///< and all of it together turned from the text's normal by this: a sigma, degrees.
   double surface_min_points = 6;  ///< That count, each by its weight of at most 1; fewer change nothing.
+  double surface_max_sigma = 2;   ///< Degrees: where points alone leave a normal less sure, they give a text no plane.
 
   // Reading of the mapped texts, in the end, where there is a reader
   int reading_views = 8;    ///< Key frames that a text is read in, those that show it sharpest.

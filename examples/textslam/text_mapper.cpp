@@ -14,6 +14,7 @@
 #include "textslam/statistics.hpp"
 #include "textslam/text_hosting.hpp"
 #include "textslam/text_plane.hpp"
+#include "textslam/text_surface.hpp"
 #include "textslam/text_words.hpp"
 
 namespace textslam {
@@ -178,6 +179,16 @@ bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& 
   return true;
 }
 
+// Of a text whose own corners did not tell, as those of a small one may not: by the map points round it. It is seen from where it
+// is until then, or later.
+bool TextMapper::surface_plane(TextObject& text, int id) {
+  if (!plane_from_surface(map_, parameters_, text)) return false;
+  for (int other = text.host + 1; other <= id; ++other)
+    if (!map_.keyframe(other).culled) observe(text, other, 1);
+  text.failures = 0;
+  return true;
+}
+
 // Does key frame `keyframe` show the text where its plane says? `min_share`: of the quad, inside the image. A plane that
 // is still rough asks for all of it: on a part it may agree with the image by chance.
 void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
@@ -226,9 +237,12 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     const bool near = local_.has_text(text.id);
     const std::size_t before = text.targets.size();
     if (text.state == TextState::candidate) {
-      if (near && find_plane(text, id, tracks)) {
+      const bool found = near && find_plane(text, id, tracks);
+      const bool last =
+          id - text.host > parameters_.text_patience || corners(text, id, tracks).host.size() < kFewestCorners;
+      if (found || (last && near && surface_plane(text, id))) {
         text.state = TextState::tentative;
-      } else if (id - text.host > parameters_.text_patience || corners(text, id, tracks).host.size() < kFewestCorners) {
+      } else if (last) {
         drop(text);  // where it is seen again, another candidate has new corners
       }
     } else if (near) {

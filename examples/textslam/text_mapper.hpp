@@ -2,8 +2,9 @@
 //
 // Detection in a key frame -> candidate (refused where it meets a known text or the image border) -> its corners are tracked;
 // once they have parallax, theta by the linear system [m']x t m^T theta = -[m']x R m -> photometric refinement against the
-// key frames that see it -> tentative -> after n_min observations mapped: it takes part in tracking and adjustment, hosted anew
-// where a key frame shows it much better (text_hosting.hpp) -> dropped when the images stop agreeing with it.
+// key frames that see it (where corners are lost before that, theta by the map points round it) -> tentative -> after n_min
+// observations mapped: it takes part in tracking and adjustment, hosted anew where a key frame shows it much better
+// (text_hosting.hpp) -> dropped when the images stop agreeing with it.
 #ifndef TEXTSLAM_TEXT_MAPPER_HPP
 #define TEXTSLAM_TEXT_MAPPER_HPP
 
@@ -40,6 +41,7 @@ class TextMapper {
   };
   Corners corners(const TextObject& text, int keyframe, const std::vector<Track>& tracks) const;
   bool find_plane(TextObject& text, int id, const std::vector<Track>& tracks);
+  bool surface_plane(TextObject& text, int id);
   bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
   void observe(TextObject& text, int keyframe, double min_share);
 

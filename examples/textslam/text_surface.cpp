@@ -6,12 +6,14 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textslam/statistics.hpp"
 
 namespace textslam {
 namespace {
 
 constexpr int kRounds = 20;
-constexpr double kDeviations = 3;  // beyond them a point is of another thing
+constexpr double kDeviations = 3;                  // beyond them a point is of another thing
+constexpr double kAnyTurn = 0.6, kAnyDepth = 0.1;  // radians, share: sigmas where a plane is a guess
 constexpr double kTolerance =
     1e-12;  // of a pivot: a plane known in one direction much better than in another is still known
 
@@ -108,6 +110,34 @@ bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vec3& centre,
 void fit_to_surface(const Map& map, const Parameters& parameters, TextObject& text) {
   const Vec3 centre = textplane::plane_point(text.theta, map.camera.unproject(textplane::centroid(text.patch.quad)));
   fit_to_surface(points_beside(map, parameters, text), centre, parameters, &text.theta, &text.covariance);
+}
+
+bool plane_from_surface(const Map& map, const Parameters& parameters, TextObject& text) {
+  const auto& c = text.patch.quad.corner;
+  const Vec2 middle = textplane::centroid(text.patch.quad);
+  const double near = std::max((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
+  const SE3d T_h_w = map.keyframe(text.host).T_w_c.inverse();
+  std::vector<double> depths;
+  for (const int id : map.keyframe(text.host).points) {
+    const Vec3 p = T_h_w * map.point(id).p_w;
+    if (!map.point(id).bad && p.z() > 0 && (map.camera.project(p) - middle).norm() <= near) depths.push_back(p.z());
+  }
+  if (static_cast<double>(depths.size()) < parameters.surface_min_points) return false;
+
+  // A guess: across the ray to the text, at the depth of what is seen there.
+  const Vec3 ray = map.camera.unproject(middle), centre = median(depths) * ray;
+  TextObject guess;
+  guess.host = text.host;
+  guess.patch.quad = text.patch.quad;
+  guess.theta = centre / centre.squaredNorm();
+  guess.covariance =
+      turned_about(guess.theta, centre, kAnyTurn) + kAnyDepth * kAnyDepth * guess.theta * guess.theta.transpose();
+  if (!fit_to_surface(points_beside(map, parameters, guess), centre, parameters, &guess.theta, &guess.covariance) ||
+      !(normal_sigma(guess) <= parameters.surface_max_sigma * M_PI / 180))
+    return false;
+  text.theta = guess.theta;
+  text.covariance = guess.covariance;
+  return true;
 }
 
 }  // namespace textslam

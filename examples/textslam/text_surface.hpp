@@ -28,6 +28,10 @@ bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vec3& centre,
 /// The same for a text of the map, with the points beside it.
 void fit_to_surface(const Map& map, const Parameters& parameters, TextObject& text);
 
+/// Theta and covariance by the points alone, for a text that has no plane yet. False, and nothing changed, where its host sees less
+/// than surface_min_points in and beside it, or where they leave its normal unknown (surface_max_sigma).
+bool plane_from_surface(const Map& map, const Parameters& parameters, TextObject& text);
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_TEXT_SURFACE_HPP

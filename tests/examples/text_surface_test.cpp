@@ -91,33 +91,42 @@ TEST_F(TextSurfaceTest, FewPointsSayNothing) {
   EXPECT_FALSE(fit_to_surface(table(60), centre, parameters, &theta, &covariance));
 }
 
-// Which points of a map count, and as how sure.
-TEST_F(TextSurfaceTest, PointsBesideATextAreSurerTheNearerTheyAre) {
+// The table and the text in a map of three key frames, whose points are added one by one.
+class TextOnATableTest : public TextSurfaceTest {
+ protected:
+  TextOnATableTest() {
+    map.camera = {525, 525, 319.5, 239.5};
+    map.width = 640;
+    map.height = 480;
+    map.keyframes.resize(3);
+    map.keyframes[1].T_w_c.t = Vec3(0.4, 0, 0);
+    map.keyframes[2].T_w_c.t = Vec3(-0.4, 0, 0);
+    text.host = 0;
+    std::size_t corner = 0;
+    for (const auto& [x, y] : {std::pair(-0.06, -0.015), {0.06, -0.015}, {0.06, 0.015}, {-0.06, 0.015}})
+      text.patch.quad.corner[corner++] = map.camera.project(Vec3(centre + x * right + y * below));
+  }
+  void add(double x, double y, double height, const std::vector<int>& keyframes) {
+    const int id = static_cast<int>(map.points.size());
+    map.points.emplace_back();
+    map.points.back().p_w = centre + x * right + y * below + height * normal;
+    for (const int k : keyframes) {
+      map.points.back().observations.push_back({k, Vec2::Zero()});
+      map.keyframes[static_cast<std::size_t>(k)].points.push_back(id);
+    }
+  }
   Map map;
-  map.camera = {525, 525, 319.5, 239.5};
-  map.width = 640;
-  map.height = 480;
-  map.keyframes.resize(3);
-  map.keyframes[1].T_w_c.t = Vec3(0.4, 0, 0);
-  map.keyframes[2].T_w_c.t = Vec3(-0.4, 0, 0);
   TextObject text;
-  text.host = 0;
+};
+
+TEST_F(TextOnATableTest, PointsBesideATextAreSurerTheNearerTheyAre) {
   text.theta = turned(0);
-  std::size_t corner = 0;
-  for (const auto& [x, y] : {std::pair(-0.06, -0.015), {0.06, -0.015}, {0.06, 0.015}, {-0.06, 0.015}})
-    text.patch.quad.corner[corner++] = map.camera.project(Vec3(centre + x * right + y * below));
-  const auto add = [&](double x, double height, std::vector<int> keyframes) {
-    MapPoint point;
-    point.p_w = centre + x * right + height * normal;
-    for (const int id : keyframes) point.observations.push_back({id, Vec2::Zero()});
-    map.points.push_back(point);
-  };
-  add(0.05, 0, {0, 1, 2});
-  add(0.25, 0, {0, 1, 2});
-  add(0.1 + 0.12 * parameters.surface_reach, 0, {0, 1, 2});  // too far beside it
-  add(0.05, -0.5, {0, 1, 2});                                // too far below it
-  add(0.05, 0, {1});                                         // at no known distance
-  add(0.05, 0, {0, 1, 2});
+  add(0.05, 0, 0, {0, 1, 2});
+  add(0.25, 0, 0, {0, 1, 2});
+  add(0.1 + 0.12 * parameters.surface_reach, 0, 0, {0, 1, 2});  // too far beside it
+  add(0.05, 0, -0.5, {0, 1, 2});                                // too far below it
+  add(0.05, 0, 0, {1});                                         // at no known distance
+  add(0.05, 0, 0, {0, 1, 2});
   map.points.back().bad = true;
   const std::vector<SurfacePoint> points = points_beside(map, parameters, text);
   ASSERT_EQ(points.size(), 2U);
@@ -126,6 +135,26 @@ TEST_F(TextSurfaceTest, PointsBesideATextAreSurerTheNearerTheyAre) {
   EXPECT_NEAR(points[1].sigma, std::hypot(points[0].sigma, parameters.surface_relief * 0.19), 2e-3);
   map.keyframes[1].culled = map.keyframes[2].culled = true;
   EXPECT_TRUE(points_beside(map, parameters, text).empty());
+}
+
+// A text of which nothing is known but where its host sees it.
+TEST_F(TextOnATableTest, PointsAloneGiveATextItsPlane) {
+  for (int i = 0; i < 49; ++i)
+    add(0.03 * (i % 7 - 3), 0.03 * (i / 7 - 3), i % 5 == 0 ? 0.15 : 0.001 * (i % 3 - 1), {0, 1, 2});
+  parameters.surface_max_sigma = 0.01;
+  EXPECT_FALSE(plane_from_surface(map, parameters, text)) << "not that sure";
+  EXPECT_EQ(text.theta, Vec3::Zero());
+  parameters = Parameters();
+  ASSERT_TRUE(plane_from_surface(map, parameters, text));
+  EXPECT_LT(off(text.theta), 1.5) << "though a fifth of the points are of other things";
+  EXPECT_NEAR(textplane::inverse_depth<double>(text.theta, centre), 1, 0.01);
+  EXPECT_LT(normal_sigma(text), parameters.surface_max_sigma * kDegree);
+}
+
+TEST_F(TextOnATableTest, AndNoneWhereItsHostSeesNothing) {
+  for (int i = 0; i < 49; ++i) add(0.03 * (i % 7 - 3), 0.03 * (i / 7 - 3), 0, {1, 2});
+  EXPECT_FALSE(plane_from_surface(map, parameters, text));
+  EXPECT_EQ(text.theta, Vec3::Zero());
 }
 
 }  // namespace text_surface_test
