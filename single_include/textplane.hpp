@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 123 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 866138caf7ea310c
+// Hash of these files: 27f840f02b9d64e2
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 866138caf7ea310c"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 27f840f02b9d64e2"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -2061,6 +2061,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_INLINE inline __attribute__((always_inline))
 #define TEXTPLANE_SIMD_ENTRY inline __attribute__((noinline))
 #define TEXTPLANE_SIMD_RESTRICT __restrict__
+#define TEXTPLANE_SIMD_PREFETCH(p) __builtin_prefetch(p)
 #define TEXTPLANE_SIMD_SQRT __builtin_sqrtf
 #define TEXTPLANE_SIMD_FLOOR __builtin_floorf
 #define TEXTPLANE_SIMD_ABS __builtin_fabsf
@@ -2074,6 +2075,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_RESTRICT
 #endif
 #define TEXTPLANE_SIMD_ENTRY inline
+#define TEXTPLANE_SIMD_PREFETCH(p) static_cast<void>(p)
 #define TEXTPLANE_SIMD_SQRT ::std::sqrt
 #define TEXTPLANE_SIMD_FLOOR ::std::floor
 #define TEXTPLANE_SIMD_ABS ::std::fabs
@@ -9138,9 +9140,14 @@ TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
 
 // Sets n bytes to 1.
 TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
-  const std::uint64_t one = 0x0101010101010101ULL, ones[4] = {one, one, one, one};
+  enum : int { kSize = 4 * kLanes };
+  const vi ones = seti(0x01010101);
   int i = 0;
-  for (; i + 32 <= n; i += 32) copy_bytes(p + i, ones, 32);
+  for (; i + kSize <= n; i += kSize) copy_bytes(p + i, &ones, kSize);
+  if (i > 0) {
+    copy_bytes(p + (n - kSize), &ones, kSize);  // some a second time
+    return;
+  }
   for (; i < n; ++i) p[i] = 1;
 }
 
@@ -9309,9 +9316,14 @@ TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
   return true;
 }
 TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
-  const std::uint64_t one = 0x0101010101010101ULL, ones[4] = {one, one, one, one};
+  enum : int { kSize = 4 * kLanes };
+  const vi ones = seti(0x01010101);
   int i = 0;
-  for (; i + 32 <= n; i += 32) copy_bytes(p + i, ones, 32);
+  for (; i + kSize <= n; i += kSize) copy_bytes(p + i, &ones, kSize);
+  if (i > 0) {
+    copy_bytes(p + (n - kSize), &ones, kSize);
+    return;
+  }
   for (; i < n; ++i) p[i] = 1;
 }
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
@@ -9473,9 +9485,14 @@ TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
   return true;
 }
 TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
-  const std::uint64_t one = 0x0101010101010101ULL, ones[4] = {one, one, one, one};
+  enum : int { kSize = 4 * kLanes };
+  const vi ones = seti(0x01010101);
   int i = 0;
-  for (; i + 32 <= n; i += 32) copy_bytes(p + i, ones, 32);
+  for (; i + kSize <= n; i += kSize) copy_bytes(p + i, &ones, kSize);
+  if (i > 0) {
+    copy_bytes(p + (n - kSize), &ones, kSize);
+    return;
+  }
   for (; i < n; ++i) p[i] = 1;
 }
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
@@ -9644,9 +9661,14 @@ TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
   return true;
 }
 TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
-  const std::uint64_t one = 0x0101010101010101ULL, ones[4] = {one, one, one, one};
+  enum : int { kSize = 4 * kLanes };
+  const vi ones = seti(0x01010101);
   int i = 0;
-  for (; i + 32 <= n; i += 32) copy_bytes(p + i, ones, 32);
+  for (; i + kSize <= n; i += kSize) copy_bytes(p + i, &ones, kSize);
+  if (i > 0) {
+    copy_bytes(p + (n - kSize), &ones, kSize);
+    return;
+  }
   for (; i < n; ++i) p[i] = 1;
 }
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
@@ -9802,9 +9824,14 @@ TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
   return true;
 }
 TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
-  const std::uint64_t one = 0x0101010101010101ULL, ones[4] = {one, one, one, one};
+  enum : int { kSize = 4 * kLanes };
+  const vi ones = seti(0x01010101);
   int i = 0;
-  for (; i + 32 <= n; i += 32) copy_bytes(p + i, ones, 32);
+  for (; i + kSize <= n; i += kSize) copy_bytes(p + i, &ones, kSize);
+  if (i > 0) {
+    copy_bytes(p + (n - kSize), &ones, kSize);
+    return;
+  }
   for (; i < n; ++i) p[i] = 1;
 }
 TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
@@ -19355,12 +19382,30 @@ TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) no
   return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
 }
 
+// Asks for the columns that template_products11() will want of the pixels from i on, if a block begins there: it would wait for
+// them, while taps take their time. `rows` is null where nobody wants them; slower products have no need of it.
+TEXTPLANE_SIMD_INLINE void fetch_ahead(const std::int16_t* rows, int i) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  if (!kManyRegisters || !rows || i % kStep != 0) return;
+  const std::int16_t* p = rows + i * simd::kTemplateColumns;
+  TEXTPLANE_SIMD_PREFETCH(p);
+  TEXTPLANE_SIMD_PREFETCH(p + kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 2 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 3 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 4 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 5 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 6 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 7 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 8 * kStep);
+}
+
 TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, const TemplateStrip& s,
-                                         std::int16_t* values) noexcept {
+                                         const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
   const std::uint8_t* lower = upper + a.target.stride;
   for (int i = 0; i < n; i += k16Lanes) {
     v16 first, second;
+    fetch_ahead(rows, i);
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
   }
@@ -19368,7 +19413,7 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
 
 // The same by windows, and then of the groups that these do not hold.
 TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
-                                           std::int16_t* values) noexcept {
+                                           const std::int16_t* rows, std::int16_t* values) noexcept {
   const TapWindowVectors v = spread(w);
   std::uint64_t groups = 0;  // bit 2 i + k: group i of the k-th 256 pixels
   for (int begin = 0; begin < n; begin += 256) {
@@ -19376,6 +19421,7 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
     std::uint64_t fours = 0;
     for (int i = begin; i < end; i += k16Lanes) {
       v16 first, second;
+      fetch_ahead(rows, i);
       fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
       store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
     }
@@ -19392,9 +19438,10 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
 }
 
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
-                                          std::int16_t* values) noexcept {
+                                          const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint16_t* origin = a.target.pairs + a.oy * a.target.pair_stride + a.ox;
   for (int i = 0; i < n; i += k16Lanes) {
+    fetch_ahead(rows, i);
     const vi p = gather_pairs(origin, s.offset + i), q = gather_pairs(origin, s.offset + i + kLanes);
     store16(values + i, template_value(low16(p, q), high16(p, q), load16(s.fy + i), load16(s.fx + i)));
   }
@@ -19498,16 +19545,17 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
       const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
+      const std::int16_t* ahead = derivatives ? rows : nullptr;
       template_divide(a, from, n, strip);
       if (kTapWindows != 0 && windows) {
         template_window_cells(a, *windows, from, n, strip);
-        template_windows(*windows, n, strip, values);
+        template_windows(*windows, n, strip, ahead, values);
       } else {
         template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
         if (paired)
-          template_pairs(a, n, strip, values);
+          template_pairs(a, n, strip, ahead, values);
         else
-          template_rows(a, n, strip, values);
+          template_rows(a, n, strip, ahead, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
       if (kManyRegisters && derivatives) {
@@ -19608,18 +19656,33 @@ TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) no
   const v16 b = add16(dot_pair(second, 64, 0), mul15(dot_pair(second, -64, 64), f));
   return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
 }
+TEXTPLANE_SIMD_INLINE void fetch_ahead(const std::int16_t* rows, int i) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  if (!kManyRegisters || !rows || i % kStep != 0) return;
+  const std::int16_t* p = rows + i * simd::kTemplateColumns;
+  TEXTPLANE_SIMD_PREFETCH(p);
+  TEXTPLANE_SIMD_PREFETCH(p + kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 2 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 3 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 4 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 5 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 6 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 7 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 8 * kStep);
+}
 TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, const TemplateStrip& s,
-                                         std::int16_t* values) noexcept {
+                                         const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
   const std::uint8_t* lower = upper + a.target.stride;
   for (int i = 0; i < n; i += k16Lanes) {
     v16 first, second;
+    fetch_ahead(rows, i);
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
   }
 }
 TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
-                                           std::int16_t* values) noexcept {
+                                           const std::int16_t* rows, std::int16_t* values) noexcept {
   const TapWindowVectors v = spread(w);
   std::uint64_t groups = 0;
   for (int begin = 0; begin < n; begin += 256) {
@@ -19627,6 +19690,7 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
     std::uint64_t fours = 0;
     for (int i = begin; i < end; i += k16Lanes) {
       v16 first, second;
+      fetch_ahead(rows, i);
       fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
       store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
     }
@@ -19642,9 +19706,10 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
   }
 }
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
-                                          std::int16_t* values) noexcept {
+                                          const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint16_t* origin = a.target.pairs + a.oy * a.target.pair_stride + a.ox;
   for (int i = 0; i < n; i += k16Lanes) {
+    fetch_ahead(rows, i);
     const vi p = gather_pairs(origin, s.offset + i), q = gather_pairs(origin, s.offset + i + kLanes);
     store16(values + i, template_value(low16(p, q), high16(p, q), load16(s.fy + i), load16(s.fx + i)));
   }
@@ -19739,16 +19804,17 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
       const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
+      const std::int16_t* ahead = derivatives ? rows : nullptr;
       template_divide(a, from, n, strip);
       if (kTapWindows != 0 && windows) {
         template_window_cells(a, *windows, from, n, strip);
-        template_windows(*windows, n, strip, values);
+        template_windows(*windows, n, strip, ahead, values);
       } else {
         template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
         if (paired)
-          template_pairs(a, n, strip, values);
+          template_pairs(a, n, strip, ahead, values);
         else
-          template_rows(a, n, strip, values);
+          template_rows(a, n, strip, ahead, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
       if (kManyRegisters && derivatives) {
@@ -19853,18 +19919,33 @@ TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) no
   const v16 b = add16(dot_pair(second, 64, 0), mul15(dot_pair(second, -64, 64), f));
   return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
 }
+TEXTPLANE_SIMD_INLINE void fetch_ahead(const std::int16_t* rows, int i) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  if (!kManyRegisters || !rows || i % kStep != 0) return;
+  const std::int16_t* p = rows + i * simd::kTemplateColumns;
+  TEXTPLANE_SIMD_PREFETCH(p);
+  TEXTPLANE_SIMD_PREFETCH(p + kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 2 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 3 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 4 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 5 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 6 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 7 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 8 * kStep);
+}
 TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, const TemplateStrip& s,
-                                         std::int16_t* values) noexcept {
+                                         const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
   const std::uint8_t* lower = upper + a.target.stride;
   for (int i = 0; i < n; i += k16Lanes) {
     v16 first, second;
+    fetch_ahead(rows, i);
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
   }
 }
 TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
-                                           std::int16_t* values) noexcept {
+                                           const std::int16_t* rows, std::int16_t* values) noexcept {
   const TapWindowVectors v = spread(w);
   std::uint64_t groups = 0;
   for (int begin = 0; begin < n; begin += 256) {
@@ -19872,6 +19953,7 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
     std::uint64_t fours = 0;
     for (int i = begin; i < end; i += k16Lanes) {
       v16 first, second;
+      fetch_ahead(rows, i);
       fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
       store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
     }
@@ -19887,9 +19969,10 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
   }
 }
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
-                                          std::int16_t* values) noexcept {
+                                          const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint16_t* origin = a.target.pairs + a.oy * a.target.pair_stride + a.ox;
   for (int i = 0; i < n; i += k16Lanes) {
+    fetch_ahead(rows, i);
     const vi p = gather_pairs(origin, s.offset + i), q = gather_pairs(origin, s.offset + i + kLanes);
     store16(values + i, template_value(low16(p, q), high16(p, q), load16(s.fy + i), load16(s.fx + i)));
   }
@@ -19984,16 +20067,17 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
       const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
+      const std::int16_t* ahead = derivatives ? rows : nullptr;
       template_divide(a, from, n, strip);
       if (kTapWindows != 0 && windows) {
         template_window_cells(a, *windows, from, n, strip);
-        template_windows(*windows, n, strip, values);
+        template_windows(*windows, n, strip, ahead, values);
       } else {
         template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
         if (paired)
-          template_pairs(a, n, strip, values);
+          template_pairs(a, n, strip, ahead, values);
         else
-          template_rows(a, n, strip, values);
+          template_rows(a, n, strip, ahead, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
       if (kManyRegisters && derivatives) {
@@ -20105,18 +20189,33 @@ TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) no
   const v16 b = add16(dot_pair(second, 64, 0), mul15(dot_pair(second, -64, 64), f));
   return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
 }
+TEXTPLANE_SIMD_INLINE void fetch_ahead(const std::int16_t* rows, int i) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  if (!kManyRegisters || !rows || i % kStep != 0) return;
+  const std::int16_t* p = rows + i * simd::kTemplateColumns;
+  TEXTPLANE_SIMD_PREFETCH(p);
+  TEXTPLANE_SIMD_PREFETCH(p + kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 2 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 3 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 4 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 5 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 6 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 7 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 8 * kStep);
+}
 TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, const TemplateStrip& s,
-                                         std::int16_t* values) noexcept {
+                                         const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
   const std::uint8_t* lower = upper + a.target.stride;
   for (int i = 0; i < n; i += k16Lanes) {
     v16 first, second;
+    fetch_ahead(rows, i);
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
   }
 }
 TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
-                                           std::int16_t* values) noexcept {
+                                           const std::int16_t* rows, std::int16_t* values) noexcept {
   const TapWindowVectors v = spread(w);
   std::uint64_t groups = 0;
   for (int begin = 0; begin < n; begin += 256) {
@@ -20124,6 +20223,7 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
     std::uint64_t fours = 0;
     for (int i = begin; i < end; i += k16Lanes) {
       v16 first, second;
+      fetch_ahead(rows, i);
       fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
       store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
     }
@@ -20139,9 +20239,10 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
   }
 }
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
-                                          std::int16_t* values) noexcept {
+                                          const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint16_t* origin = a.target.pairs + a.oy * a.target.pair_stride + a.ox;
   for (int i = 0; i < n; i += k16Lanes) {
+    fetch_ahead(rows, i);
     const vi p = gather_pairs(origin, s.offset + i), q = gather_pairs(origin, s.offset + i + kLanes);
     store16(values + i, template_value(low16(p, q), high16(p, q), load16(s.fy + i), load16(s.fx + i)));
   }
@@ -20236,16 +20337,17 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
       const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
+      const std::int16_t* ahead = derivatives ? rows : nullptr;
       template_divide(a, from, n, strip);
       if (kTapWindows != 0 && windows) {
         template_window_cells(a, *windows, from, n, strip);
-        template_windows(*windows, n, strip, values);
+        template_windows(*windows, n, strip, ahead, values);
       } else {
         template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
         if (paired)
-          template_pairs(a, n, strip, values);
+          template_pairs(a, n, strip, ahead, values);
         else
-          template_rows(a, n, strip, values);
+          template_rows(a, n, strip, ahead, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
       if (kManyRegisters && derivatives) {
@@ -20344,18 +20446,33 @@ TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) no
   const v16 b = add16(dot_pair(second, 64, 0), mul15(dot_pair(second, -64, 64), f));
   return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
 }
+TEXTPLANE_SIMD_INLINE void fetch_ahead(const std::int16_t* rows, int i) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  if (!kManyRegisters || !rows || i % kStep != 0) return;
+  const std::int16_t* p = rows + i * simd::kTemplateColumns;
+  TEXTPLANE_SIMD_PREFETCH(p);
+  TEXTPLANE_SIMD_PREFETCH(p + kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 2 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 3 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 4 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 5 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 6 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 7 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 8 * kStep);
+}
 TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, const TemplateStrip& s,
-                                         std::int16_t* values) noexcept {
+                                         const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
   const std::uint8_t* lower = upper + a.target.stride;
   for (int i = 0; i < n; i += k16Lanes) {
     v16 first, second;
+    fetch_ahead(rows, i);
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
   }
 }
 TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
-                                           std::int16_t* values) noexcept {
+                                           const std::int16_t* rows, std::int16_t* values) noexcept {
   const TapWindowVectors v = spread(w);
   std::uint64_t groups = 0;
   for (int begin = 0; begin < n; begin += 256) {
@@ -20363,6 +20480,7 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
     std::uint64_t fours = 0;
     for (int i = begin; i < end; i += k16Lanes) {
       v16 first, second;
+      fetch_ahead(rows, i);
       fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
       store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
     }
@@ -20378,9 +20496,10 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
   }
 }
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
-                                          std::int16_t* values) noexcept {
+                                          const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint16_t* origin = a.target.pairs + a.oy * a.target.pair_stride + a.ox;
   for (int i = 0; i < n; i += k16Lanes) {
+    fetch_ahead(rows, i);
     const vi p = gather_pairs(origin, s.offset + i), q = gather_pairs(origin, s.offset + i + kLanes);
     store16(values + i, template_value(low16(p, q), high16(p, q), load16(s.fy + i), load16(s.fx + i)));
   }
@@ -20475,16 +20594,17 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
       const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
+      const std::int16_t* ahead = derivatives ? rows : nullptr;
       template_divide(a, from, n, strip);
       if (kTapWindows != 0 && windows) {
         template_window_cells(a, *windows, from, n, strip);
-        template_windows(*windows, n, strip, values);
+        template_windows(*windows, n, strip, ahead, values);
       } else {
         template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
         if (paired)
-          template_pairs(a, n, strip, values);
+          template_pairs(a, n, strip, ahead, values);
         else
-          template_rows(a, n, strip, values);
+          template_rows(a, n, strip, ahead, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
       if (kManyRegisters && derivatives) {
@@ -21781,6 +21901,20 @@ bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, con
   if (P != 9 && is_ok(out->status)) take_block<P>(H, b, out);
   return true;
 }
+
+// The policies with the host's gradients. (A function with one variable to return: it is made where the caller wants it.)
+template <int P>
+NormalEquations<P> linearise_by_host(LinearisePolicy policy, const PhotometricInput& in, const Vector3<double>& theta,
+                                     const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
+                                     const TemplatePatch* prepared) noexcept {
+  const bool known = policy == LinearisePolicy::template_jacobian || policy == LinearisePolicy::esm;
+  NormalEquations<P> out{Unset()};
+  if (!known || !in.patch.gx || !in.patch.gy ||
+      !kernel_linearise_by<P>(policy, in, theta, T_t_h, options, workspace, prepared, &out))
+    out = reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
+  if (!is_ok(out.status)) out.clear();
+  return out;
+}
 }  // namespace detail
 
 /// As reference::linearise_by(), by the SIMD kernels. `prepared`, if given, must be of in.patch; it makes template_jacobian
@@ -21798,13 +21932,7 @@ NormalEquations<P> linearise_by(LinearisePolicy policy, const PhotometricInput& 
     if constexpr (P == 6) return linearise_pose(in, theta, T_t_h, options, workspace);
     if constexpr (P == 9) return linearise_pose_plane(in, theta, T_t_h, options, workspace);
   }
-  const bool known = policy == LinearisePolicy::template_jacobian || policy == LinearisePolicy::esm;
-  NormalEquations<P> out{detail::Unset()};
-  if (!known || !in.patch.gx || !in.patch.gy ||
-      !detail::kernel_linearise_by<P>(policy, in, theta, T_t_h, options, workspace, prepared, &out))
-    out = reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
-  if (!is_ok(out.status)) out.clear();
-  return out;
+  return detail::linearise_by_host<P>(policy, in, theta, T_t_h, options, workspace, prepared);
 }
 /// Float images have no kernels of their own: by the reference, and nothing prepared is used.
 template <int P>

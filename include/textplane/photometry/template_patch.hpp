@@ -204,6 +204,20 @@ bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, con
   if (P != 9 && is_ok(out->status)) take_block<P>(H, b, out);
   return true;
 }
+
+// The policies with the host's gradients. (A function with one variable to return: it is made where the caller wants it.)
+template <int P>
+NormalEquations<P> linearise_by_host(LinearisePolicy policy, const PhotometricInput& in, const Vector3<double>& theta,
+                                     const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
+                                     const TemplatePatch* prepared) noexcept {
+  const bool known = policy == LinearisePolicy::template_jacobian || policy == LinearisePolicy::esm;
+  NormalEquations<P> out{Unset()};
+  if (!known || !in.patch.gx || !in.patch.gy ||
+      !kernel_linearise_by<P>(policy, in, theta, T_t_h, options, workspace, prepared, &out))
+    out = reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
+  if (!is_ok(out.status)) out.clear();
+  return out;
+}
 }  // namespace detail
 
 /// As reference::linearise_by(), by the SIMD kernels. `prepared`, if given, must be of in.patch; it makes template_jacobian
@@ -221,13 +235,7 @@ NormalEquations<P> linearise_by(LinearisePolicy policy, const PhotometricInput& 
     if constexpr (P == 6) return linearise_pose(in, theta, T_t_h, options, workspace);
     if constexpr (P == 9) return linearise_pose_plane(in, theta, T_t_h, options, workspace);
   }
-  const bool known = policy == LinearisePolicy::template_jacobian || policy == LinearisePolicy::esm;
-  NormalEquations<P> out{detail::Unset()};
-  if (!known || !in.patch.gx || !in.patch.gy ||
-      !detail::kernel_linearise_by<P>(policy, in, theta, T_t_h, options, workspace, prepared, &out))
-    out = reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
-  if (!is_ok(out.status)) out.clear();
-  return out;
+  return detail::linearise_by_host<P>(policy, in, theta, T_t_h, options, workspace, prepared);
 }
 /// Float images have no kernels of their own: by the reference, and nothing prepared is used.
 template <int P>

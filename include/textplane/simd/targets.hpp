@@ -75,6 +75,7 @@
 #define TEXTPLANE_SIMD_INLINE inline __attribute__((always_inline))
 #define TEXTPLANE_SIMD_ENTRY inline __attribute__((noinline))
 #define TEXTPLANE_SIMD_RESTRICT __restrict__
+#define TEXTPLANE_SIMD_PREFETCH(p) __builtin_prefetch(p)
 #define TEXTPLANE_SIMD_SQRT __builtin_sqrtf
 #define TEXTPLANE_SIMD_FLOOR __builtin_floorf
 #define TEXTPLANE_SIMD_ABS __builtin_fabsf
@@ -88,6 +89,7 @@
 #define TEXTPLANE_SIMD_RESTRICT
 #endif
 #define TEXTPLANE_SIMD_ENTRY inline
+#define TEXTPLANE_SIMD_PREFETCH(p) static_cast<void>(p)
 #define TEXTPLANE_SIMD_SQRT ::std::sqrt
 #define TEXTPLANE_SIMD_FLOOR ::std::floor
 #define TEXTPLANE_SIMD_ABS ::std::fabs

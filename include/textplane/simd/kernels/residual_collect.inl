@@ -29,9 +29,14 @@ TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
 
 // Sets n bytes to 1.
 TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
-  const std::uint64_t one = 0x0101010101010101ULL, ones[4] = {one, one, one, one};
+  enum : int { kSize = 4 * kLanes };
+  const vi ones = seti(0x01010101);
   int i = 0;
-  for (; i + 32 <= n; i += 32) copy_bytes(p + i, ones, 32);
+  for (; i + kSize <= n; i += kSize) copy_bytes(p + i, &ones, kSize);
+  if (i > 0) {
+    copy_bytes(p + (n - kSize), &ones, kSize);  // some a second time
+    return;
+  }
   for (; i < n; ++i) p[i] = 1;
 }
 

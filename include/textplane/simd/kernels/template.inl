@@ -73,12 +73,30 @@ TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) no
   return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
 }
 
+// Asks for the columns that template_products11() will want of the pixels from i on, if a block begins there: it would wait for
+// them, while taps take their time. `rows` is null where nobody wants them; slower products have no need of it.
+TEXTPLANE_SIMD_INLINE void fetch_ahead(const std::int16_t* rows, int i) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  if (!kManyRegisters || !rows || i % kStep != 0) return;
+  const std::int16_t* p = rows + i * simd::kTemplateColumns;
+  TEXTPLANE_SIMD_PREFETCH(p);
+  TEXTPLANE_SIMD_PREFETCH(p + kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 2 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 3 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 4 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 5 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 6 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 7 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 8 * kStep);
+}
+
 TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, const TemplateStrip& s,
-                                         std::int16_t* values) noexcept {
+                                         const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
   const std::uint8_t* lower = upper + a.target.stride;
   for (int i = 0; i < n; i += k16Lanes) {
     v16 first, second;
+    fetch_ahead(rows, i);
     gather16(upper, lower, s.offset + i, &first, &second);
     store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
   }
@@ -86,7 +104,7 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
 
 // The same by windows, and then of the groups that these do not hold.
 TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
-                                           std::int16_t* values) noexcept {
+                                           const std::int16_t* rows, std::int16_t* values) noexcept {
   const TapWindowVectors v = spread(w);
   std::uint64_t groups = 0;  // bit 2 i + k: group i of the k-th 256 pixels
   for (int begin = 0; begin < n; begin += 256) {
@@ -94,6 +112,7 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
     std::uint64_t fours = 0;
     for (int i = begin; i < end; i += k16Lanes) {
       v16 first, second;
+      fetch_ahead(rows, i);
       fours |= static_cast<std::uint64_t>(window_words(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
       store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
     }
@@ -110,9 +129,10 @@ TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const Tem
 }
 
 TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
-                                          std::int16_t* values) noexcept {
+                                          const std::int16_t* rows, std::int16_t* values) noexcept {
   const std::uint16_t* origin = a.target.pairs + a.oy * a.target.pair_stride + a.ox;
   for (int i = 0; i < n; i += k16Lanes) {
+    fetch_ahead(rows, i);
     const vi p = gather_pairs(origin, s.offset + i), q = gather_pairs(origin, s.offset + i + kLanes);
     store16(values + i, template_value(low16(p, q), high16(p, q), load16(s.fy + i), load16(s.fx + i)));
   }
@@ -216,16 +236,17 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const TapWi
       const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
       std::int16_t* values = a.values + from;
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
+      const std::int16_t* ahead = derivatives ? rows : nullptr;
       template_divide(a, from, n, strip);
       if (kTapWindows != 0 && windows) {
         template_window_cells(a, *windows, from, n, strip);
-        template_windows(*windows, n, strip, values);
+        template_windows(*windows, n, strip, ahead, values);
       } else {
         template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
         if (paired)
-          template_pairs(a, n, strip, values);
+          template_pairs(a, n, strip, ahead, values);
         else
-          template_rows(a, n, strip, values);
+          template_rows(a, n, strip, ahead, values);
       }
       if (a.n - from < n) zero16(values, a.n - from, n);
       if (kManyRegisters && derivatives) {
