@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 123 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 27f840f02b9d64e2
+// Hash of these files: 49eda6284e1dfa7a
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 27f840f02b9d64e2"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 49eda6284e1dfa7a"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -3624,6 +3624,12 @@ TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   out[2] = c;
   out[3] = d;
 }
+// The sums of eight vectors that lie one after the other, each as of hsum4.
+TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+  vd r;
+  for (int i = 0; i < 8; ++i) r.lane[i] = static_cast<double>(p[i]);
+  return r;
+}
 }
 }
 TEXTPLANE_END_NAMESPACE
@@ -3877,6 +3883,11 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
 
 TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   _mm_storeu_ps(out, _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, d)));
+}
+TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+  const __m128 q = _mm_hadd_ps(_mm_hadd_ps(load(p), load(p + 4)), _mm_hadd_ps(load(p + 8), load(p + 12)));
+  const __m128 r = _mm_hadd_ps(_mm_hadd_ps(load(p + 16), load(p + 20)), _mm_hadd_ps(load(p + 24), load(p + 28)));
+  return vd{{_mm_cvtps_pd(q), _mm_cvtps_pd(_mm_movehl_ps(q, q)), _mm_cvtps_pd(r), _mm_cvtps_pd(_mm_movehl_ps(r, r))}};
 }
 }
 }
@@ -4134,12 +4145,22 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
   return vd{_mm256_fmadd_pd(a.low, b.low, c.low), _mm256_fmadd_pd(a.high, b.high, c.high)};
 }
 
+// vhaddps takes twice the time of its two shuffles and one sum.
+TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
+}
 TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
-  // vhaddps takes twice the time of its two shuffles and one sum.
-  const __m256 p = _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-  const __m256 q = _mm256_add_ps(_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
-  const __m256 s = _mm256_add_ps(_mm256_shuffle_ps(p, q, 0x44), _mm256_shuffle_ps(p, q, 0xee));
+  const __m256 s = join_pairs(join_lanes(a, b), join_lanes(c, d));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
+}
+TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+  const __m256 q = join_pairs(join_lanes(load(p), load(p + 8)), join_lanes(load(p + 16), load(p + 24)));
+  const __m256 r = join_pairs(join_lanes(load(p + 32), load(p + 40)), join_lanes(load(p + 48), load(p + 56)));
+  const __m256 s = _mm256_add_ps(_mm256_permute2f128_ps(q, r, 0x20), _mm256_permute2f128_ps(q, r, 0x31));
+  return vd{_mm256_cvtps_pd(_mm256_castps256_ps128(s)), _mm256_cvtps_pd(_mm256_extractf128_ps(s, 1))};
 }
 }
 }
@@ -4396,6 +4417,22 @@ TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
+// vhaddps takes twice the time of its two shuffles and one sum.
+TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
+}
+TEXTPLANE_SIMD_INLINE __m256 half_sum_at(const float* p) noexcept {
+  return _mm256_add_ps(_mm256_loadu_ps(p), _mm256_loadu_ps(p + 8));
+}
+TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+  const __m256 a = join_lanes(half_sum_at(p), half_sum_at(p + 16)), b = join_lanes(half_sum_at(p + 32), half_sum_at(p + 48));
+  const __m256 c = join_lanes(half_sum_at(p + 64), half_sum_at(p + 80)), d = join_lanes(half_sum_at(p + 96), half_sum_at(p + 112));
+  const __m256 q = join_pairs(a, b), r = join_pairs(c, d);
+  return vd{_mm512_maskz_cvtps_pd(0xff, _mm256_add_ps(_mm256_permute2f128_ps(q, r, 0x20), _mm256_permute2f128_ps(q, r, 0x31)))};
+}
 }
 }
 TEXTPLANE_END_NAMESPACE
@@ -4643,6 +4680,11 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
 
 TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   vst1q_f32(out, vpaddq_f32(vpaddq_f32(a, b), vpaddq_f32(c, d)));
+}
+TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+  const float32x4_t q = vpaddq_f32(vpaddq_f32(load(p), load(p + 4)), vpaddq_f32(load(p + 8), load(p + 12)));
+  const float32x4_t r = vpaddq_f32(vpaddq_f32(load(p + 16), load(p + 20)), vpaddq_f32(load(p + 24), load(p + 28)));
+  return vd{{vcvt_f64_f32(vget_low_f32(q)), vcvt_high_f64_f32(q), vcvt_f64_f32(vget_low_f32(r)), vcvt_high_f64_f32(r)}};
 }
 }
 }
@@ -8541,7 +8583,7 @@ namespace detail {
 enum : int {
   kRowPixels = 256,  // up to here rows of the parameters, from here on sums that are corrected
   kFoldTerms = 256,  // terms of a lane before a sum goes to double
-  kMostSums = 52,    // 27 + 3 * 8, and a multiple of four
+  kMostSums = 56,    // 27 + 3 * 8, and a multiple of eight
   kMostLanes = 16,
 };
 
@@ -10281,35 +10323,39 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums + kLanes, t1);
 }
 
-// The eight rows times p to `acc`, times q to `acc2`.
-TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+// The eight rows times p to `acc`, and, where q is given, times q to `acc2`. With the factor inside, products are shared: half of
+// the additions then go to ports that multiply nothing.
+TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                     const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
-  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
-  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
-     t5 = so_far(fresh, acc2 + 5 * kLanes);
-  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
+  const bool none = fresh || !q;
+  vf t0 = so_far(none, acc2), t1 = so_far(none, acc2 + kLanes), t2 = so_far(none, acc2 + 2 * kLanes);
+  vf t3 = so_far(none, acc2 + 3 * kLanes), t4 = so_far(none, acc2 + 4 * kLanes), t5 = so_far(none, acc2 + 5 * kLanes);
+  vf t6 = so_far(none, acc2 + 6 * kLanes), t7 = so_far(none, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
-    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
-    s0 = madd(A, f, s0);
-    s1 = madd(Ax, f, s1);
-    s2 = madd(Ay, f, s2);
-    s3 = madd(B, f, s3);
-    s4 = madd(Bx, f, s4);
-    s5 = madd(By, f, s5);
-    s6 = madd(Cx, f, s6);
-    s7 = madd(Cy, f, s7);
-    t0 = madd(A, g, t0);
-    t1 = madd(Ax, g, t1);
-    t2 = madd(Ay, g, t2);
-    t3 = madd(B, g, t3);
-    t4 = madd(Bx, g, t4);
-    t5 = madd(By, g, t5);
-    t6 = madd(Cx, g, t6);
-    t7 = madd(Cy, g, t7);
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i);
+    const vf fA = mul(f, A), fB = mul(f, B), fAx = mul(fA, u), fBy = mul(fB, v), fC = add(fAx, fBy);
+    s0 = add(s0, fA);
+    s1 = add(s1, fAx);
+    s2 = madd(fA, v, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, u, s4);
+    s5 = add(s5, fBy);
+    s6 = madd(fC, u, s6);
+    s7 = madd(fC, v, s7);
+    if (!q) continue;
+    const vf g = load(q + i);
+    const vf gA = mul(g, A), gB = mul(g, B), gAx = mul(gA, u), gBy = mul(gB, v), gC = add(gAx, gBy);
+    t0 = add(t0, gA);
+    t1 = add(t1, gAx);
+    t2 = madd(gA, v, t2);
+    t3 = add(t3, gB);
+    t4 = madd(gB, u, t4);
+    t5 = add(t5, gBy);
+    t6 = madd(gC, u, t6);
+    t7 = madd(gC, v, t7);
   }
   store(acc, s0);
   store(acc + kLanes, s1);
@@ -10319,6 +10365,7 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc + 5 * kLanes, s5);
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
+  if (!q) return;
   store(acc2, t0);
   store(acc2 + kLanes, t1);
   store(acc2 + 2 * kLanes, t2);
@@ -10327,6 +10374,14 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc2 + 5 * kLanes, t5);
   store(acc2 + 6 * kLanes, t6);
   store(acc2 + 7 * kLanes, t7);
+}
+TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                            const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  products8(x, y, a, b, p, q, n, fresh, acc, acc2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        int n, bool fresh, float* acc) noexcept {
+  products8(x, y, a, b, p, nullptr, n, fresh, acc, acc);
 }
 }
 }
@@ -10618,34 +10673,37 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums, t0);
   store(sums + kLanes, t1);
 }
-TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                     const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
-  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
-  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
-     t5 = so_far(fresh, acc2 + 5 * kLanes);
-  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
+  const bool none = fresh || !q;
+  vf t0 = so_far(none, acc2), t1 = so_far(none, acc2 + kLanes), t2 = so_far(none, acc2 + 2 * kLanes);
+  vf t3 = so_far(none, acc2 + 3 * kLanes), t4 = so_far(none, acc2 + 4 * kLanes), t5 = so_far(none, acc2 + 5 * kLanes);
+  vf t6 = so_far(none, acc2 + 6 * kLanes), t7 = so_far(none, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
-    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
-    s0 = madd(A, f, s0);
-    s1 = madd(Ax, f, s1);
-    s2 = madd(Ay, f, s2);
-    s3 = madd(B, f, s3);
-    s4 = madd(Bx, f, s4);
-    s5 = madd(By, f, s5);
-    s6 = madd(Cx, f, s6);
-    s7 = madd(Cy, f, s7);
-    t0 = madd(A, g, t0);
-    t1 = madd(Ax, g, t1);
-    t2 = madd(Ay, g, t2);
-    t3 = madd(B, g, t3);
-    t4 = madd(Bx, g, t4);
-    t5 = madd(By, g, t5);
-    t6 = madd(Cx, g, t6);
-    t7 = madd(Cy, g, t7);
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i);
+    const vf fA = mul(f, A), fB = mul(f, B), fAx = mul(fA, u), fBy = mul(fB, v), fC = add(fAx, fBy);
+    s0 = add(s0, fA);
+    s1 = add(s1, fAx);
+    s2 = madd(fA, v, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, u, s4);
+    s5 = add(s5, fBy);
+    s6 = madd(fC, u, s6);
+    s7 = madd(fC, v, s7);
+    if (!q) continue;
+    const vf g = load(q + i);
+    const vf gA = mul(g, A), gB = mul(g, B), gAx = mul(gA, u), gBy = mul(gB, v), gC = add(gAx, gBy);
+    t0 = add(t0, gA);
+    t1 = add(t1, gAx);
+    t2 = madd(gA, v, t2);
+    t3 = add(t3, gB);
+    t4 = madd(gB, u, t4);
+    t5 = add(t5, gBy);
+    t6 = madd(gC, u, t6);
+    t7 = madd(gC, v, t7);
   }
   store(acc, s0);
   store(acc + kLanes, s1);
@@ -10655,6 +10713,7 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc + 5 * kLanes, s5);
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
+  if (!q) return;
   store(acc2, t0);
   store(acc2 + kLanes, t1);
   store(acc2 + 2 * kLanes, t2);
@@ -10663,6 +10722,14 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc2 + 5 * kLanes, t5);
   store(acc2 + 6 * kLanes, t6);
   store(acc2 + 7 * kLanes, t7);
+}
+TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                            const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  products8(x, y, a, b, p, q, n, fresh, acc, acc2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        int n, bool fresh, float* acc) noexcept {
+  products8(x, y, a, b, p, nullptr, n, fresh, acc, acc);
 }
 }
 }
@@ -10960,34 +11027,37 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums, t0);
   store(sums + kLanes, t1);
 }
-TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                     const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
-  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
-  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
-     t5 = so_far(fresh, acc2 + 5 * kLanes);
-  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
+  const bool none = fresh || !q;
+  vf t0 = so_far(none, acc2), t1 = so_far(none, acc2 + kLanes), t2 = so_far(none, acc2 + 2 * kLanes);
+  vf t3 = so_far(none, acc2 + 3 * kLanes), t4 = so_far(none, acc2 + 4 * kLanes), t5 = so_far(none, acc2 + 5 * kLanes);
+  vf t6 = so_far(none, acc2 + 6 * kLanes), t7 = so_far(none, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
-    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
-    s0 = madd(A, f, s0);
-    s1 = madd(Ax, f, s1);
-    s2 = madd(Ay, f, s2);
-    s3 = madd(B, f, s3);
-    s4 = madd(Bx, f, s4);
-    s5 = madd(By, f, s5);
-    s6 = madd(Cx, f, s6);
-    s7 = madd(Cy, f, s7);
-    t0 = madd(A, g, t0);
-    t1 = madd(Ax, g, t1);
-    t2 = madd(Ay, g, t2);
-    t3 = madd(B, g, t3);
-    t4 = madd(Bx, g, t4);
-    t5 = madd(By, g, t5);
-    t6 = madd(Cx, g, t6);
-    t7 = madd(Cy, g, t7);
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i);
+    const vf fA = mul(f, A), fB = mul(f, B), fAx = mul(fA, u), fBy = mul(fB, v), fC = add(fAx, fBy);
+    s0 = add(s0, fA);
+    s1 = add(s1, fAx);
+    s2 = madd(fA, v, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, u, s4);
+    s5 = add(s5, fBy);
+    s6 = madd(fC, u, s6);
+    s7 = madd(fC, v, s7);
+    if (!q) continue;
+    const vf g = load(q + i);
+    const vf gA = mul(g, A), gB = mul(g, B), gAx = mul(gA, u), gBy = mul(gB, v), gC = add(gAx, gBy);
+    t0 = add(t0, gA);
+    t1 = add(t1, gAx);
+    t2 = madd(gA, v, t2);
+    t3 = add(t3, gB);
+    t4 = madd(gB, u, t4);
+    t5 = add(t5, gBy);
+    t6 = madd(gC, u, t6);
+    t7 = madd(gC, v, t7);
   }
   store(acc, s0);
   store(acc + kLanes, s1);
@@ -10997,6 +11067,7 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc + 5 * kLanes, s5);
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
+  if (!q) return;
   store(acc2, t0);
   store(acc2 + kLanes, t1);
   store(acc2 + 2 * kLanes, t2);
@@ -11005,6 +11076,14 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc2 + 5 * kLanes, t5);
   store(acc2 + 6 * kLanes, t6);
   store(acc2 + 7 * kLanes, t7);
+}
+TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                            const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  products8(x, y, a, b, p, q, n, fresh, acc, acc2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        int n, bool fresh, float* acc) noexcept {
+  products8(x, y, a, b, p, nullptr, n, fresh, acc, acc);
 }
 }
 }
@@ -11309,34 +11388,37 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums, t0);
   store(sums + kLanes, t1);
 }
-TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                     const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
-  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
-  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
-     t5 = so_far(fresh, acc2 + 5 * kLanes);
-  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
+  const bool none = fresh || !q;
+  vf t0 = so_far(none, acc2), t1 = so_far(none, acc2 + kLanes), t2 = so_far(none, acc2 + 2 * kLanes);
+  vf t3 = so_far(none, acc2 + 3 * kLanes), t4 = so_far(none, acc2 + 4 * kLanes), t5 = so_far(none, acc2 + 5 * kLanes);
+  vf t6 = so_far(none, acc2 + 6 * kLanes), t7 = so_far(none, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
-    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
-    s0 = madd(A, f, s0);
-    s1 = madd(Ax, f, s1);
-    s2 = madd(Ay, f, s2);
-    s3 = madd(B, f, s3);
-    s4 = madd(Bx, f, s4);
-    s5 = madd(By, f, s5);
-    s6 = madd(Cx, f, s6);
-    s7 = madd(Cy, f, s7);
-    t0 = madd(A, g, t0);
-    t1 = madd(Ax, g, t1);
-    t2 = madd(Ay, g, t2);
-    t3 = madd(B, g, t3);
-    t4 = madd(Bx, g, t4);
-    t5 = madd(By, g, t5);
-    t6 = madd(Cx, g, t6);
-    t7 = madd(Cy, g, t7);
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i);
+    const vf fA = mul(f, A), fB = mul(f, B), fAx = mul(fA, u), fBy = mul(fB, v), fC = add(fAx, fBy);
+    s0 = add(s0, fA);
+    s1 = add(s1, fAx);
+    s2 = madd(fA, v, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, u, s4);
+    s5 = add(s5, fBy);
+    s6 = madd(fC, u, s6);
+    s7 = madd(fC, v, s7);
+    if (!q) continue;
+    const vf g = load(q + i);
+    const vf gA = mul(g, A), gB = mul(g, B), gAx = mul(gA, u), gBy = mul(gB, v), gC = add(gAx, gBy);
+    t0 = add(t0, gA);
+    t1 = add(t1, gAx);
+    t2 = madd(gA, v, t2);
+    t3 = add(t3, gB);
+    t4 = madd(gB, u, t4);
+    t5 = add(t5, gBy);
+    t6 = madd(gC, u, t6);
+    t7 = madd(gC, v, t7);
   }
   store(acc, s0);
   store(acc + kLanes, s1);
@@ -11346,6 +11428,7 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc + 5 * kLanes, s5);
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
+  if (!q) return;
   store(acc2, t0);
   store(acc2 + kLanes, t1);
   store(acc2 + 2 * kLanes, t2);
@@ -11354,6 +11437,14 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc2 + 5 * kLanes, t5);
   store(acc2 + 6 * kLanes, t6);
   store(acc2 + 7 * kLanes, t7);
+}
+TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                            const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  products8(x, y, a, b, p, q, n, fresh, acc, acc2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        int n, bool fresh, float* acc) noexcept {
+  products8(x, y, a, b, p, nullptr, n, fresh, acc, acc);
 }
 }
 }
@@ -11645,34 +11736,37 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums, t0);
   store(sums + kLanes, t1);
 }
-TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                     const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
-  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
-  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
-     t5 = so_far(fresh, acc2 + 5 * kLanes);
-  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
+  const bool none = fresh || !q;
+  vf t0 = so_far(none, acc2), t1 = so_far(none, acc2 + kLanes), t2 = so_far(none, acc2 + 2 * kLanes);
+  vf t3 = so_far(none, acc2 + 3 * kLanes), t4 = so_far(none, acc2 + 4 * kLanes), t5 = so_far(none, acc2 + 5 * kLanes);
+  vf t6 = so_far(none, acc2 + 6 * kLanes), t7 = so_far(none, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
-    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
-    s0 = madd(A, f, s0);
-    s1 = madd(Ax, f, s1);
-    s2 = madd(Ay, f, s2);
-    s3 = madd(B, f, s3);
-    s4 = madd(Bx, f, s4);
-    s5 = madd(By, f, s5);
-    s6 = madd(Cx, f, s6);
-    s7 = madd(Cy, f, s7);
-    t0 = madd(A, g, t0);
-    t1 = madd(Ax, g, t1);
-    t2 = madd(Ay, g, t2);
-    t3 = madd(B, g, t3);
-    t4 = madd(Bx, g, t4);
-    t5 = madd(By, g, t5);
-    t6 = madd(Cx, g, t6);
-    t7 = madd(Cy, g, t7);
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i);
+    const vf fA = mul(f, A), fB = mul(f, B), fAx = mul(fA, u), fBy = mul(fB, v), fC = add(fAx, fBy);
+    s0 = add(s0, fA);
+    s1 = add(s1, fAx);
+    s2 = madd(fA, v, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, u, s4);
+    s5 = add(s5, fBy);
+    s6 = madd(fC, u, s6);
+    s7 = madd(fC, v, s7);
+    if (!q) continue;
+    const vf g = load(q + i);
+    const vf gA = mul(g, A), gB = mul(g, B), gAx = mul(gA, u), gBy = mul(gB, v), gC = add(gAx, gBy);
+    t0 = add(t0, gA);
+    t1 = add(t1, gAx);
+    t2 = madd(gA, v, t2);
+    t3 = add(t3, gB);
+    t4 = madd(gB, u, t4);
+    t5 = add(t5, gBy);
+    t6 = madd(gC, u, t6);
+    t7 = madd(gC, v, t7);
   }
   store(acc, s0);
   store(acc + kLanes, s1);
@@ -11682,6 +11776,7 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc + 5 * kLanes, s5);
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
+  if (!q) return;
   store(acc2, t0);
   store(acc2 + kLanes, t1);
   store(acc2 + 2 * kLanes, t2);
@@ -11690,6 +11785,14 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc2 + 5 * kLanes, t5);
   store(acc2 + 6 * kLanes, t6);
   store(acc2 + 7 * kLanes, t7);
+}
+TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                            const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  products8(x, y, a, b, p, q, n, fresh, acc, acc2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        int n, bool fresh, float* acc) noexcept {
+  products8(x, y, a, b, p, nullptr, n, fresh, acc, acc);
 }
 }
 }
@@ -13031,18 +13134,9 @@ struct RowStrip {
   float row[6][kStrip];
 };
 
-// The unweighted sums of the homography's rows where registers hold many of them: three loops, each with rows of its own, take
-// less time than loops over rows that pass through memory. The sums are those of add_strip_products() and add_strip_sums(), each
-// in the same order.
-TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, bool fresh, float* acc,
-                                               float* ones, float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, fresh, acc, ones);
-  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, fresh, first, second);
-}
-
-// Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too.
+// Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too. (Where registers hold many sums the
+// homography's rows stay there, are made again for each loop, which takes less time than the way through memory, and `rows` is not
+// used: n may then exceed a strip.)
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               bool fresh, float* acc) noexcept {
@@ -13064,6 +13158,9 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
       add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
     add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
+  } else if (kManyRegisters) {
+    add_moments(x, y, a, b, n, fresh, acc, sums);
+    add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, sums + 6 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
     add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
@@ -13073,30 +13170,38 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
   }
 }
 
-// Sums of the rows with the factors p and q, to the sums `first` and `second` of three.
-TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, bool fresh, float* first,
-                                          float* second) noexcept {
+// Sums of the rows of these pixels with the factors p and q, to the sums `first` and `second` of three. Where q is p, `second`
+// receives the same or is left as it is.
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float* y, const float* a, const float* b,
+                                          const RowStrip& rows, const float* p, const float* q, int n, bool fresh,
+                                          float* first, float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
     add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
+  } else if (kManyRegisters) {
+    if (p == q)
+      add_products8(x, y, a, b, p, n, fresh, first);
+    else
+      add_two_products8(x, y, a, b, p, q, n, fresh, first, second);
   } else {
     add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
     add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
 
-// Adds the partial sums to the totals; `sums` is rounded up to a multiple of four.
-TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
-  for (int k = 0; k < sums; k += 4) {
-    const float* p = acc + k * kLanes;
-    float four[4];
-    hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
+// Adds the partial sums to the totals, or, where `first`, makes them these; `sums` is rounded up to a multiple of eight.
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
+  for (int k = 0; k < sums; k += 8) {
+    const vd eight = hsum8(acc + k * kLanes);
+    stored(total + k, first ? eight : maddd(setd(1.0), eight, loadd(total + k)));
   }
+}
+// Zeroes what fold() reads beyond the sums.
+TEXTPLANE_SIMD_INLINE void zero_rest(int sums, float* acc) noexcept {
+  for (int k = sums; k % 8 != 0; ++k) store(acc + k * kLanes, zero());
 }
 
 // The target's and the host's offsets, their means over the first strip; and kappa, the ratio of their contrasts there, with which
@@ -13302,9 +13407,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 // Sums of the rows with the factors p, q and r of the strip, one after the other.
 TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);  // twice the same, stored once more
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);  // twice the same, stored once more
 }
 
 // The cost of the host pixels, of which there are at least a.min_visible.
@@ -13338,8 +13443,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   const int n = host.n;
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + all * kLanes, zero());  // fold() reads it
+  zero_rest(all, acc);
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -13359,15 +13463,11 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     if (end % block != 0 && end < n) continue;
     const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
     const bool fresh = terms == 0;
-    if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
-    } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
-    }
+    add_strip_products(form, true, constants, x, y, ga, gb, end - from, &rows, fresh, acc);
+    add_strip_sums(form, x, y, ga, gb, rows, i, d, end - from, fresh, sum_i, sum_d);
     terms += block / kLanes;
     if (terms >= kFoldTerms || end == n) {
-      fold(acc, all, total);
+      fold(acc, all, end <= kFoldTerms * kLanes, total);
       terms = 0;
     }
   }
@@ -13411,7 +13511,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
       add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
-        fold(acc, all, other);
+        fold(acc, all, begin < kFoldTerms * kLanes, other);
         terms = 0;
       }
     }
@@ -13458,13 +13558,6 @@ enum : int { kBlock = 4 * kStrip };
 struct RowStrip {
   float row[6][kStrip];
 };
-TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, bool fresh, float* acc,
-                                               float* ones, float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, fresh, acc, ones);
-  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, fresh, first, second);
-}
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               bool fresh, float* acc) noexcept {
@@ -13486,6 +13579,9 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
       add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
     add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
+  } else if (kManyRegisters) {
+    add_moments(x, y, a, b, n, fresh, acc, sums);
+    add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, sums + 6 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
     add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
@@ -13494,27 +13590,33 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
     add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
-TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, bool fresh, float* first,
-                                          float* second) noexcept {
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float* y, const float* a, const float* b,
+                                          const RowStrip& rows, const float* p, const float* q, int n, bool fresh,
+                                          float* first, float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
     add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
+  } else if (kManyRegisters) {
+    if (p == q)
+      add_products8(x, y, a, b, p, n, fresh, first);
+    else
+      add_two_products8(x, y, a, b, p, q, n, fresh, first, second);
   } else {
     add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
     add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
-TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
-  for (int k = 0; k < sums; k += 4) {
-    const float* p = acc + k * kLanes;
-    float four[4];
-    hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
+  for (int k = 0; k < sums; k += 8) {
+    const vd eight = hsum8(acc + k * kLanes);
+    stored(total + k, first ? eight : maddd(setd(1.0), eight, loadd(total + k)));
   }
+}
+TEXTPLANE_SIMD_INLINE void zero_rest(int sums, float* acc) noexcept {
+  for (int k = sums; k % 8 != 0; ++k) store(acc + k * kLanes, zero());
 }
 struct Offsets {
   float target, host, kappa;
@@ -13695,9 +13797,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 }
 TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
 }
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
@@ -13727,8 +13829,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   const int n = host.n;
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + all * kLanes, zero());
+  zero_rest(all, acc);
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -13747,15 +13848,11 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     if (end % block != 0 && end < n) continue;
     const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
     const bool fresh = terms == 0;
-    if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
-    } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
-    }
+    add_strip_products(form, true, constants, x, y, ga, gb, end - from, &rows, fresh, acc);
+    add_strip_sums(form, x, y, ga, gb, rows, i, d, end - from, fresh, sum_i, sum_d);
     terms += block / kLanes;
     if (terms >= kFoldTerms || end == n) {
-      fold(acc, all, total);
+      fold(acc, all, end <= kFoldTerms * kLanes, total);
       terms = 0;
     }
   }
@@ -13795,7 +13892,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
       add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
-        fold(acc, all, other);
+        fold(acc, all, begin < kFoldTerms * kLanes, other);
         terms = 0;
       }
     }
@@ -13847,13 +13944,6 @@ enum : int { kBlock = 4 * kStrip };
 struct RowStrip {
   float row[6][kStrip];
 };
-TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, bool fresh, float* acc,
-                                               float* ones, float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, fresh, acc, ones);
-  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, fresh, first, second);
-}
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               bool fresh, float* acc) noexcept {
@@ -13875,6 +13965,9 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
       add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
     add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
+  } else if (kManyRegisters) {
+    add_moments(x, y, a, b, n, fresh, acc, sums);
+    add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, sums + 6 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
     add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
@@ -13883,27 +13976,33 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
     add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
-TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, bool fresh, float* first,
-                                          float* second) noexcept {
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float* y, const float* a, const float* b,
+                                          const RowStrip& rows, const float* p, const float* q, int n, bool fresh,
+                                          float* first, float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
     add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
+  } else if (kManyRegisters) {
+    if (p == q)
+      add_products8(x, y, a, b, p, n, fresh, first);
+    else
+      add_two_products8(x, y, a, b, p, q, n, fresh, first, second);
   } else {
     add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
     add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
-TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
-  for (int k = 0; k < sums; k += 4) {
-    const float* p = acc + k * kLanes;
-    float four[4];
-    hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
+  for (int k = 0; k < sums; k += 8) {
+    const vd eight = hsum8(acc + k * kLanes);
+    stored(total + k, first ? eight : maddd(setd(1.0), eight, loadd(total + k)));
   }
+}
+TEXTPLANE_SIMD_INLINE void zero_rest(int sums, float* acc) noexcept {
+  for (int k = sums; k % 8 != 0; ++k) store(acc + k * kLanes, zero());
 }
 struct Offsets {
   float target, host, kappa;
@@ -14084,9 +14183,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 }
 TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
 }
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
@@ -14116,8 +14215,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   const int n = host.n;
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + all * kLanes, zero());
+  zero_rest(all, acc);
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -14136,15 +14234,11 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     if (end % block != 0 && end < n) continue;
     const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
     const bool fresh = terms == 0;
-    if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
-    } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
-    }
+    add_strip_products(form, true, constants, x, y, ga, gb, end - from, &rows, fresh, acc);
+    add_strip_sums(form, x, y, ga, gb, rows, i, d, end - from, fresh, sum_i, sum_d);
     terms += block / kLanes;
     if (terms >= kFoldTerms || end == n) {
-      fold(acc, all, total);
+      fold(acc, all, end <= kFoldTerms * kLanes, total);
       terms = 0;
     }
   }
@@ -14184,7 +14278,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
       add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
-        fold(acc, all, other);
+        fold(acc, all, begin < kFoldTerms * kLanes, other);
         terms = 0;
       }
     }
@@ -14243,13 +14337,6 @@ enum : int { kBlock = 4 * kStrip };
 struct RowStrip {
   float row[6][kStrip];
 };
-TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, bool fresh, float* acc,
-                                               float* ones, float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, fresh, acc, ones);
-  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, fresh, first, second);
-}
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               bool fresh, float* acc) noexcept {
@@ -14271,6 +14358,9 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
       add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
     add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
+  } else if (kManyRegisters) {
+    add_moments(x, y, a, b, n, fresh, acc, sums);
+    add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, sums + 6 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
     add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
@@ -14279,27 +14369,33 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
     add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
-TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, bool fresh, float* first,
-                                          float* second) noexcept {
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float* y, const float* a, const float* b,
+                                          const RowStrip& rows, const float* p, const float* q, int n, bool fresh,
+                                          float* first, float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
     add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
+  } else if (kManyRegisters) {
+    if (p == q)
+      add_products8(x, y, a, b, p, n, fresh, first);
+    else
+      add_two_products8(x, y, a, b, p, q, n, fresh, first, second);
   } else {
     add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
     add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
-TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
-  for (int k = 0; k < sums; k += 4) {
-    const float* p = acc + k * kLanes;
-    float four[4];
-    hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
+  for (int k = 0; k < sums; k += 8) {
+    const vd eight = hsum8(acc + k * kLanes);
+    stored(total + k, first ? eight : maddd(setd(1.0), eight, loadd(total + k)));
   }
+}
+TEXTPLANE_SIMD_INLINE void zero_rest(int sums, float* acc) noexcept {
+  for (int k = sums; k % 8 != 0; ++k) store(acc + k * kLanes, zero());
 }
 struct Offsets {
   float target, host, kappa;
@@ -14480,9 +14576,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 }
 TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
 }
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
@@ -14512,8 +14608,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   const int n = host.n;
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + all * kLanes, zero());
+  zero_rest(all, acc);
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -14532,15 +14627,11 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     if (end % block != 0 && end < n) continue;
     const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
     const bool fresh = terms == 0;
-    if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
-    } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
-    }
+    add_strip_products(form, true, constants, x, y, ga, gb, end - from, &rows, fresh, acc);
+    add_strip_sums(form, x, y, ga, gb, rows, i, d, end - from, fresh, sum_i, sum_d);
     terms += block / kLanes;
     if (terms >= kFoldTerms || end == n) {
-      fold(acc, all, total);
+      fold(acc, all, end <= kFoldTerms * kLanes, total);
       terms = 0;
     }
   }
@@ -14580,7 +14671,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
       add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
-        fold(acc, all, other);
+        fold(acc, all, begin < kFoldTerms * kLanes, other);
         terms = 0;
       }
     }
@@ -14626,13 +14717,6 @@ enum : int { kBlock = 4 * kStrip };
 struct RowStrip {
   float row[6][kStrip];
 };
-TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, bool fresh, float* acc,
-                                               float* ones, float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, fresh, acc, ones);
-  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, fresh, first, second);
-}
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               bool fresh, float* acc) noexcept {
@@ -14654,6 +14738,9 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
       add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
     add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
+  } else if (kManyRegisters) {
+    add_moments(x, y, a, b, n, fresh, acc, sums);
+    add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, sums + 6 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
     add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
@@ -14662,27 +14749,33 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
     add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
   }
 }
-TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, bool fresh, float* first,
-                                          float* second) noexcept {
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float* y, const float* a, const float* b,
+                                          const RowStrip& rows, const float* p, const float* q, int n, bool fresh,
+                                          float* first, float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
     add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
+  } else if (kManyRegisters) {
+    if (p == q)
+      add_products8(x, y, a, b, p, n, fresh, first);
+    else
+      add_two_products8(x, y, a, b, p, q, n, fresh, first, second);
   } else {
     add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
     add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
-TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
-  for (int k = 0; k < sums; k += 4) {
-    const float* p = acc + k * kLanes;
-    float four[4];
-    hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
+  for (int k = 0; k < sums; k += 8) {
+    const vd eight = hsum8(acc + k * kLanes);
+    stored(total + k, first ? eight : maddd(setd(1.0), eight, loadd(total + k)));
   }
+}
+TEXTPLANE_SIMD_INLINE void zero_rest(int sums, float* acc) noexcept {
+  for (int k = sums; k % 8 != 0; ++k) store(acc + k * kLanes, zero());
 }
 struct Offsets {
   float target, host, kappa;
@@ -14863,9 +14956,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 }
 TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
 }
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
@@ -14895,8 +14988,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   const int n = host.n;
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + all * kLanes, zero());
+  zero_rest(all, acc);
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -14915,15 +15007,11 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     if (end % block != 0 && end < n) continue;
     const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
     const bool fresh = terms == 0;
-    if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
-    } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
-    }
+    add_strip_products(form, true, constants, x, y, ga, gb, end - from, &rows, fresh, acc);
+    add_strip_sums(form, x, y, ga, gb, rows, i, d, end - from, fresh, sum_i, sum_d);
     terms += block / kLanes;
     if (terms >= kFoldTerms || end == n) {
-      fold(acc, all, total);
+      fold(acc, all, end <= kFoldTerms * kLanes, total);
       terms = 0;
     }
   }
@@ -14963,7 +15051,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
       add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
-        fold(acc, all, other);
+        fold(acc, all, begin < kFoldTerms * kLanes, other);
         terms = 0;
       }
     }
@@ -18309,9 +18397,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
 
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + kAll * kLanes, zero());  // fold() reads it
-  for (int k = 0; k < 32; ++k) total_host[k] = 0;
+  zero_rest(kAll, acc);
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -18322,14 +18408,14 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
     const bool fresh = (begin / kStrip) % kLanes == 0;
     add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+    add_strip_sums(8, x, y, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
                    acc + (kProducts + 16) * kLanes);
-    homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    if (!kManyRegisters) homography_rows(x, y, ha, hb, m, rows.row);  // else as in add_strip_products()
+    add_strip_sums(8, x, y, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, x, y, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
-      fold(acc, kAll, total);
-      fold(acc_host, 32, total_host);
+      fold(acc, kAll, begin < kLanes * kStrip, total);
+      fold(acc_host, 32, begin < kLanes * kStrip, total_host);
     }
   }
 
@@ -18366,10 +18452,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
       add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
                      acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
-      fold(acc, kAll, other);
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
+      fold(acc, kAll, begin == 0, other);
     }
     double S[8][8];
     unpack_products(8, other, S);
@@ -18504,9 +18590,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const float on_host = static_cast<float>((e.average ? 0.5 : 1.0) / host_s);
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + kAll * kLanes, zero());
-  for (int k = 0; k < 32; ++k) total_host[k] = 0;
+  zero_rest(kAll, acc);
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -18517,14 +18601,14 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
     const bool fresh = (begin / kStrip) % kLanes == 0;
     add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+    add_strip_sums(8, x, y, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
                    acc + (kProducts + 16) * kLanes);
-    homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    if (!kManyRegisters) homography_rows(x, y, ha, hb, m, rows.row);
+    add_strip_sums(8, x, y, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, x, y, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
-      fold(acc, kAll, total);
-      fold(acc_host, 32, total_host);
+      fold(acc, kAll, begin < kLanes * kStrip, total);
+      fold(acc_host, 32, begin < kLanes * kStrip, total_host);
     }
   }
   double squares = 0, rho = 0;
@@ -18558,10 +18642,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
       add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
                      acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
-      fold(acc, kAll, other);
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
+      fold(acc, kAll, begin == 0, other);
     }
     double S[8][8];
     unpack_products(8, other, S);
@@ -18700,9 +18784,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const float on_host = static_cast<float>((e.average ? 0.5 : 1.0) / host_s);
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + kAll * kLanes, zero());
-  for (int k = 0; k < 32; ++k) total_host[k] = 0;
+  zero_rest(kAll, acc);
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -18713,14 +18795,14 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
     const bool fresh = (begin / kStrip) % kLanes == 0;
     add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+    add_strip_sums(8, x, y, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
                    acc + (kProducts + 16) * kLanes);
-    homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    if (!kManyRegisters) homography_rows(x, y, ha, hb, m, rows.row);
+    add_strip_sums(8, x, y, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, x, y, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
-      fold(acc, kAll, total);
-      fold(acc_host, 32, total_host);
+      fold(acc, kAll, begin < kLanes * kStrip, total);
+      fold(acc_host, 32, begin < kLanes * kStrip, total_host);
     }
   }
   double squares = 0, rho = 0;
@@ -18754,10 +18836,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
       add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
                      acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
-      fold(acc, kAll, other);
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
+      fold(acc, kAll, begin == 0, other);
     }
     double S[8][8];
     unpack_products(8, other, S);
@@ -18903,9 +18985,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const float on_host = static_cast<float>((e.average ? 0.5 : 1.0) / host_s);
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + kAll * kLanes, zero());
-  for (int k = 0; k < 32; ++k) total_host[k] = 0;
+  zero_rest(kAll, acc);
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -18916,14 +18996,14 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
     const bool fresh = (begin / kStrip) % kLanes == 0;
     add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+    add_strip_sums(8, x, y, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
                    acc + (kProducts + 16) * kLanes);
-    homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    if (!kManyRegisters) homography_rows(x, y, ha, hb, m, rows.row);
+    add_strip_sums(8, x, y, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, x, y, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
-      fold(acc, kAll, total);
-      fold(acc_host, 32, total_host);
+      fold(acc, kAll, begin < kLanes * kStrip, total);
+      fold(acc_host, 32, begin < kLanes * kStrip, total_host);
     }
   }
   double squares = 0, rho = 0;
@@ -18957,10 +19037,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
       add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
                      acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
-      fold(acc, kAll, other);
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
+      fold(acc, kAll, begin == 0, other);
     }
     double S[8][8];
     unpack_products(8, other, S);
@@ -19093,9 +19173,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const float on_host = static_cast<float>((e.average ? 0.5 : 1.0) / host_s);
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + kAll * kLanes, zero());
-  for (int k = 0; k < 32; ++k) total_host[k] = 0;
+  zero_rest(kAll, acc);
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -19106,14 +19184,14 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
     const bool fresh = (begin / kStrip) % kLanes == 0;
     add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+    add_strip_sums(8, x, y, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
                    acc + (kProducts + 16) * kLanes);
-    homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    if (!kManyRegisters) homography_rows(x, y, ha, hb, m, rows.row);
+    add_strip_sums(8, x, y, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, x, y, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
-      fold(acc, kAll, total);
-      fold(acc_host, 32, total_host);
+      fold(acc, kAll, begin < kLanes * kStrip, total);
+      fold(acc_host, 32, begin < kLanes * kStrip, total_host);
     }
   }
   double squares = 0, rho = 0;
@@ -19147,10 +19225,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
       add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
                      acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
-      fold(acc, kAll, other);
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
+      fold(acc, kAll, begin == 0, other);
     }
     double S[8][8];
     unpack_products(8, other, S);
@@ -20757,8 +20835,7 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
-  for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  store(acc + kAll * kLanes, zero());  // fold() reads it
+  zero_rest(kAll, acc);
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
@@ -20766,9 +20843,9 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
-    fold(acc, kAll, other);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
   }
   unpack_products(8, other, S);
   for (int k = 0; k < 8; ++k) {
@@ -20957,8 +21034,7 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
-  for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  store(acc + kAll * kLanes, zero());
+  zero_rest(kAll, acc);
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
@@ -20966,9 +21042,9 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
-    fold(acc, kAll, other);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
   }
   unpack_products(8, other, S);
   for (int k = 0; k < 8; ++k) {
@@ -21156,8 +21232,7 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
-  for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  store(acc + kAll * kLanes, zero());
+  zero_rest(kAll, acc);
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
@@ -21165,9 +21240,9 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
-    fold(acc, kAll, other);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
   }
   unpack_products(8, other, S);
   for (int k = 0; k < 8; ++k) {
@@ -21362,8 +21437,7 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
-  for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  store(acc + kAll * kLanes, zero());
+  zero_rest(kAll, acc);
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
@@ -21371,9 +21445,9 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
-    fold(acc, kAll, other);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
   }
   unpack_products(8, other, S);
   for (int k = 0; k < 8; ++k) {
@@ -21555,8 +21629,7 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
-  for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  store(acc + kAll * kLanes, zero());
+  zero_rest(kAll, acc);
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
@@ -21564,9 +21637,9 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
-    fold(acc, kAll, other);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
   }
   unpack_products(8, other, S);
   for (int k = 0; k < 8; ++k) {

@@ -82,6 +82,14 @@ TEXTPLANE_SIMD_ENTRY void reductions(const float* pa, double* out) noexcept {
   out[3] = static_cast<double>(hmax(a));
 }
 
+// hsum4 of the first four vectors, then hsum8 of all.
+TEXTPLANE_SIMD_ENTRY void eight_sums(const float* p, double* out) noexcept {
+  float four[4];
+  hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
+  for (int k = 0; k < 4; ++k) out[k] = static_cast<double>(four[k]);
+  stored(out + 4, hsum8(p));
+}
+
 TEXTPLANE_SIMD_ENTRY void taps(const std::uint32_t* words, float* out) noexcept {
   const taps_t t = load_taps(words);
   store(out, tap_value(t));

@@ -23,6 +23,7 @@ inline void mask_operations(const float* a, const float* b, const int* i, const 
 }
 inline void inverse_roots(const float* p, float* out) { TEXTPLANE_SIMD_DISPATCH(inverse_roots(p, out)) }
 inline void reductions(const float* a, double* out) { TEXTPLANE_SIMD_DISPATCH(reductions(a, out)) }
+inline void eight_sums(const float* p, double* out) { TEXTPLANE_SIMD_DISPATCH(eight_sums(p, out)) }
 inline void taps(const std::uint32_t* words, float* out) { TEXTPLANE_SIMD_DISPATCH(taps(words, out)) }
 inline void partial_load(const float* p, int n, float* out) { TEXTPLANE_SIMD_DISPATCH(partial_load_floats(p, n, out)) }
 inline void partial_load(const int* p, int n, int* out) { TEXTPLANE_SIMD_DISPATCH(partial_load_ints(p, n, out)) }

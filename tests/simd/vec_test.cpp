@@ -247,6 +247,22 @@ TEST(Vec, ReductionsHalveTheLanes) {
   });
 }
 
+TEST(Vec, SumsOfSeveralVectorsKeepThemApart) {
+  std::mt19937 random(12);
+  on_each_target([&](Target, int lanes) {
+    for (int round = 0; round < 100; ++round) {
+      // Integers, whose sums are exact in any order.
+      float p[8 * kMost];
+      for (float& value : p) value = static_cast<float>(static_cast<int>(random() % 20001) - 10000);
+      double want[8] = {}, out[12];
+      for (int k = 0; k < 8 * lanes; ++k) want[k / lanes] += static_cast<double>(p[k]);
+      eight_sums(p, out);
+      for (int k = 0; k < 4; ++k) EXPECT_EQ(out[k], want[k]);
+      for (int k = 0; k < 8; ++k) EXPECT_EQ(out[4 + k], want[k]);
+    }
+  });
+}
+
 TEST(Vec, TapsAreExactDifferencesOfBytes) {
   std::mt19937 random(13);
   on_each_target([&](Target, int lanes) {

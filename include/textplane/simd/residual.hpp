@@ -76,7 +76,7 @@ namespace detail {
 enum : int {
   kRowPixels = 256,  // up to here rows of the parameters, from here on sums that are corrected
   kFoldTerms = 256,  // terms of a lane before a sum goes to double
-  kMostSums = 52,    // 27 + 3 * 8, and a multiple of four
+  kMostSums = 56,    // 27 + 3 * 8, and a multiple of eight
   kMostLanes = 16,
 };
 

@@ -203,3 +203,8 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
 TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   vst1q_f32(out, vpaddq_f32(vpaddq_f32(a, b), vpaddq_f32(c, d)));
 }
+TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+  const float32x4_t q = vpaddq_f32(vpaddq_f32(load(p), load(p + 4)), vpaddq_f32(load(p + 8), load(p + 12)));
+  const float32x4_t r = vpaddq_f32(vpaddq_f32(load(p + 16), load(p + 20)), vpaddq_f32(load(p + 24), load(p + 28)));
+  return vd{{vcvt_f64_f32(vget_low_f32(q)), vcvt_high_f64_f32(q), vcvt_f64_f32(vget_low_f32(r)), vcvt_high_f64_f32(r)}};
+}

@@ -176,3 +176,9 @@ TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   out[2] = c;
   out[3] = d;
 }
+// The sums of eight vectors that lie one after the other, each as of hsum4.
+TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+  vd r;
+  for (int i = 0; i < 8; ++i) r.lane[i] = static_cast<double>(p[i]);
+  return r;
+}

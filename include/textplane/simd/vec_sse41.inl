@@ -202,3 +202,8 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
 TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   _mm_storeu_ps(out, _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, d)));
 }
+TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+  const __m128 q = _mm_hadd_ps(_mm_hadd_ps(load(p), load(p + 4)), _mm_hadd_ps(load(p + 8), load(p + 12)));
+  const __m128 r = _mm_hadd_ps(_mm_hadd_ps(load(p + 16), load(p + 20)), _mm_hadd_ps(load(p + 24), load(p + 28)));
+  return vd{{_mm_cvtps_pd(q), _mm_cvtps_pd(_mm_movehl_ps(q, q)), _mm_cvtps_pd(r), _mm_cvtps_pd(_mm_movehl_ps(r, r))}};
+}

@@ -86,9 +86,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
 
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
   double total[kMostSums], other[kMostSums], total_host[32];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + kAll * kLanes, zero());  // fold() reads it
-  for (int k = 0; k < 32; ++k) total_host[k] = 0;
+  zero_rest(kAll, acc);
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
   RowStrip rows;
@@ -99,14 +97,14 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
     const bool fresh = (begin / kStrip) % kLanes == 0;
     add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
-    add_strip_sums(8, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+    add_strip_sums(8, x, y, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
                    acc + (kProducts + 16) * kLanes);
-    homography_rows(x, y, ha, hb, m, rows.row);
-    add_strip_sums(8, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
-    add_strip_sums(8, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    if (!kManyRegisters) homography_rows(x, y, ha, hb, m, rows.row);  // else as in add_strip_products()
+    add_strip_sums(8, x, y, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, x, y, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
     if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
-      fold(acc, kAll, total);
-      fold(acc_host, 32, total_host);
+      fold(acc, kAll, begin < kLanes * kStrip, total);
+      fold(acc_host, 32, begin < kLanes * kStrip, total_host);
     }
   }
 
@@ -143,10 +141,10 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);
       add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
                      acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
-      fold(acc, kAll, other);
+      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
+      fold(acc, kAll, begin == 0, other);
     }
     double S[8][8];
     unpack_products(8, other, S);

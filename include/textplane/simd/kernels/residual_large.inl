@@ -14,18 +14,9 @@ struct RowStrip {
   float row[6][kStrip];
 };
 
-// The unweighted sums of the homography's rows where registers hold many of them: three loops, each with rows of its own, take
-// less time than loops over rows that pass through memory. The sums are those of add_strip_products() and add_strip_sums(), each
-// in the same order.
-TEXTPLANE_SIMD_ENTRY void add_strip_homography(const float* x, const float* y, const float* a, const float* b,
-                                               const float* p, const float* q, int n, bool fresh, float* acc,
-                                               float* ones, float* first, float* second) noexcept {
-  add_moments(x, y, a, b, n, fresh, acc, ones);
-  add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, ones + 6 * kLanes);
-  add_products8(x, y, a, b, p, q, n, fresh, first, second);
-}
-
-// Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too.
+// Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too. (Where registers hold many sums the
+// homography's rows stay there, are made again for each loop, which takes less time than the way through memory, and `rows` is not
+// used: n may then exceed a strip.)
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               bool fresh, float* acc) noexcept {
@@ -47,6 +38,9 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
       add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
     }
     add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
+  } else if (kManyRegisters) {
+    add_moments(x, y, a, b, n, fresh, acc, sums);
+    add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, sums + 6 * kLanes);
   } else {
     homography_rows(x, y, a, b, n, r);
     add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
@@ -56,30 +50,38 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
   }
 }
 
-// Sums of the rows with the factors p and q, to the sums `first` and `second` of three.
-TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* a, const float* b, const RowStrip& rows,
-                                          const float* p, const float* q, int n, bool fresh, float* first,
-                                          float* second) noexcept {
+// Sums of the rows of these pixels with the factors p and q, to the sums `first` and `second` of three. Where q is p, `second`
+// receives the same or is left as it is.
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float* y, const float* a, const float* b,
+                                          const RowStrip& rows, const float* p, const float* q, int n, bool fresh,
+                                          float* first, float* second) noexcept {
   const float(*r)[kStrip] = rows.row;
   if (form == 3) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
   } else if (form == 6) {
     add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
     add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
+  } else if (kManyRegisters) {
+    if (p == q)
+      add_products8(x, y, a, b, p, n, fresh, first);
+    else
+      add_two_products8(x, y, a, b, p, q, n, fresh, first, second);
   } else {
     add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
     add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
   }
 }
 
-// Adds the partial sums to the totals; `sums` is rounded up to a multiple of four.
-TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, double* total) noexcept {
-  for (int k = 0; k < sums; k += 4) {
-    const float* p = acc + k * kLanes;
-    float four[4];
-    hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
-    for (int j = 0; j < 4; ++j) total[k + j] += static_cast<double>(four[j]);
+// Adds the partial sums to the totals, or, where `first`, makes them these; `sums` is rounded up to a multiple of eight.
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
+  for (int k = 0; k < sums; k += 8) {
+    const vd eight = hsum8(acc + k * kLanes);
+    stored(total + k, first ? eight : maddd(setd(1.0), eight, loadd(total + k)));
   }
+}
+// Zeroes what fold() reads beyond the sums.
+TEXTPLANE_SIMD_INLINE void zero_rest(int sums, float* acc) noexcept {
+  for (int k = sums; k % 8 != 0; ++k) store(acc + k * kLanes, zero());
 }
 
 // The target's and the host's offsets, their means over the first strip; and kappa, the ratio of their contrasts there, with which
@@ -285,9 +287,9 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
 // Sums of the rows with the factors p, q and r of the strip, one after the other.
 TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
                                              float* acc) noexcept {
-  add_strip_sums(form, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
   float* last = acc + 2 * form * kLanes;
-  add_strip_sums(form, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);  // twice the same, stored once more
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);  // twice the same, stored once more
 }
 
 // The cost of the host pixels, of which there are at least a.min_visible.
@@ -321,8 +323,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   const int n = host.n;
   float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums], other[kMostSums];
-  for (int k = 0; k < kMostSums; ++k) total[k] = other[k] = 0;
-  store(acc + all * kLanes, zero());  // fold() reads it
+  zero_rest(all, acc);
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
@@ -342,15 +343,11 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     if (end % block != 0 && end < n) continue;
     const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
     const bool fresh = terms == 0;
-    if (kManyRegisters && form == 8) {
-      add_strip_homography(x, y, ga, gb, i, d, end - from, fresh, acc, acc + products * kLanes, sum_i, sum_d);
-    } else {
-      add_strip_products(form, true, constants, x, y, ga, gb, count, &rows, fresh, acc);
-      add_strip_sums(form, ga, gb, rows, i, d, count, fresh, sum_i, sum_d);
-    }
+    add_strip_products(form, true, constants, x, y, ga, gb, end - from, &rows, fresh, acc);
+    add_strip_sums(form, x, y, ga, gb, rows, i, d, end - from, fresh, sum_i, sum_d);
     terms += block / kLanes;
     if (terms >= kFoldTerms || end == n) {
-      fold(acc, all, total);
+      fold(acc, all, end <= kFoldTerms * kLanes, total);
       terms = 0;
     }
   }
@@ -394,7 +391,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
       add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;
       if (terms >= kFoldTerms || begin + kStrip >= weighted) {
-        fold(acc, all, other);
+        fold(acc, all, begin < kFoldTerms * kLanes, other);
         terms = 0;
       }
     }

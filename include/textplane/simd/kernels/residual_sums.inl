@@ -298,35 +298,39 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums + kLanes, t1);
 }
 
-// The eight rows times p to `acc`, times q to `acc2`.
-TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+// The eight rows times p to `acc`, and, where q is given, times q to `acc2`. With the factor inside, products are shared: half of
+// the additions then go to ports that multiply nothing.
+TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                     const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
-  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
-  vf t3 = so_far(fresh, acc2 + 3 * kLanes), t4 = so_far(fresh, acc2 + 4 * kLanes),
-     t5 = so_far(fresh, acc2 + 5 * kLanes);
-  vf t6 = so_far(fresh, acc2 + 6 * kLanes), t7 = so_far(fresh, acc2 + 7 * kLanes);
+  const bool none = fresh || !q;
+  vf t0 = so_far(none, acc2), t1 = so_far(none, acc2 + kLanes), t2 = so_far(none, acc2 + 2 * kLanes);
+  vf t3 = so_far(none, acc2 + 3 * kLanes), t4 = so_far(none, acc2 + 4 * kLanes), t5 = so_far(none, acc2 + 5 * kLanes);
+  vf t6 = so_far(none, acc2 + 6 * kLanes), t7 = so_far(none, acc2 + 7 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i), g = load(q + i);
-    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
-    s0 = madd(A, f, s0);
-    s1 = madd(Ax, f, s1);
-    s2 = madd(Ay, f, s2);
-    s3 = madd(B, f, s3);
-    s4 = madd(Bx, f, s4);
-    s5 = madd(By, f, s5);
-    s6 = madd(Cx, f, s6);
-    s7 = madd(Cy, f, s7);
-    t0 = madd(A, g, t0);
-    t1 = madd(Ax, g, t1);
-    t2 = madd(Ay, g, t2);
-    t3 = madd(B, g, t3);
-    t4 = madd(Bx, g, t4);
-    t5 = madd(By, g, t5);
-    t6 = madd(Cx, g, t6);
-    t7 = madd(Cy, g, t7);
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i);
+    const vf fA = mul(f, A), fB = mul(f, B), fAx = mul(fA, u), fBy = mul(fB, v), fC = add(fAx, fBy);
+    s0 = add(s0, fA);
+    s1 = add(s1, fAx);
+    s2 = madd(fA, v, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, u, s4);
+    s5 = add(s5, fBy);
+    s6 = madd(fC, u, s6);
+    s7 = madd(fC, v, s7);
+    if (!q) continue;
+    const vf g = load(q + i);
+    const vf gA = mul(g, A), gB = mul(g, B), gAx = mul(gA, u), gBy = mul(gB, v), gC = add(gAx, gBy);
+    t0 = add(t0, gA);
+    t1 = add(t1, gAx);
+    t2 = madd(gA, v, t2);
+    t3 = add(t3, gB);
+    t4 = madd(gB, u, t4);
+    t5 = add(t5, gBy);
+    t6 = madd(gC, u, t6);
+    t7 = madd(gC, v, t7);
   }
   store(acc, s0);
   store(acc + kLanes, s1);
@@ -336,6 +340,7 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc + 5 * kLanes, s5);
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
+  if (!q) return;
   store(acc2, t0);
   store(acc2 + kLanes, t1);
   store(acc2 + 2 * kLanes, t2);
@@ -344,4 +349,12 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
   store(acc2 + 5 * kLanes, t5);
   store(acc2 + 6 * kLanes, t6);
   store(acc2 + 7 * kLanes, t7);
+}
+TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                            const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  products8(x, y, a, b, p, q, n, fresh, acc, acc2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        int n, bool fresh, float* acc) noexcept {
+  products8(x, y, a, b, p, nullptr, n, fresh, acc, acc);
 }

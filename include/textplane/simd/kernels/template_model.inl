@@ -91,8 +91,7 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
-  for (int k = 0; k < kMostSums; ++k) other[k] = 0;
-  store(acc + kAll * kLanes, zero());  // fold() reads it
+  zero_rest(kAll, acc);
   WeightedStrip ws;
   RowStrip rows;
   RowConstants unused;
@@ -100,9 +99,9 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
-    add_strip_sums(8, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
-    fold(acc, kAll, other);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
   }
   unpack_products(8, other, S);
   for (int k = 0; k < 8; ++k) {
