@@ -20,9 +20,10 @@ struct Start {
 /// trial that loses more than a tenth of the visible pixels is rejected. (The scale of t and 1 / theta is free, which minimise()
 /// would refuse.)
 inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch* prepared, tp::LinearisePolicy policy,
-                        double tolerance, tp::PhotometricWorkspace& workspace, Start* s) {
+                        const tp::PhotometricOptions& options, double tolerance, tp::PhotometricWorkspace& workspace,
+                        Start* s) {
   const auto linearise = [&](const Start& at) {
-    return tp::linearise_by<9>(policy, in, at.theta, at.T_t_h, {}, workspace, prepared);
+    return tp::linearise_by<9>(policy, in, at.theta, at.T_t_h, options, workspace, prepared);
   };
   double lambda = 1e-4, grow = 8;
   auto e = linearise(*s);
@@ -49,14 +50,15 @@ inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch*
   }
 }
 
-/// Coarse to fine, with a tolerance of 1e-3 on the finest level. A larger one is enough on coarse levels where the start is
+/// Coarse to fine, with a tolerance of 3e-3 on the finest level. A larger one is enough on coarse levels where the start is
 /// near. LinearisePolicy::automatic as in PoseOptions.
 inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatch>& prepared, int levels,
                   const tp::PyramidView& target, const tp::Pinhole<double>& camera, tp::LinearisePolicy policy,
-                  double coarse_tolerance, tp::PhotometricWorkspace& workspace, Start* s) {
+                  const tp::PhotometricOptions& options, double coarse_tolerance, tp::PhotometricWorkspace& workspace,
+                  Start* s) {
   for (int l = levels - 1; l >= 0; --l) {
     align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)],
-                tp::policy_at_level(policy, l, 0), l > 0 ? coarse_tolerance : 1e-3, workspace, s);
+                tp::policy_at_level(policy, l, 0), options, l > 0 ? coarse_tolerance : 3e-3, workspace, s);
   }
 }
 

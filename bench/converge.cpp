@@ -46,22 +46,23 @@ struct Task {
   }
 };
 
-double run(const Task& task, tp::LinearisePolicy policy, tp::Pyramid& pyramid, tp::PhotometricWorkspace& workspace) {
+double run(const Task& task, tp::LinearisePolicy policy, const tp::PhotometricOptions& options, tp::Pyramid& pyramid,
+           tp::PhotometricWorkspace& workspace) {
   Start s{task.scene.T_start, task.scene.theta_start};
   pyramid.build(task.cut, Task::kLevels);
-  align(task.patch, task.prepared, Task::kLevels, pyramid.view(), task.camera, policy, 1e-2, workspace, &s);
+  align(task.patch, task.prepared, Task::kLevels, pyramid.view(), task.camera, policy, options, 1e-2, workspace, &s);
   return task.scene.corner_error(task.scene.pixel_homography(s.T_t_h, s.theta));
 }
 
-Work converge_work(tp::LinearisePolicy policy) {
+Work converge_work(tp::LinearisePolicy policy, const tp::PhotometricOptions& options = {}) {
   const auto tasks = std::make_shared<std::vector<std::unique_ptr<Task>>>();
   for (unsigned seed = 1; seed <= 4; ++seed) tasks->push_back(std::make_unique<Task>(seed));
   const auto workspace = std::make_shared<tp::PhotometricWorkspace>(4000);
   const auto pyramid = std::make_shared<tp::Pyramid>();
   Work work;
   work.items = 4000;
-  for (const auto& task : *tasks) work.errors["corner_error"] += run(*task, policy, *pyramid, *workspace) / 4;
-  work.call = [=](std::size_t i) { keep(run(*(*tasks)[i % 4], policy, *pyramid, *workspace)); };
+  for (const auto& task : *tasks) work.errors["corner_error"] += run(*task, policy, options, *pyramid, *workspace) / 4;
+  work.call = [=](std::size_t i) { keep(run(*(*tasks)[i % 4], policy, options, *pyramid, *workspace)); };
   return work;
 }
 
@@ -70,6 +71,10 @@ Work converge_work(tp::LinearisePolicy policy) {
 void add_converge() {
   add_targets("converge_forward", "4000", [] { return converge_work(tp::LinearisePolicy::forward); });
   add_targets("converge_template", "4000", [] { return converge_work(tp::LinearisePolicy::template_jacobian); });
+  tp::PhotometricOptions l2;
+  l2.robust.kind = tp::RobustKind::l2;
+  add_targets("converge_template_l2", "4000",
+              [=] { return converge_work(tp::LinearisePolicy::template_jacobian, l2); });
   add_targets("converge_esm", "4000", [] { return converge_work(tp::LinearisePolicy::esm); });
   add_targets("converge_automatic", "4000", [] { return converge_work(tp::LinearisePolicy::automatic); });
 }

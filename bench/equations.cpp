@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "compare.hpp"
 #include "registry.hpp"
@@ -25,8 +26,9 @@ struct Cycle {
   std::vector<tp::PreparedTarget> pairs;
   tp::PhotometricWorkspace workspace;
 
-  Cycle(int n, int count, bool with_pairs) : workspace(n) {
-    for (int i = 0; i < count; ++i) scenes.push_back(make_scene(n, static_cast<unsigned>(i + 1)));
+  Cycle(int n, int count, bool with_pairs) : Cycle(scattered(n, count), with_pairs) {}
+
+  Cycle(std::vector<Scene> all, bool with_pairs) : scenes(std::move(all)), workspace(scenes.front().n()) {
     gradients.resize(scenes.size());
     prepared.resize(scenes.size());
     pairs.resize(scenes.size());
@@ -52,6 +54,17 @@ struct Cycle {
       inputs.push_back(in);
     }
   }
+
+  static std::vector<Scene> scattered(int n, int count) {
+    std::vector<Scene> all;
+    for (int i = 0; i < count; ++i) all.push_back(make_scene(n, static_cast<unsigned>(i + 1)));
+    return all;
+  }
+  static std::vector<Scene> dense(int columns, int rows, int count) {
+    std::vector<Scene> all;
+    for (int i = 0; i < count; ++i) all.push_back(make_dense_scene(columns, rows, static_cast<unsigned>(i + 1)));
+    return all;
+  }
 };
 
 template <int P>
@@ -63,11 +76,12 @@ Errors errors_and_cost(const tp::NormalEquations<P>& ours, const tp::NormalEquat
 
 // `linearise(cycle, i)` and `reference(cycle, i)` give normal equations for scene i.
 template <class Linearise, class Reference>
-std::function<Work()> equations(int n, int count, bool pairs, const Linearise& linearise, const Reference& reference) {
+std::function<Work()> equations(const std::function<std::shared_ptr<Cycle>()>& make, const Linearise& linearise,
+                                const Reference& reference) {
   return [=] {
-    const auto cycle = std::make_shared<Cycle>(n, count, pairs);
+    const auto cycle = make();
     Work work;
-    work.items = n;
+    work.items = cycle->scenes.front().n();
     for (std::size_t i = 0; i < cycle->scenes.size(); ++i)
       largest(errors_and_cost(linearise(*cycle, i), reference(*cycle, i)), &work.errors);
     work.call = [=](std::size_t i) { keep(linearise(*cycle, i % cycle->scenes.size())); };
@@ -75,8 +89,16 @@ std::function<Work()> equations(int n, int count, bool pairs, const Linearise& l
   };
 }
 
+std::function<std::shared_ptr<Cycle>()> cycle_of(int n, int count = 4, bool pairs = false) {
+  return [=] { return std::make_shared<Cycle>(n, count, pairs); };
+}
+std::function<std::shared_ptr<Cycle>()> dense_cycle_of(int columns, int rows) {
+  return [=] { return std::make_shared<Cycle>(Cycle::dense(columns, rows, 4), false); };
+}
+
 template <int P>
-void add_policy(const std::string& name, tp::LinearisePolicy policy, bool huber, int n) {
+void add_policy(const std::string& name, tp::LinearisePolicy policy, bool huber, const std::string& size,
+                const std::function<std::shared_ptr<Cycle>()>& make) {
   const auto ours = [=](Cycle& c, std::size_t i) {
     const Scene& s = c.scenes[i];
     return tp::linearise_by<P>(policy, c.inputs[i], s.theta_start, s.T_start, options(huber), c.workspace,
@@ -86,7 +108,7 @@ void add_policy(const std::string& name, tp::LinearisePolicy policy, bool huber,
     const Scene& s = c.scenes[i];
     return tp::reference::linearise_by<P>(policy, c.inputs[i], s.theta_start, s.T_start, options(huber), c.workspace);
   };
-  add_targets(name, std::to_string(n), equations(n, 4, false, ours, reference));
+  add_targets(name, size, equations(make, ours, reference));
 }
 
 template <int P>
@@ -112,8 +134,9 @@ auto forward_reference(Cycle& c, std::size_t i) {
 }
 
 template <int P>
-void add_forward(const std::string& name, int n, int count, bool pairs) {
-  add_targets(name, std::to_string(n), equations(n, count, pairs, forward<P>, forward_reference<P>));
+void add_forward(const std::string& name, const std::string& size,
+                 const std::function<std::shared_ptr<Cycle>()>& make) {
+  add_targets(name, size, equations(make, forward<P>, forward_reference<P>));
 }
 
 void add_cost(int n) {
@@ -186,15 +209,23 @@ void add_equations() {
     add_targets("batch16_pose", std::to_string(n), [=] { return batch_work<6>(n); });
   }
   for (const int n : {15, 64, 256, 1000, 4000}) {
-    add_forward<9>("pose_plane", n, 4, false);
-    add_forward<9>("pose_plane_prepared", n, 4, true);
-    add_forward<9>("pose_plane_cold", n, 24, false);
-    add_forward<6>("pose", n, 4, false);
-    add_forward<15>("host_target_plane", n, 4, false);
-    add_policy<9>("template_l2", tp::LinearisePolicy::template_jacobian, false, n);
-    add_policy<9>("template_huber", tp::LinearisePolicy::template_jacobian, true, n);
-    add_policy<9>("esm", tp::LinearisePolicy::esm, true, n);
+    const std::string size = std::to_string(n);
+    const auto cycle = cycle_of(n);
+    add_forward<9>("pose_plane", size, cycle);
+    add_forward<9>("pose_plane_prepared", size, cycle_of(n, 4, true));
+    add_forward<9>("pose_plane_cold", size, cycle_of(n, 24));
+    add_forward<6>("pose", size, cycle);
+    add_forward<15>("host_target_plane", size, cycle);
+    add_policy<9>("template_l2", tp::LinearisePolicy::template_jacobian, false, size, cycle);
+    add_policy<9>("template_huber", tp::LinearisePolicy::template_jacobian, true, size, cycle);
+    add_policy<9>("esm", tp::LinearisePolicy::esm, true, size, cycle);
     add_cost(n);
+  }
+  // The rectangles that findTransformECC is given.
+  for (const auto& [columns, rows] : {std::pair(16, 16), {40, 25}}) {
+    const std::string size = std::to_string(columns) + "x" + std::to_string(rows);
+    add_forward<9>("pose_plane", size, dense_cycle_of(columns, rows));
+    add_policy<9>("template_l2", tp::LinearisePolicy::template_jacobian, false, size, dense_cycle_of(columns, rows));
   }
 }
 

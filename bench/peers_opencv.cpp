@@ -129,10 +129,7 @@ struct EccTask {
   Scene scene;
   cv::Mat patch, cut;
   tp::Matrix3<double> start, to_patch, from_cut;
-  EccTask(int n, unsigned seed, double px) : scene(make_scene(4000, seed, px)) {
-    const cv::Size size = n == 4000 ? cv::Size(100, 40) : n == 1000 ? cv::Size(40, 25) : cv::Size(16, 16);
-    scene.columns = size.width;
-    scene.rows = size.height;
+  EccTask(const cv::Size& size, unsigned seed, double px) : scene(make_dense_scene(size.width, size.height, seed, px)) {
     const cv::Rect box(scene.left, scene.top, size.width, size.height);
     patch = as_mat(scene.host)(box).clone();
     const tp::Matrix3<double> truth = scene.pixel_homography(scene.T_t_h, scene.theta);
@@ -169,20 +166,20 @@ struct EccTask {
 };
 
 // Per-pixel counter of one iteration: 20 iterations, their common beginning included, as it is in each call.
-Work ecc_iteration_work(int n) {
-  const auto task = std::make_shared<EccTask>(n, 1, 1.0);
+Work ecc_iteration_work(const cv::Size& size) {
+  const auto task = std::make_shared<EccTask>(size, 1, 1.0);
   Work work;
-  work.items = 20.0 * n;
+  work.items = 20.0 * size.area();
   work.errors["corner_error"] = task->run(20, -1);
   work.call = [=](std::size_t) { keep(task->run(20, -1)); };
   return work;
 }
 
-Work ecc_converge_work(int n) {
+Work ecc_converge_work(const cv::Size& size) {
   const auto tasks = std::make_shared<std::vector<EccTask>>();
-  for (unsigned seed = 1; seed <= 4; ++seed) tasks->emplace_back(n, seed, 3.0);
+  for (unsigned seed = 1; seed <= 4; ++seed) tasks->emplace_back(size, seed, 3.0);
   Work work;
-  work.items = n;
+  work.items = size.area();
   for (const EccTask& t : *tasks) work.errors["corner_error"] += t.run(50, 1e-4) / 4;
   work.call = [=](std::size_t i) { keep((*tasks)[i % 4].run(50, 1e-4)); };
   return work;
@@ -200,9 +197,9 @@ void add_opencv() {
   add("klt_light/opencv/points", [] { return klt_work(true); });
   add("klt_steady/opencv/points", [] { return klt_work(false); });
   add("pyramid3/opencv/640x480", pyramid_work);
-  for (const int n : {256, 1000, 4000})
-    add("ecc_iteration/opencv/" + std::to_string(n), [=] { return ecc_iteration_work(n); });
-  add("ecc_converge/opencv/4000", [] { return ecc_converge_work(4000); });
+  for (const cv::Size& size : {cv::Size(16, 16), cv::Size(40, 25), cv::Size(100, 40)})
+    add("ecc_iteration/opencv/" + std::to_string(size.area()), [=] { return ecc_iteration_work(size); });
+  add("ecc_converge/opencv/4000", [] { return ecc_converge_work(cv::Size(100, 40)); });
 }
 
 }  // namespace textplane_bench

@@ -184,4 +184,20 @@ Scene make_scene(int n, unsigned seed, double px, const Light& light, double mot
   return s;
 }
 
+Scene make_dense_scene(int columns, int rows, unsigned seed, double px) {
+  Scene s = make_scene(4000, seed, px);
+  s.columns = columns;
+  s.rows = rows;
+  s.x.clear();
+  s.y.clear();
+  s.intensity.clear();
+  for (int y = s.top; y < s.top + rows; ++y)
+    for (int x = s.left; x < s.left + columns; ++x) {
+      s.x.push_back(static_cast<float>(x));
+      s.y.push_back(static_cast<float>(y));
+      s.intensity.push_back(static_cast<float>(s.host(x, y)));
+    }
+  return s;
+}
+
 }  // namespace textplane_bench

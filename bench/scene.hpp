@@ -50,6 +50,9 @@ struct Scene {
 /// pixels of mean corner error. `motion`: between the views, 1 for up to some 25 px.
 Scene make_scene(int n, unsigned seed, double px = 1.0, const Light& light = Light(), double motion = 1.0);
 
+/// All pixels of the upper left columns x rows, at most 100 x 40, of make_scene(4000, seed, px).
+Scene make_dense_scene(int columns, int rows, unsigned seed, double px = 1.0);
+
 }  // namespace textplane_bench
 
 #endif  // TEXTPLANE_BENCH_SCENE_HPP

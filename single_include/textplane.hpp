@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 123 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 49eda6284e1dfa7a
+// textplane 0.1.0 in one header, made of 124 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: 6d77164ca628c354
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 49eda6284e1dfa7a"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 6d77164ca628c354"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -8332,6 +8332,42 @@ TEXTPLANE_END_NAMESPACE
 #include <cstdint>
 #include <vector>
 
+// Memory for vector instructions: numbers in whole cache lines.
+#ifndef TEXTPLANE_CORE_CACHE_LINE_HPP
+#define TEXTPLANE_CORE_CACHE_LINE_HPP
+
+#include <cstddef>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// As many numbers as a cache line of 64 bytes holds. A vector of these begins at a line, where one of plain numbers begins at 16
+/// bytes: loads of 64 bytes would take two lines each.
+template <class T>
+struct alignas(64) CacheLine {
+  static constexpr std::size_t kSize = 64 / sizeof(T);
+  T of[kSize];
+};
+
+/// Room for `count` numbers, zero, rounded up to lines.
+template <class T>
+std::vector<CacheLine<T>> cache_lines(std::size_t count) {
+  return std::vector<CacheLine<T>>((count + CacheLine<T>::kSize - 1) / CacheLine<T>::kSize);
+}
+
+/// The first of the numbers.
+template <class T>
+T* numbers(std::vector<CacheLine<T>>& lines) noexcept {
+  return reinterpret_cast<T*>(lines.data());
+}
+template <class T>
+const T* numbers(const std::vector<CacheLine<T>>& lines) noexcept {
+  return reinterpret_cast<const T*>(lines.data());
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_CORE_CACHE_LINE_HPP
 // Whose gradients the normal equations use: the target's (forward), the host's (template Jacobian), or both (ESM).
 //
 // The residual and its cost are the same for all three, r = I~_host - I~_target; only J differs. With dq as the parameters
@@ -21815,10 +21851,10 @@ class TemplatePatch {
         return Status::non_finite;
     const std::size_t room =
         (static_cast<std::size_t>(patch.n) + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
-    floats_ = std::vector<float>(5 * room);
-    rows_ = std::vector<std::int16_t>(room * simd::kTemplateColumns);
+    floats_ = cache_lines<float>(5 * room);
+    rows_ = cache_lines<std::int16_t>(room * simd::kTemplateColumns);
     set_pixels(patch, room);
-    if (!set_intensity(patch)) return Status::no_contrast;
+    if (!set_intensity(patch, numbers(floats_) + 4 * room)) return Status::no_contrast;
     set_derivatives();
     ready_ = true;
     return Status::ok;
@@ -21836,7 +21872,7 @@ class TemplatePatch {
 
   std::int16_t& cell(int pixel, int column) noexcept {
     const int block = pixel / simd::kTemplateBlock, lane = pixel % simd::kTemplateBlock;
-    return rows_[static_cast<std::size_t>((block * simd::kTemplateColumns + column) * simd::kTemplateBlock + lane)];
+    return numbers(rows_)[(block * simd::kTemplateColumns + column) * simd::kTemplateBlock + lane];
   }
 
   // As the kernels compute it (middle_of()); halves are exact, so that how it is compiled makes no difference.
@@ -21846,7 +21882,7 @@ class TemplatePatch {
   }
 
   void set_pixels(const PatchView& patch, std::size_t room) {
-    float *u = floats_.data(), *v = u + room, *gx = v + room, *gy = gx + room;
+    float *u = numbers(floats_), *v = u + room, *gx = v + room, *gy = gx + room;
     const float hx = middle(model_.bounds.x_low, model_.bounds.x_high), hy = middle(model_.bounds.y_low, model_.bounds.y_high);
     for (int i = 0; i < patch.n; ++i) {
       u[i] = patch.x[i] - hx;
@@ -21859,12 +21895,12 @@ class TemplatePatch {
     model_.gx = gx;
     model_.gy = gy;
     model_.intensity = gy + room;
-    model_.rows = rows_.data();
+    model_.rows = numbers(rows_);
   }
 
   // Column 0: centred on the middle of its range, in 1/64 of the intensity's unit, or coarser for ranges above 255. Exact for
   // 8-bit hosts at integer positions.
-  bool set_intensity(const PatchView& patch) {
+  bool set_intensity(const PatchView& patch, float* intensity) {
     double low = static_cast<double>(patch.intensity[0]), high = low;
     for (int i = 0; i < patch.n; ++i) {
       low = std::min(low, static_cast<double>(patch.intensity[i]));
@@ -21873,7 +21909,6 @@ class TemplatePatch {
     const double middle = std::floor(low + high) / 2, reach = std::max(high - middle, middle - low);
     if (!(reach > 0)) return false;
     const double scale = std::min(64.0, kRange / reach);
-    float* intensity = floats_.data() + floats_.size() / 5 * 4;
     double sum = 0, squares = 0;
     for (int i = 0; i < patch.n; ++i) {
       const double value = std::floor((static_cast<double>(patch.intensity[i]) - middle) * scale + 0.5);
@@ -21934,8 +21969,8 @@ class TemplatePatch {
     for (int k = 0; k < 8; ++k) j[k] = row[k];
   }
 
-  std::vector<float> floats_;
-  std::vector<std::int16_t> rows_;
+  std::vector<CacheLine<float>> floats_;
+  std::vector<CacheLine<std::int16_t>> rows_;
   simd::TemplateModel model_;
   bool ready_ = false;
 };
@@ -25340,7 +25375,7 @@ class TextBatch {
   Status build(const TextBatchItem* items, int count) {
     groups_.clear();
     valid_ = std::vector<std::uint8_t>();
-    pixels_ = std::vector<float>();
+    pixels_ = cache_lines<float>(0);
     most_ = 0;
     if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
     // Vectors of numbers do not grow, they are made: growing ones would share weak symbols with files built for other CPUs.
@@ -25348,7 +25383,7 @@ class TextBatch {
     std::size_t total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
       total += count_group(items + first, first, std::min(count - first, simd::kBatchLanes));
-    pixels_ = std::vector<float>(total);
+    pixels_ = cache_lines<float>(total);
     total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
       total = add_group(items + first, first, std::min(count - first, simd::kBatchLanes), total);
@@ -25371,7 +25406,7 @@ class TextBatch {
   void fill(simd::BatchArgs* args) const noexcept {
     args->groups = groups_.data();
     args->count = size();
-    args->pixels = pixels_.data();
+    args->pixels = numbers(pixels_);
   }
 
  private:
@@ -25425,7 +25460,7 @@ class TextBatch {
       group.mv[l] = (hy - item.host_camera.cy) * group.ify[l];
       for (int k = 0; k < 3; ++k) group.theta[k][l] = item.theta[k];
       most = std::max(most, n);
-      float* out = pixels_.data() + start + l;
+      float* out = numbers(pixels_) + start + l;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;
         out[0] = p.x[i] - fx;
@@ -25440,7 +25475,7 @@ class TextBatch {
 
   std::vector<simd::BatchGroup> groups_;
   std::vector<std::uint8_t> valid_;
-  std::vector<float> pixels_;
+  std::vector<CacheLine<float>> pixels_;
   int most_ = 0;
 };
 
@@ -25455,17 +25490,18 @@ class TextBatchResult {
   void reserve(const TextBatch& batch) {
     const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
     const std::size_t out = groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9));
-    if (out_.size() < out) out_ = std::vector<float>(out);
+    if (out_.size() * CacheLine<float>::kSize < out) out_ = cache_lines<float>(out);
     if (status_.size() < static_cast<std::size_t>(batch.size())) status_.resize(static_cast<std::size_t>(batch.size()));
     const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
-    if (scratch_.size() < scratch) scratch_ = std::vector<float>(scratch);
+    if (scratch_.size() * CacheLine<float>::kSize < scratch) scratch_ = cache_lines<float>(scratch);
   }
   /// Whether reserve() was called for a batch of this size.
   bool fits(const TextBatch& batch) const noexcept {
     const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
-    return out_.size() >= groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
+    return out_.size() * CacheLine<float>::kSize >=
+               groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
            status_.size() >= static_cast<std::size_t>(batch.size()) &&
-           scratch_.size() >= simd::batch_scratch(batch.max_pixels());
+           scratch_.size() * CacheLine<float>::kSize >= simd::batch_scratch(batch.max_pixels());
   }
 
   /// Of object i of the batch, as reference::linearise_*() would say it; all zero, `visible` excepted, unless is_ok(status).
@@ -25501,22 +25537,22 @@ class TextBatchResult {
   /// For the kernels.
   void fill(int parameters, simd::BatchArgs* args) noexcept {
     parameters_ = parameters;
-    args->out = out_.data();
+    args->out = numbers(out_);
     args->status = status_.data();
-    args->scratch = scratch_.data();
+    args->scratch = numbers(scratch_);
   }
 
  private:
   double at(int i, int entry) const noexcept {
     const int group = i / simd::kBatchLanes, lane = i % simd::kBatchLanes;
     const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(group) * simd::batch_entries(parameters_) + entry;
-    return static_cast<double>(out_[static_cast<std::size_t>(row * simd::kBatchLanes + lane)]);
+    return static_cast<double>(numbers(out_)[row * simd::kBatchLanes + lane]);
   }
   double tail(int i, simd::BatchEntry entry) const noexcept {
     return at(i, parameters_ * (parameters_ + 1) / 2 + parameters_ + static_cast<int>(entry));
   }
 
-  std::vector<float> out_, scratch_;
+  std::vector<CacheLine<float>> out_, scratch_;
   std::vector<Status> status_;
   int parameters_ = 0;
 };

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "textplane/core/cache_line.hpp"
 #include "textplane/photometry/linearise_policy.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/simd/template.hpp"
@@ -45,10 +46,10 @@ class TemplatePatch {
         return Status::non_finite;
     const std::size_t room =
         (static_cast<std::size_t>(patch.n) + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
-    floats_ = std::vector<float>(5 * room);
-    rows_ = std::vector<std::int16_t>(room * simd::kTemplateColumns);
+    floats_ = cache_lines<float>(5 * room);
+    rows_ = cache_lines<std::int16_t>(room * simd::kTemplateColumns);
     set_pixels(patch, room);
-    if (!set_intensity(patch)) return Status::no_contrast;
+    if (!set_intensity(patch, numbers(floats_) + 4 * room)) return Status::no_contrast;
     set_derivatives();
     ready_ = true;
     return Status::ok;
@@ -66,7 +67,7 @@ class TemplatePatch {
 
   std::int16_t& cell(int pixel, int column) noexcept {
     const int block = pixel / simd::kTemplateBlock, lane = pixel % simd::kTemplateBlock;
-    return rows_[static_cast<std::size_t>((block * simd::kTemplateColumns + column) * simd::kTemplateBlock + lane)];
+    return numbers(rows_)[(block * simd::kTemplateColumns + column) * simd::kTemplateBlock + lane];
   }
 
   // As the kernels compute it (middle_of()); halves are exact, so that how it is compiled makes no difference.
@@ -76,7 +77,7 @@ class TemplatePatch {
   }
 
   void set_pixels(const PatchView& patch, std::size_t room) {
-    float *u = floats_.data(), *v = u + room, *gx = v + room, *gy = gx + room;
+    float *u = numbers(floats_), *v = u + room, *gx = v + room, *gy = gx + room;
     const float hx = middle(model_.bounds.x_low, model_.bounds.x_high), hy = middle(model_.bounds.y_low, model_.bounds.y_high);
     for (int i = 0; i < patch.n; ++i) {
       u[i] = patch.x[i] - hx;
@@ -89,12 +90,12 @@ class TemplatePatch {
     model_.gx = gx;
     model_.gy = gy;
     model_.intensity = gy + room;
-    model_.rows = rows_.data();
+    model_.rows = numbers(rows_);
   }
 
   // Column 0: centred on the middle of its range, in 1/64 of the intensity's unit, or coarser for ranges above 255. Exact for
   // 8-bit hosts at integer positions.
-  bool set_intensity(const PatchView& patch) {
+  bool set_intensity(const PatchView& patch, float* intensity) {
     double low = static_cast<double>(patch.intensity[0]), high = low;
     for (int i = 0; i < patch.n; ++i) {
       low = std::min(low, static_cast<double>(patch.intensity[i]));
@@ -103,7 +104,6 @@ class TemplatePatch {
     const double middle = std::floor(low + high) / 2, reach = std::max(high - middle, middle - low);
     if (!(reach > 0)) return false;
     const double scale = std::min(64.0, kRange / reach);
-    float* intensity = floats_.data() + floats_.size() / 5 * 4;
     double sum = 0, squares = 0;
     for (int i = 0; i < patch.n; ++i) {
       const double value = std::floor((static_cast<double>(patch.intensity[i]) - middle) * scale + 0.5);
@@ -164,8 +164,8 @@ class TemplatePatch {
     for (int k = 0; k < 8; ++k) j[k] = row[k];
   }
 
-  std::vector<float> floats_;
-  std::vector<std::int16_t> rows_;
+  std::vector<CacheLine<float>> floats_;
+  std::vector<CacheLine<std::int16_t>> rows_;
   simd::TemplateModel model_;
   bool ready_ = false;
 };

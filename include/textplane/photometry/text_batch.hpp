@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "textplane/core/cache_line.hpp"
 #include "textplane/core/camera.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/photometry/residual_types.hpp"
@@ -41,7 +42,7 @@ class TextBatch {
   Status build(const TextBatchItem* items, int count) {
     groups_.clear();
     valid_ = std::vector<std::uint8_t>();
-    pixels_ = std::vector<float>();
+    pixels_ = cache_lines<float>(0);
     most_ = 0;
     if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
     // Vectors of numbers do not grow, they are made: growing ones would share weak symbols with files built for other CPUs.
@@ -49,7 +50,7 @@ class TextBatch {
     std::size_t total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
       total += count_group(items + first, first, std::min(count - first, simd::kBatchLanes));
-    pixels_ = std::vector<float>(total);
+    pixels_ = cache_lines<float>(total);
     total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
       total = add_group(items + first, first, std::min(count - first, simd::kBatchLanes), total);
@@ -72,7 +73,7 @@ class TextBatch {
   void fill(simd::BatchArgs* args) const noexcept {
     args->groups = groups_.data();
     args->count = size();
-    args->pixels = pixels_.data();
+    args->pixels = numbers(pixels_);
   }
 
  private:
@@ -126,7 +127,7 @@ class TextBatch {
       group.mv[l] = (hy - item.host_camera.cy) * group.ify[l];
       for (int k = 0; k < 3; ++k) group.theta[k][l] = item.theta[k];
       most = std::max(most, n);
-      float* out = pixels_.data() + start + l;
+      float* out = numbers(pixels_) + start + l;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;
         out[0] = p.x[i] - fx;
@@ -141,7 +142,7 @@ class TextBatch {
 
   std::vector<simd::BatchGroup> groups_;
   std::vector<std::uint8_t> valid_;
-  std::vector<float> pixels_;
+  std::vector<CacheLine<float>> pixels_;
   int most_ = 0;
 };
 
@@ -156,17 +157,18 @@ class TextBatchResult {
   void reserve(const TextBatch& batch) {
     const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
     const std::size_t out = groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9));
-    if (out_.size() < out) out_ = std::vector<float>(out);
+    if (out_.size() * CacheLine<float>::kSize < out) out_ = cache_lines<float>(out);
     if (status_.size() < static_cast<std::size_t>(batch.size())) status_.resize(static_cast<std::size_t>(batch.size()));
     const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
-    if (scratch_.size() < scratch) scratch_ = std::vector<float>(scratch);
+    if (scratch_.size() * CacheLine<float>::kSize < scratch) scratch_ = cache_lines<float>(scratch);
   }
   /// Whether reserve() was called for a batch of this size.
   bool fits(const TextBatch& batch) const noexcept {
     const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
-    return out_.size() >= groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
+    return out_.size() * CacheLine<float>::kSize >=
+               groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
            status_.size() >= static_cast<std::size_t>(batch.size()) &&
-           scratch_.size() >= simd::batch_scratch(batch.max_pixels());
+           scratch_.size() * CacheLine<float>::kSize >= simd::batch_scratch(batch.max_pixels());
   }
 
   /// Of object i of the batch, as reference::linearise_*() would say it; all zero, `visible` excepted, unless is_ok(status).
@@ -202,22 +204,22 @@ class TextBatchResult {
   /// For the kernels.
   void fill(int parameters, simd::BatchArgs* args) noexcept {
     parameters_ = parameters;
-    args->out = out_.data();
+    args->out = numbers(out_);
     args->status = status_.data();
-    args->scratch = scratch_.data();
+    args->scratch = numbers(scratch_);
   }
 
  private:
   double at(int i, int entry) const noexcept {
     const int group = i / simd::kBatchLanes, lane = i % simd::kBatchLanes;
     const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(group) * simd::batch_entries(parameters_) + entry;
-    return static_cast<double>(out_[static_cast<std::size_t>(row * simd::kBatchLanes + lane)]);
+    return static_cast<double>(numbers(out_)[row * simd::kBatchLanes + lane]);
   }
   double tail(int i, simd::BatchEntry entry) const noexcept {
     return at(i, parameters_ * (parameters_ + 1) / 2 + parameters_ + static_cast<int>(entry));
   }
 
-  std::vector<float> out_, scratch_;
+  std::vector<CacheLine<float>> out_, scratch_;
   std::vector<Status> status_;
   int parameters_ = 0;
 };
