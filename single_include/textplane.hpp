@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 124 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 6d77164ca628c354
+// Hash of these files: fb8ad9ffd96513c4
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 6d77164ca628c354"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 fb8ad9ffd96513c4"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -8345,8 +8345,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// bytes: loads of 64 bytes would take two lines each.
 template <class T>
 struct alignas(64) CacheLine {
-  static constexpr std::size_t kSize = 64 / sizeof(T);
-  T of[kSize];
+  static constexpr std::size_t kSize = 64 / sizeof(T);  ///< Numbers in a line.
+  T of[kSize];                                          ///< The numbers.
 };
 
 /// Room for `count` numbers, zero, rounded up to lines.

@@ -13,8 +13,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// bytes: loads of 64 bytes would take two lines each.
 template <class T>
 struct alignas(64) CacheLine {
-  static constexpr std::size_t kSize = 64 / sizeof(T);
-  T of[kSize];
+  static constexpr std::size_t kSize = 64 / sizeof(T);  ///< Numbers in a line.
+  T of[kSize];                                          ///< The numbers.
 };
 
 /// Room for `count` numbers, zero, rounded up to lines.
