@@ -50,15 +50,15 @@ inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch*
   }
 }
 
-/// Coarse to fine, with a tolerance of 3e-3 on the finest level. A larger one is enough on coarse levels where the start is
-/// near. LinearisePolicy::automatic as in PoseOptions.
+/// Coarse to fine; the tolerances of align_level(). A larger one is enough on coarse levels where the start is near.
+/// LinearisePolicy::automatic as in PoseOptions.
 inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatch>& prepared, int levels,
                   const tp::PyramidView& target, const tp::Pinhole<double>& camera, tp::LinearisePolicy policy,
-                  const tp::PhotometricOptions& options, double coarse_tolerance, tp::PhotometricWorkspace& workspace,
-                  Start* s) {
+                  const tp::PhotometricOptions& options, double coarse_tolerance, double finest_tolerance,
+                  tp::PhotometricWorkspace& workspace, Start* s) {
   for (int l = levels - 1; l >= 0; --l) {
     align_level(tp::photometric_input(patch, l, target, camera), &prepared[static_cast<std::size_t>(l)],
-                tp::policy_at_level(policy, l, 0), options, l > 0 ? coarse_tolerance : 3e-3, workspace, s);
+                tp::policy_at_level(policy, l, 0), options, l > 0 ? coarse_tolerance : finest_tolerance, workspace, s);
   }
 }
 

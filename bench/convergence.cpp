@@ -40,7 +40,7 @@ tp::SE3d search(const Trials& trials, const Start& s, Memory& memory) {
 
 double solve_pose_and_plane(Policy policy, bool searched, const Trials& trials, int levels, Start s, Memory& memory) {
   if (searched) s.T_t_h = search(trials, s, memory);
-  align(trials.patch, trials.prepared, levels, trials.target_pyramid.view(), trials.camera, policy, {}, 1e-3,
+  align(trials.patch, trials.prepared, levels, trials.target_pyramid.view(), trials.camera, policy, {}, 1e-3, 1e-3,
         memory.photometric, &s);
   return trials.corner_error(trials.homography(s));
 }
