@@ -170,23 +170,26 @@ bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& 
   if (!initial_plane(text, id, tracks, &theta) ||
       !refine_plane(map_, parameters_, {id}, theta, parameters_.text_min_zncc, found))
     return false;
-  found.targets.clear();
-  for (int other = text.host + 1; other <= id; ++other)
-    if (!map_.keyframe(other).culled) observe(found, other, 1);
+  observe_until(found, id);
   if (text.has_plane() && found.targets.size() <= text.targets.size()) return false;
-  found.failures = 0;
   text = std::move(found);
   return true;
 }
 
-// Of a text whose own corners did not tell, as those of a small one may not: by the map points round it. It is seen from where it
-// is until then, or later.
+// By the map points round a text, whose own corners did not tell, as those of a small one may not. That no key frame agrees yet does
+// not speak against it: later ones may.
 bool TextMapper::surface_plane(TextObject& text, int id) {
   if (!plane_from_surface(map_, parameters_, text)) return false;
+  observe_until(text, id);
+  return true;
+}
+
+// The key frames from the host to `id` that agree with a text's new plane; what disagreed with another one is forgotten.
+void TextMapper::observe_until(TextObject& text, int id) {
+  text.targets.clear();
   for (int other = text.host + 1; other <= id; ++other)
     if (!map_.keyframe(other).culled) observe(text, other, 1);
   text.failures = 0;
-  return true;
 }
 
 // Does key frame `keyframe` show the text where its plane says? `min_share`: of the quad, inside the image. A plane that
@@ -237,13 +240,13 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     const bool near = local_.has_text(text.id);
     const std::size_t before = text.targets.size();
     if (text.state == TextState::candidate) {
-      const bool found = near && find_plane(text, id, tracks);
-      const bool last =
-          id - text.host > parameters_.text_patience || corners(text, id, tracks).host.size() < kFewestCorners;
-      if (found || (last && near && surface_plane(text, id))) {
+      if (near && find_plane(text, id, tracks)) {
         text.state = TextState::tentative;
-      } else if (last) {
-        drop(text);  // where it is seen again, another candidate has new corners
+      } else if (id - text.host > parameters_.text_patience || corners(text, id, tracks).host.size() < kFewestCorners) {
+        if (near && surface_plane(text, id))
+          text.state = TextState::tentative;
+        else
+          drop(text);  // where it is seen again, another candidate has new corners
       }
     } else if (near) {
       observe(text, id, 1);

@@ -44,6 +44,7 @@ class TextMapper {
   bool surface_plane(TextObject& text, int id);
   bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
   void observe(TextObject& text, int keyframe, double min_share);
+  void observe_until(TextObject& text, int id);
 
   Map& map_;
   const LocalMap& local_;
