@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 124 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: fb8ad9ffd96513c4
+// Hash of these files: 03dc39e203418c00
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 fb8ad9ffd96513c4"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 03dc39e203418c00"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -1972,8 +1972,8 @@ TEXTPLANE_END_NAMESPACE
 // TEXTPLANE_FORCE_TARGET names (scalar, sse41, avx2, avx512, neon). A name that is unknown, or that this machine cannot run,
 // leaves the best target in charge, and forced_target_status() tells. set_target changes it later, for the whole process.
 // Defining the macro TEXTPLANE_TARGET as such a name (-DTEXTPLANE_TARGET=avx2) fixes the target of a translation unit at
-// compile time: its calls go straight to that kernel, neither environment nor set_target change it, and the caller promises a
-// CPU that has it.
+// compile time: its calls go straight to that kernel, the others are not compiled, neither environment nor set_target change it,
+// and the caller promises a CPU that has it.
 //
 // State: one constant-initialised atomic, shared by all translation units of a program whatever their flags.
 #ifndef TEXTPLANE_SIMD_DISPATCH_HPP
@@ -1995,7 +1995,8 @@ TEXTPLANE_END_NAMESPACE
 //   TEXTPLANE_HAS_SSE41, _AVX2, _AVX512   1 for GCC and Clang on x86-64 (MinGW: SSE4.1 alone, its stack is not aligned for more)
 //   TEXTPLANE_HAS_NEON                    1 for GCC and Clang on little-endian AArch64, where NEON is part of the baseline
 //
-// All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone.
+// All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where TEXTPLANE_TARGET fixes one
+// (dispatch.hpp), TEXTPLANE_HAS_SCALAR and these are 1 for what it needs and 0 for all others.
 //
 // Compiled kernels, an option: compiling all targets of a kernel in every file that calls it takes its time. Where
 // TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see the entry points as declarations, those of the solvers, too,
@@ -2015,32 +2016,53 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_HAS_KERNELS 1
 #endif
 
-#define TEXTPLANE_HAS_SSE41 0
-#define TEXTPLANE_HAS_AVX2 0
-#define TEXTPLANE_HAS_AVX512 0
-#define TEXTPLANE_HAS_NEON 0
-
+// What this compiler and machine offer.
+#define TEXTPLANE_HAS_X86 0
+#define TEXTPLANE_HAS_WIDE 0
+#define TEXTPLANE_HAS_ARM 0
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
 #if defined(__x86_64__)
 #if TEXTPLANE_HAS_KERNELS
 #include <immintrin.h>
 #endif
-#undef TEXTPLANE_HAS_SSE41
-#define TEXTPLANE_HAS_SSE41 1
+#undef TEXTPLANE_HAS_X86
+#define TEXTPLANE_HAS_X86 1
 #if defined(__clang__) || !defined(_WIN32)
-#undef TEXTPLANE_HAS_AVX2
-#undef TEXTPLANE_HAS_AVX512
-#define TEXTPLANE_HAS_AVX2 1
-#define TEXTPLANE_HAS_AVX512 1
+#undef TEXTPLANE_HAS_WIDE
+#define TEXTPLANE_HAS_WIDE 1
 #endif
 #elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
 #if TEXTPLANE_HAS_KERNELS
 #include <arm_neon.h>
 #endif
-#undef TEXTPLANE_HAS_NEON
-#define TEXTPLANE_HAS_NEON 1
+#undef TEXTPLANE_HAS_ARM
+#define TEXTPLANE_HAS_ARM 1
 #endif
 #endif
+
+// TEXTPLANE_FIXED is 1 + the number of the target that TEXTPLANE_TARGET names; 0 where none is named.
+#if defined(TEXTPLANE_TARGET)
+#define TEXTPLANE_NUMBER_scalar 1
+#define TEXTPLANE_NUMBER_sse41 2
+#define TEXTPLANE_NUMBER_avx2 3
+#define TEXTPLANE_NUMBER_avx512 4
+#define TEXTPLANE_NUMBER_neon 5
+#define TEXTPLANE_NUMBER_(target) TEXTPLANE_NUMBER_##target
+#define TEXTPLANE_NUMBER(target) TEXTPLANE_NUMBER_(target)
+#define TEXTPLANE_FIXED TEXTPLANE_NUMBER(TEXTPLANE_TARGET)
+#if TEXTPLANE_FIXED == 0
+#error "TEXTPLANE_TARGET is none of scalar, sse41, avx2, avx512, neon"
+#endif
+#else
+#define TEXTPLANE_FIXED 0
+#endif
+
+// Kernels of avx512 leave few pixels to those of avx2.
+#define TEXTPLANE_HAS_SCALAR (TEXTPLANE_FIXED <= 1)
+#define TEXTPLANE_HAS_SSE41 (TEXTPLANE_HAS_X86 && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 2))
+#define TEXTPLANE_HAS_AVX2 (TEXTPLANE_HAS_WIDE && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 3 || TEXTPLANE_FIXED == 4))
+#define TEXTPLANE_HAS_AVX512 (TEXTPLANE_HAS_WIDE && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 4))
+#define TEXTPLANE_HAS_NEON (TEXTPLANE_HAS_ARM && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 5))
 
 // A test may define this as a header that emulates the AVX-512 intrinsics: the avx512 regions are then built for AVX2, and
 // the target counts as supported wherever AVX2 is.
@@ -2111,7 +2133,7 @@ constexpr const char* to_string(Target target) noexcept {
 /// True when this translation unit holds kernels for `target`. Whether the CPU runs them is another matter: see supported.
 constexpr bool compiled(Target target) noexcept {
   switch (target) {
-    case Target::scalar: return true;
+    case Target::scalar: return TEXTPLANE_HAS_SCALAR != 0;
     case Target::sse41: return TEXTPLANE_HAS_SSE41 != 0;
     case Target::avx2: return TEXTPLANE_HAS_AVX2 != 0;
     case Target::avx512: return TEXTPLANE_HAS_AVX512 != 0;
@@ -2143,14 +2165,14 @@ TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SIMD_TARGETS_HPP
 
-#if TEXTPLANE_HAS_SSE41
+#if TEXTPLANE_HAS_X86
 #include <cpuid.h>
 #endif
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-#if TEXTPLANE_HAS_SSE41
+#if TEXTPLANE_HAS_X86
 
 /// The low half of XCR0: which registers the operating system saves. Only where CPUID reports OSXSAVE.
 inline unsigned extended_control_register() noexcept {
@@ -2217,12 +2239,16 @@ namespace simd {
 /// True when this translation unit holds kernels for `target` and this machine runs them.
 inline bool supported(Target target) noexcept { return compiled(target) && detail::cpu_runs(target); }
 
-/// The widest supported target.
+/// The widest supported target; where TEXTPLANE_TARGET fixes one, that.
 inline Target best_target() noexcept {
+#if defined(TEXTPLANE_TARGET)
+  return Target::TEXTPLANE_TARGET;
+#else
   if (supported(Target::avx512)) return Target::avx512;
   if (supported(Target::avx2)) return Target::avx2;
   if (supported(Target::sse41)) return Target::sse41;
   return compiled(Target::neon) ? Target::neon : Target::scalar;
+#endif
 }
 
 /// Finds the target called `name` ("scalar", "sse41", "avx2", "avx512", "neon"). False, and `target` unchanged, for a null
@@ -2302,38 +2328,31 @@ inline Status set_target(Target target) noexcept {
 TEXTPLANE_END_NAMESPACE
 
 // TEXTPLANE_SIMD_DISPATCH(halve(a)): the body of an entry point, returns the result of `halve(a)` of the active target.
-#if TEXTPLANE_HAS_SSE41
-#define TEXTPLANE_SIMD_CASE_SSE41(call) \
-  case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;
-#else
-#define TEXTPLANE_SIMD_CASE_SSE41(call)
-#endif
-#if TEXTPLANE_HAS_AVX2
-#define TEXTPLANE_SIMD_CASE_AVX2(call) \
-  case ::textplane::simd::Target::avx2: return ::textplane::detail::avx2::call;
-#else
-#define TEXTPLANE_SIMD_CASE_AVX2(call)
-#endif
-#if TEXTPLANE_HAS_AVX512
-#define TEXTPLANE_SIMD_CASE_AVX512(call) \
-  case ::textplane::simd::Target::avx512: return ::textplane::detail::avx512::call;
-#else
-#define TEXTPLANE_SIMD_CASE_AVX512(call)
-#endif
-#if TEXTPLANE_HAS_NEON
-#define TEXTPLANE_SIMD_CASE_NEON(call) \
-  case ::textplane::simd::Target::neon: return ::textplane::detail::neon::call;
-#else
-#define TEXTPLANE_SIMD_CASE_NEON(call)
-#endif
-#define TEXTPLANE_SIMD_DISPATCH(call)                  \
-  switch (::textplane::simd::active_target()) {        \
-    TEXTPLANE_SIMD_CASE_SSE41(call)                    \
-    TEXTPLANE_SIMD_CASE_AVX2(call)                     \
-    TEXTPLANE_SIMD_CASE_AVX512(call)                   \
-    TEXTPLANE_SIMD_CASE_NEON(call)                     \
-    default: return ::textplane::detail::scalar::call; \
+#if defined(TEXTPLANE_TARGET)
+#define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::TEXTPLANE_TARGET::call;
+#elif TEXTPLANE_HAS_AVX512
+#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
+  switch (::textplane::simd::active_target()) {                                                     \
+    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;                 \
+    case ::textplane::simd::Target::avx2: return ::textplane::detail::avx2::call;                   \
+    case ::textplane::simd::Target::avx512: return ::textplane::detail::avx512::call;               \
+    default: return ::textplane::detail::scalar::call;                                              \
   }
+#elif TEXTPLANE_HAS_SSE41
+#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
+  switch (::textplane::simd::active_target()) {                                                     \
+    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;                 \
+    default: return ::textplane::detail::scalar::call;                                              \
+  }
+#elif TEXTPLANE_HAS_NEON
+#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
+  switch (::textplane::simd::active_target()) {                                                     \
+    case ::textplane::simd::Target::neon: return ::textplane::detail::neon::call;                   \
+    default: return ::textplane::detail::scalar::call;                                              \
+  }
+#else
+#define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::scalar::call;
+#endif
 
 // TEXTPLANE_KERNEL int f(int a) noexcept TEXTPLANE_SIMD_BODY(f(a)): an entry point. Inline; or, with compiled kernels
 // (targets.hpp), declared everywhere and defined in one file.
@@ -2379,6 +2398,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -2461,6 +2481,7 @@ TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(a)
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
@@ -2941,6 +2962,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -2983,6 +3005,7 @@ TEXTPLANE_SIMD_ENTRY void halve(const simd::HalveArgs& args) noexcept {
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -3406,6 +3429,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -3634,6 +3658,7 @@ TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -4719,6 +4744,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -4787,6 +4813,7 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return v.b; }
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -5256,6 +5283,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -5308,6 +5336,7 @@ TEXTPLANE_SIMD_INLINE unsigned window_words(const TapWindowVectors&, const std::
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -5638,6 +5667,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -5684,6 +5714,7 @@ TEXTPLANE_SIMD_INLINE bool make_windows(const std::uint8_t* data, std::ptrdiff_t
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -6003,6 +6034,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -6290,6 +6322,7 @@ TEXTPLANE_SIMD_INLINE void interpolate_values(const SampleStrip& s, int n, bool 
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -7343,6 +7376,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -7456,6 +7490,7 @@ TEXTPLANE_SIMD_ENTRY void prepare_pair16(const simd::Image8& image, std::uint16_
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -8662,6 +8697,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -8766,6 +8802,7 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -9183,6 +9220,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -9358,6 +9396,7 @@ TEXTPLANE_SIMD_ENTRY void collect_values(const HostPixels& host, const ResidualF
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -10055,6 +10094,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -10423,6 +10463,7 @@ TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const fl
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -11860,6 +11901,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -11947,6 +11989,7 @@ TEXTPLANE_SIMD_ENTRY void plane_rows(const RowConstants& k, const float* x, cons
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -12324,6 +12367,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -12493,6 +12537,7 @@ TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& 
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -13150,6 +13195,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -13578,6 +13624,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -15143,6 +15190,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -15402,6 +15450,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -16403,6 +16452,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -16462,6 +16512,7 @@ TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::Resid
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -17971,6 +18022,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -18036,6 +18088,7 @@ TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const Residu
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -18341,6 +18394,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -18542,6 +18596,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -19417,6 +19472,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -19701,6 +19757,7 @@ TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -20774,6 +20831,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -20978,6 +21036,7 @@ TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const 
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -22100,6 +22159,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -22128,6 +22188,7 @@ TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -22527,6 +22588,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -22560,6 +22622,7 @@ TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept { *p = static
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -22830,6 +22893,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -23073,6 +23137,7 @@ TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -24010,6 +24075,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -24280,6 +24346,7 @@ TEXTPLANE_SIMD_ENTRY void batch_linearise_pose_plane(const simd::BatchArgs& a) n
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -25707,6 +25774,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -26011,6 +26079,7 @@ TEXTPLANE_SIMD_ENTRY int warp_f32_f32(const simd::WarpArgs& a) noexcept { return
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -27345,6 +27414,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -27470,6 +27540,7 @@ TEXTPLANE_SIMD_ENTRY simd::KltSums klt_sums(const simd::KltWindow& window, const
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)
@@ -28384,6 +28455,7 @@ TEXTPLANE_END_NAMESPACE
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -28501,6 +28573,7 @@ TEXTPLANE_SIMD_ENTRY int fast_maxima(const simd::FastMaximaArgs& args) noexcept 
 }
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("sse4.1"))), apply_to = function)

@@ -1,4 +1,5 @@
-# What including a header must not do (manners_test.py), what must not compile and why, and that every adapter compiles alone and twice where its library is.
+# What including a header must not do (manners_test.py), what must not compile and why, and that every adapter compiles alone and twice where its library is,
+# and that a fixed target is the only one.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
   add_test(NAME headers.manners COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/manners_test.py ${PROJECT_SOURCE_DIR})
@@ -12,6 +13,19 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   add_test(NAME headers.no_exceptions COMMAND ${CMAKE_COMMAND} -DMODE=variants -DVARIANTS=no_exceptions -DCOMPILER=${CMAKE_CXX_COMPILER}
     "-DFLAGS=-O0 -Wall -Wextra -Werror -fno-exceptions -fno-rtti -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
     -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
+  # With its target fixed a unit holds the kernels of that one alone.
+  find_program(TEXTPLANE_NM nm)
+  set(targets scalar)
+  if(TEXTPLANE_RUNS_AVX512)
+    list(APPEND targets avx512)
+  elseif(TEXTPLANE_RUNS_AVX2)
+    list(APPEND targets avx2)
+  endif()
+  if(TEXTPLANE_NM)
+    add_test(NAME headers.fixed_target COMMAND ${CMAKE_COMMAND} -DMODE=fixed "-DTARGETS=${targets}" -DNM=${TEXTPLANE_NM} -DCOMPILER=${CMAKE_CXX_COMPILER}
+      "-DFLAGS=-O0 -Wall -Wextra -Werror -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
+      -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_fixed_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
+  endif()
 endif()
 if(NOT TEXTPLANE_TEST_INCLUDE_ALONE)
   return()

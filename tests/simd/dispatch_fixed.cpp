@@ -13,5 +13,7 @@ bool fixed_set_target(int target) {
 }
 
 static_assert(textplane::simd::active_target() == textplane::simd::Target::scalar, "folds at compile time");
+static_assert(textplane::simd::compiled(textplane::simd::Target::scalar), "the target that is fixed");
+static_assert(!textplane::simd::compiled(textplane::simd::Target::avx2), "no other is compiled");
 
 }  // namespace textplane_test

@@ -4,14 +4,14 @@
 
 #include "textplane/simd/targets.hpp"
 
-#if TEXTPLANE_HAS_SSE41
+#if TEXTPLANE_HAS_X86
 #include <cpuid.h>
 #endif
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-#if TEXTPLANE_HAS_SSE41
+#if TEXTPLANE_HAS_X86
 
 /// The low half of XCR0: which registers the operating system saves. Only where CPUID reports OSXSAVE.
 inline unsigned extended_control_register() noexcept {

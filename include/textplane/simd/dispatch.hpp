@@ -4,8 +4,8 @@
 // TEXTPLANE_FORCE_TARGET names (scalar, sse41, avx2, avx512, neon). A name that is unknown, or that this machine cannot run,
 // leaves the best target in charge, and forced_target_status() tells. set_target changes it later, for the whole process.
 // Defining the macro TEXTPLANE_TARGET as such a name (-DTEXTPLANE_TARGET=avx2) fixes the target of a translation unit at
-// compile time: its calls go straight to that kernel, neither environment nor set_target change it, and the caller promises a
-// CPU that has it.
+// compile time: its calls go straight to that kernel, the others are not compiled, neither environment nor set_target change it,
+// and the caller promises a CPU that has it.
 //
 // State: one constant-initialised atomic, shared by all translation units of a program whatever their flags.
 #ifndef TEXTPLANE_SIMD_DISPATCH_HPP
@@ -33,12 +33,16 @@ namespace simd {
 /// True when this translation unit holds kernels for `target` and this machine runs them.
 inline bool supported(Target target) noexcept { return compiled(target) && detail::cpu_runs(target); }
 
-/// The widest supported target.
+/// The widest supported target; where TEXTPLANE_TARGET fixes one, that.
 inline Target best_target() noexcept {
+#if defined(TEXTPLANE_TARGET)
+  return Target::TEXTPLANE_TARGET;
+#else
   if (supported(Target::avx512)) return Target::avx512;
   if (supported(Target::avx2)) return Target::avx2;
   if (supported(Target::sse41)) return Target::sse41;
   return compiled(Target::neon) ? Target::neon : Target::scalar;
+#endif
 }
 
 /// Finds the target called `name` ("scalar", "sse41", "avx2", "avx512", "neon"). False, and `target` unchanged, for a null
@@ -118,38 +122,31 @@ inline Status set_target(Target target) noexcept {
 TEXTPLANE_END_NAMESPACE
 
 // TEXTPLANE_SIMD_DISPATCH(halve(a)): the body of an entry point, returns the result of `halve(a)` of the active target.
-#if TEXTPLANE_HAS_SSE41
-#define TEXTPLANE_SIMD_CASE_SSE41(call) \
-  case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;
-#else
-#define TEXTPLANE_SIMD_CASE_SSE41(call)
-#endif
-#if TEXTPLANE_HAS_AVX2
-#define TEXTPLANE_SIMD_CASE_AVX2(call) \
-  case ::textplane::simd::Target::avx2: return ::textplane::detail::avx2::call;
-#else
-#define TEXTPLANE_SIMD_CASE_AVX2(call)
-#endif
-#if TEXTPLANE_HAS_AVX512
-#define TEXTPLANE_SIMD_CASE_AVX512(call) \
-  case ::textplane::simd::Target::avx512: return ::textplane::detail::avx512::call;
-#else
-#define TEXTPLANE_SIMD_CASE_AVX512(call)
-#endif
-#if TEXTPLANE_HAS_NEON
-#define TEXTPLANE_SIMD_CASE_NEON(call) \
-  case ::textplane::simd::Target::neon: return ::textplane::detail::neon::call;
-#else
-#define TEXTPLANE_SIMD_CASE_NEON(call)
-#endif
-#define TEXTPLANE_SIMD_DISPATCH(call)                  \
-  switch (::textplane::simd::active_target()) {        \
-    TEXTPLANE_SIMD_CASE_SSE41(call)                    \
-    TEXTPLANE_SIMD_CASE_AVX2(call)                     \
-    TEXTPLANE_SIMD_CASE_AVX512(call)                   \
-    TEXTPLANE_SIMD_CASE_NEON(call)                     \
-    default: return ::textplane::detail::scalar::call; \
+#if defined(TEXTPLANE_TARGET)
+#define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::TEXTPLANE_TARGET::call;
+#elif TEXTPLANE_HAS_AVX512
+#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
+  switch (::textplane::simd::active_target()) {                                                     \
+    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;                 \
+    case ::textplane::simd::Target::avx2: return ::textplane::detail::avx2::call;                   \
+    case ::textplane::simd::Target::avx512: return ::textplane::detail::avx512::call;               \
+    default: return ::textplane::detail::scalar::call;                                              \
   }
+#elif TEXTPLANE_HAS_SSE41
+#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
+  switch (::textplane::simd::active_target()) {                                                     \
+    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;                 \
+    default: return ::textplane::detail::scalar::call;                                              \
+  }
+#elif TEXTPLANE_HAS_NEON
+#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
+  switch (::textplane::simd::active_target()) {                                                     \
+    case ::textplane::simd::Target::neon: return ::textplane::detail::neon::call;                   \
+    default: return ::textplane::detail::scalar::call;                                              \
+  }
+#else
+#define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::scalar::call;
+#endif
 
 // TEXTPLANE_KERNEL int f(int a) noexcept TEXTPLANE_SIMD_BODY(f(a)): an entry point. Inline; or, with compiled kernels
 // (targets.hpp), declared everywhere and defined in one file.

@@ -24,6 +24,7 @@
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
 
+#if TEXTPLANE_HAS_SCALAR
 #define TEXTPLANE_SIMD_REGION 0
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
@@ -33,6 +34,7 @@ namespace scalar {
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE
 #undef TEXTPLANE_SIMD_REGION
+#endif
 
 #if TEXTPLANE_HAS_SSE41
 #if defined(__clang__)

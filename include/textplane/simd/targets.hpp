@@ -7,7 +7,8 @@
 //   TEXTPLANE_HAS_SSE41, _AVX2, _AVX512   1 for GCC and Clang on x86-64 (MinGW: SSE4.1 alone, its stack is not aligned for more)
 //   TEXTPLANE_HAS_NEON                    1 for GCC and Clang on little-endian AArch64, where NEON is part of the baseline
 //
-// All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone.
+// All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where TEXTPLANE_TARGET fixes one
+// (dispatch.hpp), TEXTPLANE_HAS_SCALAR and these are 1 for what it needs and 0 for all others.
 //
 // Compiled kernels, an option: compiling all targets of a kernel in every file that calls it takes its time. Where
 // TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see the entry points as declarations, those of the solvers, too,
@@ -29,32 +30,53 @@
 #define TEXTPLANE_HAS_KERNELS 1
 #endif
 
-#define TEXTPLANE_HAS_SSE41 0
-#define TEXTPLANE_HAS_AVX2 0
-#define TEXTPLANE_HAS_AVX512 0
-#define TEXTPLANE_HAS_NEON 0
-
+// What this compiler and machine offer.
+#define TEXTPLANE_HAS_X86 0
+#define TEXTPLANE_HAS_WIDE 0
+#define TEXTPLANE_HAS_ARM 0
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
 #if defined(__x86_64__)
 #if TEXTPLANE_HAS_KERNELS
 #include <immintrin.h>
 #endif
-#undef TEXTPLANE_HAS_SSE41
-#define TEXTPLANE_HAS_SSE41 1
+#undef TEXTPLANE_HAS_X86
+#define TEXTPLANE_HAS_X86 1
 #if defined(__clang__) || !defined(_WIN32)
-#undef TEXTPLANE_HAS_AVX2
-#undef TEXTPLANE_HAS_AVX512
-#define TEXTPLANE_HAS_AVX2 1
-#define TEXTPLANE_HAS_AVX512 1
+#undef TEXTPLANE_HAS_WIDE
+#define TEXTPLANE_HAS_WIDE 1
 #endif
 #elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
 #if TEXTPLANE_HAS_KERNELS
 #include <arm_neon.h>
 #endif
-#undef TEXTPLANE_HAS_NEON
-#define TEXTPLANE_HAS_NEON 1
+#undef TEXTPLANE_HAS_ARM
+#define TEXTPLANE_HAS_ARM 1
 #endif
 #endif
+
+// TEXTPLANE_FIXED is 1 + the number of the target that TEXTPLANE_TARGET names; 0 where none is named.
+#if defined(TEXTPLANE_TARGET)
+#define TEXTPLANE_NUMBER_scalar 1
+#define TEXTPLANE_NUMBER_sse41 2
+#define TEXTPLANE_NUMBER_avx2 3
+#define TEXTPLANE_NUMBER_avx512 4
+#define TEXTPLANE_NUMBER_neon 5
+#define TEXTPLANE_NUMBER_(target) TEXTPLANE_NUMBER_##target
+#define TEXTPLANE_NUMBER(target) TEXTPLANE_NUMBER_(target)
+#define TEXTPLANE_FIXED TEXTPLANE_NUMBER(TEXTPLANE_TARGET)
+#if TEXTPLANE_FIXED == 0
+#error "TEXTPLANE_TARGET is none of scalar, sse41, avx2, avx512, neon"
+#endif
+#else
+#define TEXTPLANE_FIXED 0
+#endif
+
+// Kernels of avx512 leave few pixels to those of avx2.
+#define TEXTPLANE_HAS_SCALAR (TEXTPLANE_FIXED <= 1)
+#define TEXTPLANE_HAS_SSE41 (TEXTPLANE_HAS_X86 && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 2))
+#define TEXTPLANE_HAS_AVX2 (TEXTPLANE_HAS_WIDE && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 3 || TEXTPLANE_FIXED == 4))
+#define TEXTPLANE_HAS_AVX512 (TEXTPLANE_HAS_WIDE && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 4))
+#define TEXTPLANE_HAS_NEON (TEXTPLANE_HAS_ARM && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 5))
 
 // A test may define this as a header that emulates the AVX-512 intrinsics: the avx512 regions are then built for AVX2, and
 // the target counts as supported wherever AVX2 is.
@@ -125,7 +147,7 @@ constexpr const char* to_string(Target target) noexcept {
 /// True when this translation unit holds kernels for `target`. Whether the CPU runs them is another matter: see supported.
 constexpr bool compiled(Target target) noexcept {
   switch (target) {
-    case Target::scalar: return true;
+    case Target::scalar: return TEXTPLANE_HAS_SCALAR != 0;
     case Target::sse41: return TEXTPLANE_HAS_SSE41 != 0;
     case Target::avx2: return TEXTPLANE_HAS_AVX2 != 0;
     case Target::avx512: return TEXTPLANE_HAS_AVX512 != 0;

@@ -5,6 +5,8 @@
 #   MODE=mixed    SOURCE, MAIN, EMULATOR    links SOURCE for three CPUs with MAIN, runs it here and, if given, in the EMULATOR
 #   MODE=variants SOURCE, MAIN, VARIANTS, OTHER   links SOURCE as the names of VARIANTS say (all, if none), and by the compiler OTHER
 #                                           if given, with MAIN, and runs it
+#   MODE=fixed    SOURCE, MAIN, TARGETS, NM   links SOURCE with its target fixed as each of TARGETS, and no other's kernels in it, with
+#                                           MAIN, and runs it
 #   MODE=refused  SOURCE                    does not link where the flags of its two halves differ
 # EXPECT is the exit code of the checker that makes the test pass.
 cmake_minimum_required(VERSION 3.21)
@@ -87,6 +89,29 @@ elseif(MODE STREQUAL "variants")
   list(REVERSE objects)
   run(${COMPILER} ${objects} ${OBJECTS}main.o -o ${OBJECTS}variants)
   run(${OBJECTS}variants)
+elseif(MODE STREQUAL "fixed")
+  set(objects)
+  set(units)
+  foreach(target IN LISTS TARGETS)
+    compile(${SOURCE} ${target}.o -DTEXTPLANE_TEST_UNIT=${target}_unit -DTEXTPLANE_TARGET=${target})
+    execute_process(COMMAND ${NM} -C ${OBJECTS}${target}.o OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+    string(REGEX MATCHALL "detail::(scalar|sse41|avx2|avx512|neon)::" regions "${symbols}")
+    list(REMOVE_DUPLICATES regions)
+    set(wanted detail::${target}::)
+    if(target STREQUAL "avx512")
+      list(APPEND wanted detail::avx2::)
+    endif()
+    list(SORT regions)
+    list(SORT wanted)
+    if(NOT regions STREQUAL wanted)
+      message(FATAL_ERROR "fixed for ${target} it holds kernels of: ${regions}")
+    endif()
+    list(APPEND objects ${OBJECTS}${target}.o)
+    string(APPEND units " UNIT(${target}_unit)")
+  endforeach()
+  compile(${MAIN} main.o "-DTEXTPLANE_TEST_UNITS=${units}")
+  run(${COMPILER} ${objects} ${OBJECTS}main.o -o ${OBJECTS}fixed)
+  run(${OBJECTS}fixed)
 elseif(MODE STREQUAL "refused")
   compile(${SOURCE} calls.o)
   compile(${SOURCE} same.o -DTEXTPLANE_TEST_DEFINES)
