@@ -48,15 +48,7 @@ struct Pixels {
   static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 
   tp::PatchView view(bool masked) const {
-    tp::PatchView patch;
-    patch.x = x.data();
-    patch.y = y.data();
-    patch.intensity = intensity.data();
-    patch.gx = gx.data();
-    patch.gy = gy.data();
-    patch.mask = masked ? mask.data() : nullptr;
-    patch.n = n;
-    return patch;
+    return {x.data(), y.data(), intensity.data(), masked ? mask.data() : nullptr, n, gx.data(), gy.data()};
   }
 };
 

@@ -15,9 +15,7 @@ constexpr int kFar = 32768;
 enum class Order { rows, reversed, mirrored, upside_down, serpentine, columns, holes, shuffled };
 
 // Pixels of a grid around the origin of the host camera, in one order or another.
-struct Patch {
-  std::vector<float> x, y, intensity, gx, gy;
-
+struct Patch : tp::PatchLevel {
   Patch(int columns, int rows, Order order, unsigned seed) {
     Random random(seed);
     for (int i = 0; i < rows; ++i)
@@ -45,17 +43,6 @@ struct Patch {
       gx.push_back(static_cast<float>(random.uniform(-40, 40)));
       gy.push_back(static_cast<float>(random.uniform(-40, 40)));
     }
-  }
-
-  tp::PatchView view() const {
-    tp::PatchView patch;
-    patch.x = x.data();
-    patch.y = y.data();
-    patch.intensity = intensity.data();
-    patch.gx = gx.data();
-    patch.gy = gy.data();
-    patch.n = static_cast<int>(x.size());
-    return patch;
   }
 };
 
