@@ -5,22 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
-#include "support/calculus.hpp"
+#include "geometry/quad_support.hpp"
 
 namespace tp = textplane;
 using textplane_test::Dual;
-using textplane_test::Random;
-using textplane_test::tolerance;
-using textplane_test::value;
-using textplane_test::values;
-using Quad = tp::Quad<double>;
-using Polygon = tp::ConvexPolygon<double>;
-using Vector2d = Eigen::Vector2d;
-using Vector3d = Eigen::Vector3d;
 
 #define TEXTPLANE_INSTANTIATE(S)                                                                               \
   template struct tp::Quad<S>;                                                                                 \
@@ -55,33 +46,11 @@ TEXTPLANE_INSTANTIATE(Dual<2>)
 
 namespace quad_test {
 
-const double kNan = std::nan(""), kInf = std::numeric_limits<double>::infinity();
+using Polygon = tp::ConvexPolygon<double>;
 
-template <class S>
-class Quads : public testing::Test {};
-using Scalars = testing::Types<float, double, Dual<2>>;
-TYPED_TEST_SUITE(Quads, Scalars, );
-
-Quad make_quad(Vector2d a, Vector2d b, Vector2d c, Vector2d d) {
-  Quad q;
-  q.corner = {a, b, c, d};
-  return q;
-}
-Quad rectangle(double x0, double y0, double x1, double y1) { return make_quad({x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}); }
 Quad reversed(const Quad& q) { return make_quad(q.corner[0], q.corner[3], q.corner[2], q.corner[1]); }
 Quad rotated(const Quad& q, std::size_t by) {
   return make_quad(q.corner[by % 4], q.corner[(by + 1) % 4], q.corner[(by + 2) % 4], q.corner[(by + 3) % 4]);
-}
-
-// Four points on an ellipse in clockwise order: always convex.
-Quad random_convex(Random& random, Vector2d centre, double radius) {
-  Quad q;
-  const double start = random.uniform(0, 6.28);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double angle = start + 1.5707963 * (static_cast<double>(i) + random.uniform(-0.35, 0.35));
-    q.corner[i] = centre + radius * Vector2d(std::cos(angle), 0.6 * std::sin(angle));
-  }
-  return q;
 }
 
 // The part of both quads by counting a fine grid: knows nothing of clipping. Inside by the winding of angles.
@@ -347,72 +316,6 @@ TEST(ConvexPolygonTest, NeverOverflows) {
   EXPECT_TRUE(p.empty());
   EXPECT_FALSE(tp::contains(p, Vector2d(0, 0)));
   EXPECT_EQ(tp::area(p), 0);
-}
-
-TYPED_TEST(Quads, LevelsFollowThePixelConvention) {
-  using S = TypeParam;
-  for (int level = 0; level < 5; ++level) {
-    // The corner of the image, (-0.5, -0.5), is the same on each level.
-    EXPECT_EQ(values(tp::point_to_level(tp::Vector2<S>(S(-0.5), S(-0.5)), level)), Vector2d(-0.5, -0.5));
-    const tp::Vector2<S> p(S(37.25), S(11.5));
-    EXPECT_LT((values(tp::point_from_level(tp::point_to_level(p, level), level)) - values(p)).norm(),
-              tolerance<S>(1e-5, 1e-13));
-    const auto q = tp::quad_to_level(rectangle(3, 4, 35, 20).cast<S>(), level);
-    EXPECT_NEAR(value(tp::area(q)) * (1 << level) * (1 << level), 512, tolerance<S>(1e-3, 1e-11));
-  }
-  EXPECT_EQ(values(tp::point_to_level(tp::Vector2<S>(S(0.5), S(2.5)), 1)), Vector2d(0, 1))
-      << "the middle of a 2 x 2 block";
-}
-
-TYPED_TEST(Quads, ProjectedQuadsAndTheirPoints) {
-  using S = TypeParam;
-  Random random(5);
-  const tp::Pinhole<double> host(525, 520, 319.5, 239.5), target(400, 410, 300, 200);
-  for (int i = 0; i < 20; ++i) {
-    const Quad q = random_convex(random, {320, 240}, 80);
-    const Vector3d theta = Vector3d(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0.5);
-    const tp::SE3d T = random.pose(0.2, 0.3);
-    std::array<tp::Vector3<S>, 4> points;
-    ASSERT_EQ(tp::quad_points<S>(q.cast<S>(), host.cast<S>(), theta.cast<S>(), &points), tp::Status::ok);
-    tp::Quad<S> projected, by_matrix;
-    ASSERT_EQ(
-        tp::project_quad<S>(q.cast<S>(), host.cast<S>(), theta.cast<S>(), T.cast<S>(), target.cast<S>(), &projected),
-        tp::Status::ok);
-    const Eigen::Matrix3d H = tp::pixel_homography<double>(tp::plane_homography(theta, T), host, target);
-    ASSERT_EQ(tp::transform<S>(q.cast<S>(), H.cast<S>(), &by_matrix), tp::Status::ok);
-    for (std::size_t k = 0; k < 4; ++k) {
-      EXPECT_NEAR(theta.dot(values(points[k])), 1, tolerance<S>(2e-6, 1e-14));
-      const Vector2d expected = target.project(T * Vector3d(values(points[k])));
-      EXPECT_LT((values(projected.corner[k]) - expected).norm(), tolerance<S>(2e-3, 1e-11));
-      EXPECT_LT((values(by_matrix.corner[k]) - expected).norm(), tolerance<S>(5e-3, 1e-11));
-    }
-    EXPECT_TRUE(tp::is_convex(projected)) << "a plane in front of both cameras keeps convexity";
-  }
-}
-
-TEST(QuadTest, ProjectionBehindTheCameraLeavesTheOutput) {
-  const Quad q = rectangle(100, 100, 200, 150), untouched = rectangle(1, 2, 3, 4);
-  const tp::Pinhole<double> camera(525, 520, 319.5, 239.5);
-  Quad out = untouched;
-  tp::SE3d T;
-  EXPECT_EQ(tp::project_quad(q, camera, Vector3d(0, 0, -1), T, camera, &out), tp::Status::behind_camera);
-  T.t = Vector3d(0, 0, -2);
-  EXPECT_EQ(tp::project_quad(q, camera, Vector3d(0, 0, 1), T, camera, &out), tp::Status::behind_camera);
-  EXPECT_EQ(tp::project_quad(q, camera, Vector3d(0, 0, kNan), T, camera, &out), tp::Status::non_finite);
-  const tp::Pinhole<double> infinite(1e308, 100, 1e308, 50);
-  EXPECT_EQ(tp::project_quad(q, camera, Vector3d(0, 0, 1), tp::SE3d{T.R, Vector3d(5, 0, 0)}, infinite, &out),
-            tp::Status::non_finite);
-  EXPECT_EQ(tp::transform(q, Eigen::Matrix3d(-Eigen::Matrix3d::Identity()), &out), tp::Status::behind_camera);
-  EXPECT_EQ(out.corner, untouched.corner);
-  std::array<Vector3d, 4> points;
-  points.fill(Vector3d(7, 8, 9));
-  // The plane's horizon crosses the quad: some corners in front, some not.
-  EXPECT_EQ(tp::quad_points(q, camera, Vector3d(1, 0, 0.3), &points), tp::Status::behind_camera);
-  const tp::Pinhole<double> flat(0, 520, 319.5, 239.5);
-  EXPECT_EQ(tp::quad_points(q, flat, Vector3d(0, 0, 1), &points), tp::Status::invalid_argument);
-  EXPECT_EQ(tp::project_quad(q, flat, Vector3d(0, 0, 1), tp::SE3d(), camera, &out), tp::Status::invalid_argument);
-  EXPECT_EQ(out.corner, untouched.corner);
-  EXPECT_EQ(points[0], Vector3d(7, 8, 9));
 }
 
 }  // namespace quad_test
