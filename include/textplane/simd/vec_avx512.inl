@@ -192,13 +192,6 @@ TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
-// vhaddps takes twice the time of its two shuffles and one sum.
-TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-}
-TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
-}
 TEXTPLANE_SIMD_INLINE __m256 half_sum_at(const float* p) noexcept {
   return _mm256_add_ps(_mm256_loadu_ps(p), _mm256_loadu_ps(p + 8));
 }
@@ -206,5 +199,5 @@ TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
   const __m256 a = join_lanes(half_sum_at(p), half_sum_at(p + 16)), b = join_lanes(half_sum_at(p + 32), half_sum_at(p + 48));
   const __m256 c = join_lanes(half_sum_at(p + 64), half_sum_at(p + 80)), d = join_lanes(half_sum_at(p + 96), half_sum_at(p + 112));
   const __m256 q = join_pairs(a, b), r = join_pairs(c, d);
-  return vd{_mm512_maskz_cvtps_pd(0xff, _mm256_add_ps(_mm256_permute2f128_ps(q, r, 0x20), _mm256_permute2f128_ps(q, r, 0x31)))};
+  return vd{_mm512_maskz_cvtps_pd(0xff, join_halves(q, r))};
 }
