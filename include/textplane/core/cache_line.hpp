@@ -23,6 +23,12 @@ std::vector<CacheLine<T>> cache_lines(std::size_t count) {
   return std::vector<CacheLine<T>>((count + CacheLine<T>::kSize - 1) / CacheLine<T>::kSize);
 }
 
+/// Numbers that there is room for.
+template <class T>
+std::size_t number_count(const std::vector<CacheLine<T>>& lines) noexcept {
+  return lines.size() * CacheLine<T>::kSize;
+}
+
 /// The first of the numbers.
 template <class T>
 T* numbers(std::vector<CacheLine<T>>& lines) noexcept {

@@ -155,20 +155,16 @@ class TextBatchResult {
 
   /// Makes room for the batch and nine parameters. The only member that allocates; never shrinks.
   void reserve(const TextBatch& batch) {
-    const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
-    const std::size_t out = groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9));
-    if (out_.size() * CacheLine<float>::kSize < out) out_ = cache_lines<float>(out);
-    if (status_.size() < static_cast<std::size_t>(batch.size())) status_.resize(static_cast<std::size_t>(batch.size()));
+    const auto objects = static_cast<std::size_t>(batch.size());
+    if (number_count(out_) < floats(batch)) out_ = cache_lines<float>(floats(batch));
+    if (status_.size() < objects) status_.resize(objects);
     const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
-    if (scratch_.size() * CacheLine<float>::kSize < scratch) scratch_ = cache_lines<float>(scratch);
+    if (number_count(scratch_) < scratch) scratch_ = cache_lines<float>(scratch);
   }
   /// Whether reserve() was called for a batch of this size.
   bool fits(const TextBatch& batch) const noexcept {
-    const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
-    return out_.size() * CacheLine<float>::kSize >=
-               groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
-           status_.size() >= static_cast<std::size_t>(batch.size()) &&
-           scratch_.size() * CacheLine<float>::kSize >= simd::batch_scratch(batch.max_pixels());
+    return number_count(out_) >= floats(batch) && status_.size() >= static_cast<std::size_t>(batch.size()) &&
+           number_count(scratch_) >= simd::batch_scratch(batch.max_pixels());
   }
 
   /// Of object i of the batch, as reference::linearise_*() would say it; all zero, `visible` excepted, unless is_ok(status).
@@ -210,6 +206,9 @@ class TextBatchResult {
   }
 
  private:
+  // Of the results of nine parameters, the most.
+  static std::size_t floats(const TextBatch& batch) noexcept { return simd::batch_floats(batch.size(), 9); }
+
   double at(int i, int entry) const noexcept {
     const int group = i / simd::kBatchLanes, lane = i % simd::kBatchLanes;
     const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(group) * simd::batch_entries(parameters_) + entry;
@@ -247,10 +246,7 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() || !robust ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
-    std::fill_n(
-        args.out,
-        simd::kBatchLanes * simd::batch_entries(P) * ((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes),
-        0.0F);
+    std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
     return Status::invalid_argument;
   }
   if (batch.size() == 0) return Status::ok;

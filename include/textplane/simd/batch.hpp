@@ -57,6 +57,11 @@ struct BatchArgs {
   Status* status = nullptr;         ///< One an object.
 };
 
+/// Floats of BatchArgs::out for `count` objects.
+constexpr std::size_t batch_floats(int count, int parameters) noexcept {
+  const int groups = (count + kBatchLanes - 1) / kBatchLanes;
+  return static_cast<std::size_t>(groups) * kBatchLanes * static_cast<std::size_t>(batch_entries(parameters));
+}
 /// Floats of scratch memory for objects of at most n pixels.
 constexpr std::size_t batch_scratch(int n) noexcept { return static_cast<std::size_t>(n > 0 ? n : 0) * 12 * kBatchLanes; }
 
