@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "textplane/photometry/residual.hpp"
 #include "textplane/solver/window.hpp"
 #include "textslam/adjustment_selection.hpp"
 #include "textslam/point_mapper.hpp"
@@ -49,11 +48,8 @@ class Adjustment {
       const auto slot = static_cast<std::size_t>(o.text);
       const TextObject& text = map.texts[static_cast<std::size_t>(texts_[slot])];
       const KeyFrame& keyframe = map.keyframe(frames_[static_cast<std::size_t>(o.frame)]);
-      const auto input =
-          textplane::photometric_input(text.patch, 0, keyframe.frame.image->view(), map.camera, o.scale_shift);
-      workspace.reserve(input.patch.n);
-      const auto cost = textplane::evaluate(input, text.theta, map.T_c_h(keyframe.T_w_c.inverse(), text.host),
-                                            textplane::PhotometricOptions{}, workspace);
+      const auto cost =
+          compare_text(map, text, 0, *keyframe.frame.image, keyframe.T_w_c.inverse(), o.scale_shift, workspace);
       o.weight = 1 / std::max(kLeastVariance, 1 - (textplane::is_ok(cost.status) ? cost.zncc : 0));
       sums[slot] += o.weight;
       ++counts[slot];

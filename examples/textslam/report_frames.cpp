@@ -6,8 +6,9 @@
 #include "io/data_uri.hpp"
 #include "io/image_file.hpp"
 #include "textplane/geometry/homography.hpp"
-#include "textplane/photometry/residual.hpp"
+#include "textplane/photometry/sample.hpp"
 #include "textslam/evaluate_text.hpp"
+#include "textslam/text_plane.hpp"
 
 namespace textslam {
 namespace {
@@ -32,11 +33,8 @@ bool see_text(const Map& map, const Parameters& parameters, const TextObject& te
               const SE3d& T_c_w, Quad<double>* quad, double* zncc) {
   if (!text_in_view(map, parameters, text, T_c_w, quad)) return false;
   const int level = text.patch.level_count() > 1 ? 1 : 0;
-  const auto input =
-      textplane::photometric_input(text.patch, level, image.view(), map.camera, scale_shift(text, *quad));
-  textplane::PhotometricWorkspace workspace(input.patch.n);
-  const auto cost =
-      textplane::evaluate(input, text.theta, map.T_c_h(T_c_w, text.host), textplane::PhotometricOptions{}, workspace);
+  textplane::PhotometricWorkspace workspace;
+  const auto cost = compare_text(map, text, level, image, T_c_w, scale_shift(text, *quad), workspace);
   *zncc = cost.zncc;
   return textplane::is_ok(cost.status);
 }

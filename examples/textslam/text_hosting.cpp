@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "textplane/geometry/quad.hpp"
-#include "textplane/photometry/residual.hpp"
 #include "textslam/text_plane.hpp"
 
 namespace textslam {
@@ -29,11 +28,8 @@ double unlikeness(const Map& map, const TextObject& text, const std::vector<int>
     const SE3d T_c_w = map.keyframe(id).T_w_c.inverse();
     Quad<double> quad;
     if (!project_text(map, text, T_c_w, &quad)) return 2;
-    const auto input = textplane::photometric_input(text.patch, 0, map.keyframe(id).frame.image->view(), map.camera,
-                                                    scale_shift(text, quad));
-    workspace.reserve(input.patch.n);
     const auto cost =
-        textplane::evaluate(input, text.theta, map.T_c_h(T_c_w, text.host), textplane::PhotometricOptions{}, workspace);
+        compare_text(map, text, 0, *map.keyframe(id).frame.image, T_c_w, scale_shift(text, quad), workspace);
     sum += textplane::is_ok(cost.status) ? 1 - cost.zncc : 2;
   }
   return sum / static_cast<double>(keyframes.size());

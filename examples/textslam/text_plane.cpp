@@ -4,6 +4,7 @@
 
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textplane/photometry/residual.hpp"
 #include "textplane/solver/plane.hpp"
 
 namespace textslam {
@@ -43,6 +44,14 @@ bool refine_plane(const Map& map, const Parameters& parameters, const std::vecto
   text.covariance = fit.covariance;
   text.zncc = fit.zncc;
   return true;
+}
+
+textplane::PhotometricCost compare_text(const Map& map, const TextObject& text, int level, const Pyramid& image,
+                                        const SE3d& T_c_w, int shift, textplane::PhotometricWorkspace& workspace) {
+  const auto input = textplane::photometric_input(text.patch, level, image.view(), map.camera, shift);
+  workspace.reserve(input.patch.n);
+  return textplane::evaluate(input, text.theta, map.T_c_h(T_c_w, text.host), textplane::PhotometricOptions{},
+                             workspace);
 }
 
 bool transport_plane(const Map& map, int from, int to, Vec3* theta, Eigen::Matrix3d* covariance) {

@@ -1,9 +1,11 @@
-// What a text object is made of: its patch, and its plane, refined against the key frames that show it, and as another key frame has it.
+// What a text object is made of: its patch, and its plane, refined against the key frames that show it, and as another key frame has
+// it; and how well an image agrees with them.
 #ifndef TEXTSLAM_TEXT_PLANE_HPP
 #define TEXTSLAM_TEXT_PLANE_HPP
 
 #include <vector>
 
+#include "textplane/photometry/residual_types.hpp"
 #include "textslam/map.hpp"
 #include "textslam/parameters.hpp"
 
@@ -17,6 +19,10 @@ textplane::TextPatch make_text_patch(const Map& map, const Parameters& parameter
 /// the camera.
 bool refine_plane(const Map& map, const Parameters& parameters, const std::vector<int>& keyframes, const Vec3& theta,
                   double min_zncc, TextObject& text);
+
+/// One level of the text's patch against an image seen from T_c_w; `shift` as scale_shift() says.
+textplane::PhotometricCost compare_text(const Map& map, const TextObject& text, int level, const Pyramid& image,
+                                        const SE3d& T_c_w, int shift, textplane::PhotometricWorkspace& workspace);
 
 /// A plane in the frame of key frame `from`, with its covariance, in that of `to`. False, and both as they were, where `to`
 /// does not see its front.
