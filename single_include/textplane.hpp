@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 124 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 03dc39e203418c00
+// textplane 0.1.0 in one header, made of 125 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: 24434087be54512f
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 03dc39e203418c00"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 24434087be54512f"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -179,7 +179,7 @@ using Wide = typename WideScalar<S>::type;
 }  // namespace detail
 
 /// A B of fixed-size matrices, written out: Eigen's loop over such a product can stay a function of its own, with the
-/// instructions of whichever translation unit the linker takes it from.
+/// instructions of whichever translation unit the linker takes it from; and compilers take long over its expressions.
 template <class S, int Rows, int Inner, int Columns>
 Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
                                         const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
@@ -191,6 +191,55 @@ Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
       c(i, j) = sum;
     }
   }
+  return c;
+}
+
+/// A^T B, written out likewise; long columns in two sums, which wait for each other half as long.
+template <class S, int Inner, int Rows, int Columns>
+Eigen::Matrix<S, Rows, Columns> transposed_product(const Eigen::Matrix<S, Inner, Rows>& a,
+                                                   const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
+  Eigen::Matrix<S, Rows, Columns> c;
+  for (int j = 0; j < Columns; ++j)
+    for (int i = 0; i < Rows; ++i) {
+      if constexpr (Inner > 2 && Inner % 2 == 0) {
+        S even = a(Inner - 2, i) * b(Inner - 2, j), odd = a(Inner - 1, i) * b(Inner - 1, j);
+        for (int k = Inner - 4; k >= 0; k -= 2) {
+          even = a(k, i) * b(k, j) + even;
+          odd = a(k + 1, i) * b(k + 1, j) + odd;
+        }
+        c(i, j) = even + odd;
+      } else {
+        S sum = a(0, i) * b(0, j);
+        for (int k = 1; k < Inner; ++k) sum += a(k, i) * b(k, j);
+        c(i, j) = sum;
+      }
+    }
+  return c;
+}
+
+/// A^T, written out likewise.
+template <class S, int Rows, int Columns>
+Eigen::Matrix<S, Columns, Rows> transposed(const Eigen::Matrix<S, Rows, Columns>& a) noexcept {
+  Eigen::Matrix<S, Columns, Rows> c;
+  for (int j = 0; j < Columns; ++j)
+    for (int i = 0; i < Rows; ++i) c(j, i) = a(i, j);
+  return c;
+}
+
+/// The block of Rows x Columns at (row, column), written out likewise.
+template <int Rows, int Columns, class S, int AllRows, int AllColumns>
+Eigen::Matrix<S, Rows, Columns> block(const Eigen::Matrix<S, AllRows, AllColumns>& a, int row, int column) noexcept {
+  Eigen::Matrix<S, Rows, Columns> c;
+  for (int j = 0; j < Columns; ++j)
+    for (int i = 0; i < Rows; ++i) c(i, j) = a(row + i, column + j);
+  return c;
+}
+
+/// factor A, written out likewise.
+template <class S, int Rows, int Columns>
+Eigen::Matrix<S, Rows, Columns> scaled(const S& factor, const Eigen::Matrix<S, Rows, Columns>& a) noexcept {
+  Eigen::Matrix<S, Rows, Columns> c;
+  for (int i = 0; i < Rows * Columns; ++i) c.data()[i] = factor * a.data()[i];
   return c;
 }
 
@@ -672,7 +721,7 @@ struct SE3 {
   /// First `b`, then this: T_a_b T_b_c = T_a_c.
   SE3 operator*(const SE3& b) const noexcept { return {product(R, b.R), product(R, b.t) + t}; }
   /// Destination to source.
-  SE3 inverse() const noexcept { return {R.transpose(), -(R.transpose() * t)}; }
+  SE3 inverse() const noexcept { return {transposed(R), -transposed_product(R, t)}; }
 
   /// The same of another scalar.
   template <class U>
@@ -3968,6 +4017,19 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
   _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
 }
+// What the vectors of AVX2 and AVX-512 share, the steps of sums across lanes: join_lanes(), then join_pairs(), then join_halves()
+// make of eight vectors one, of the sum of each.
+
+// vhaddps takes twice the time of its two shuffles and one sum.
+TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_halves(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31));
+}
 // Vectors of eight lanes in AVX2 and FMA. vec_scalar.inl defines the operations.
 
 constexpr int kLanes = 8;
@@ -4170,13 +4232,6 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
   return vd{_mm256_fmadd_pd(a.low, b.low, c.low), _mm256_fmadd_pd(a.high, b.high, c.high)};
 }
 
-// vhaddps takes twice the time of its two shuffles and one sum.
-TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-}
-TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
-}
 TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = join_pairs(join_lanes(a, b), join_lanes(c, d));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
@@ -4184,7 +4239,7 @@ TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
 TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
   const __m256 q = join_pairs(join_lanes(load(p), load(p + 8)), join_lanes(load(p + 16), load(p + 24)));
   const __m256 r = join_pairs(join_lanes(load(p + 32), load(p + 40)), join_lanes(load(p + 48), load(p + 56)));
-  const __m256 s = _mm256_add_ps(_mm256_permute2f128_ps(q, r, 0x20), _mm256_permute2f128_ps(q, r, 0x31));
+  const __m256 s = join_halves(q, r);
   return vd{_mm256_cvtps_pd(_mm256_castps256_ps128(s)), _mm256_cvtps_pd(_mm256_extractf128_ps(s, 1))};
 }
 }
@@ -4247,6 +4302,15 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   v = _mm_insert_epi16(v, static_cast<short>(load_half(upper + o3)), 6);
   v = _mm_insert_epi16(v, static_cast<short>(load_half(lower + o3)), 7);
   _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+}
+TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_halves(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31));
 }
 // Vectors of sixteen lanes in AVX-512 (F, BW, DQ, VL, VNNI). vec_scalar.inl defines the operations.
 //
@@ -4442,13 +4506,6 @@ TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
-// vhaddps takes twice the time of its two shuffles and one sum.
-TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-}
-TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
-}
 TEXTPLANE_SIMD_INLINE __m256 half_sum_at(const float* p) noexcept {
   return _mm256_add_ps(_mm256_loadu_ps(p), _mm256_loadu_ps(p + 8));
 }
@@ -4456,7 +4513,7 @@ TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
   const __m256 a = join_lanes(half_sum_at(p), half_sum_at(p + 16)), b = join_lanes(half_sum_at(p + 32), half_sum_at(p + 48));
   const __m256 c = join_lanes(half_sum_at(p + 64), half_sum_at(p + 80)), d = join_lanes(half_sum_at(p + 96), half_sum_at(p + 112));
   const __m256 q = join_pairs(a, b), r = join_pairs(c, d);
-  return vd{_mm512_maskz_cvtps_pd(0xff, _mm256_add_ps(_mm256_permute2f128_ps(q, r, 0x20), _mm256_permute2f128_ps(q, r, 0x31)))};
+  return vd{_mm512_maskz_cvtps_pd(0xff, join_halves(q, r))};
 }
 }
 }
@@ -8388,6 +8445,12 @@ struct alignas(64) CacheLine {
 template <class T>
 std::vector<CacheLine<T>> cache_lines(std::size_t count) {
   return std::vector<CacheLine<T>>((count + CacheLine<T>::kSize - 1) / CacheLine<T>::kSize);
+}
+
+/// Numbers that there is room for.
+template <class T>
+std::size_t number_count(const std::vector<CacheLine<T>>& lines) noexcept {
+  return lines.size() * CacheLine<T>::kSize;
 }
 
 /// The first of the numbers.
@@ -22860,6 +22923,11 @@ struct BatchArgs {
   Status* status = nullptr;         ///< One an object.
 };
 
+/// Floats of BatchArgs::out for `count` objects.
+constexpr std::size_t batch_floats(int count, int parameters) noexcept {
+  const int groups = (count + kBatchLanes - 1) / kBatchLanes;
+  return static_cast<std::size_t>(groups) * kBatchLanes * static_cast<std::size_t>(batch_entries(parameters));
+}
 /// Floats of scratch memory for objects of at most n pixels.
 constexpr std::size_t batch_scratch(int n) noexcept { return static_cast<std::size_t>(n > 0 ? n : 0) * 12 * kBatchLanes; }
 
@@ -25555,20 +25623,16 @@ class TextBatchResult {
 
   /// Makes room for the batch and nine parameters. The only member that allocates; never shrinks.
   void reserve(const TextBatch& batch) {
-    const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
-    const std::size_t out = groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9));
-    if (out_.size() * CacheLine<float>::kSize < out) out_ = cache_lines<float>(out);
-    if (status_.size() < static_cast<std::size_t>(batch.size())) status_.resize(static_cast<std::size_t>(batch.size()));
+    const auto objects = static_cast<std::size_t>(batch.size());
+    if (number_count(out_) < floats(batch)) out_ = cache_lines<float>(floats(batch));
+    if (status_.size() < objects) status_.resize(objects);
     const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
-    if (scratch_.size() * CacheLine<float>::kSize < scratch) scratch_ = cache_lines<float>(scratch);
+    if (number_count(scratch_) < scratch) scratch_ = cache_lines<float>(scratch);
   }
   /// Whether reserve() was called for a batch of this size.
   bool fits(const TextBatch& batch) const noexcept {
-    const auto groups = static_cast<std::size_t>((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes);
-    return out_.size() * CacheLine<float>::kSize >=
-               groups * simd::kBatchLanes * static_cast<std::size_t>(simd::batch_entries(9)) &&
-           status_.size() >= static_cast<std::size_t>(batch.size()) &&
-           scratch_.size() * CacheLine<float>::kSize >= simd::batch_scratch(batch.max_pixels());
+    return number_count(out_) >= floats(batch) && status_.size() >= static_cast<std::size_t>(batch.size()) &&
+           number_count(scratch_) >= simd::batch_scratch(batch.max_pixels());
   }
 
   /// Of object i of the batch, as reference::linearise_*() would say it; all zero, `visible` excepted, unless is_ok(status).
@@ -25610,6 +25674,9 @@ class TextBatchResult {
   }
 
  private:
+  // Of the results of nine parameters, the most.
+  static std::size_t floats(const TextBatch& batch) noexcept { return simd::batch_floats(batch.size(), 9); }
+
   double at(int i, int entry) const noexcept {
     const int group = i / simd::kBatchLanes, lane = i % simd::kBatchLanes;
     const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(group) * simd::batch_entries(parameters_) + entry;
@@ -25647,10 +25714,7 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() || !robust ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
-    std::fill_n(
-        args.out,
-        simd::kBatchLanes * simd::batch_entries(P) * ((batch.size() + simd::kBatchLanes - 1) / simd::kBatchLanes),
-        0.0F);
+    std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
     return Status::invalid_argument;
   }
   if (batch.size() == 0) return Status::ok;
@@ -31013,9 +31077,9 @@ TEXTPLANE_END_NAMESPACE
 // the distance of two frames can be held; a gauge that is missing is counted from the graph of observations and
 // reported, never left to the damping.
 //
-// No decomposition of Eigen's is instantiated, but fixed-size products (6 x 6, 6 x 3) and std::vector members are, and
-// the compiler may keep them as weak symbols outside of our ABI namespace: include this header in translation units of
-// one instruction set only.
+// No decomposition of Eigen's is instantiated, and products are written out (core/numeric.hpp), but sums of fixed-size matrices
+// and std::vector members are, and the compiler may keep them as weak symbols outside of our ABI namespace: include this
+// header in translation units of one instruction set only.
 //
 // A text term is judged on the visible set of its linearisation, lost pixels charged (docs/equations.md). An observation
 // that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted state drops
@@ -31560,6 +31624,8 @@ class BasicWindowSchur {
  public:
   using Matrix6 = Eigen::Matrix<S, 6, 6>;
   using Matrix63 = Eigen::Matrix<S, 6, 3>;
+  using Matrix26 = Eigen::Matrix<S, 2, 6>;
+  using Matrix23 = Eigen::Matrix<S, 2, 3>;
 
   /// Pivots of at most this share of their diagonal entry count as undetermined.
   static constexpr double kRankTolerance = 1e-11;
@@ -31605,6 +31671,19 @@ class BasicWindowSchur {
   }
   void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
 
+  /// The same for two residuals e whose derivatives are `camera` and `landmark`; `weighted_...` are those times the weight.
+  void add_camera(int camera, const Matrix26& weighted, const Matrix26& rows, const Vector2<S>& e) noexcept {
+    add_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
+    add_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
+  }
+  void add_landmark(int landmark, const Matrix23& weighted, const Matrix23& rows, const Vector2<S>& e) noexcept {
+    add_rows<3, 3>(weighted.data(), rows.data(), at(landmark_, landmark).data());
+    add_rows<3, 1>(weighted.data(), e.data(), at(landmark_gradient_, landmark).data());
+  }
+  void add_coupling(int slot, const Matrix26& weighted, const Matrix23& rows) noexcept {
+    add_rows<6, 3>(weighted.data(), rows.data(), at(coupling_, slot).data());
+  }
+
   /// Builds and factorises S of the system damped by lambda times its diagonal. False where numbers overflowed. With
   /// lambda 0 landmarks and cameras that the system does not determine are marked (landmark_deficient(),
   /// camera_deficient()) and held in those directions.
@@ -31628,9 +31707,9 @@ class BasicWindowSchur {
       invert(l);
       const int begin = at(s.slot_begin, l), end = at(s.slot_begin, l + 1);
       for (int i = begin; i < end; ++i) {
-        at(eliminated_, i).noalias() = at(coupling_, i) * at(inverse_, l);
+        at(eliminated_, i) = product(at(coupling_, i), at(inverse_, l));
         const int ci = at(s.slot_camera, i);
-        const Vector6<S> g = at(eliminated_, i) * at(landmark_gradient_, l);
+        const Vector6<S> g = product(at(eliminated_, i), at(landmark_gradient_, l));
         for (int k = 0; k < 6; ++k) at(camera_step_, 6 * ci + k) += g[k];
         for (int j = begin; j <= i; ++j)
           subtract_outer(at(eliminated_, i).data(), at(coupling_, j).data(), 3,
@@ -31655,16 +31734,14 @@ class BasicWindowSchur {
     for (int l = 0; l < s.landmarks(); ++l) {
       Vector3<S> g = at(landmark_gradient_, l);
       for (int i = at(s.slot_begin, l); i < at(s.slot_begin, l + 1); ++i)
-        g += at(coupling_, i).transpose() * camera_step(at(s.slot_camera, i));
+        g += transposed_product(at(coupling_, i), camera_step(at(s.slot_camera, i)));
       at(landmark_step_, l) = -(at(inverse_, l) * g);
       if (!all_finite(at(landmark_step_, l))) return false;
     }
     return true;
   }
 
-  Vector6<S> camera_step(int camera) const noexcept {
-    return Eigen::Map<const Vector6<S>>(camera_step_.data() + 6 * camera);
-  }
+  Vector6<S> camera_step(int camera) const noexcept { return six(camera_step_, camera); }
   const Vector3<S>& landmark_step(int landmark) const noexcept { return at(landmark_step_, landmark); }
 
   /// What the quadratic model says the step takes off the cost: -g.x + lambda x.D x.
@@ -31674,8 +31751,10 @@ class BasicWindowSchur {
       sum += camera_step_[i] * (lambda_ * diagonal_[i] * camera_step_[i] - camera_gradient_[i]);
     for (int l = 0; l < structure_->landmarks(); ++l) {
       if (!at(structure_->landmark_free, l)) continue;
-      const Vector3<S>& x = at(landmark_step_, l);
-      sum += x.dot(lambda_ * damping(l).cwiseProduct(x) - at(landmark_gradient_, l));
+      const Vector3<S>&x = at(landmark_step_, l), &g = at(landmark_gradient_, l), d = damping(l);
+      double landmark = 0;
+      for (int i = 0; i < 3; ++i) landmark += x[i] * (lambda_ * (d[i] * x[i]) - g[i]);
+      sum += landmark;
     }
     return sum;
   }
@@ -31686,7 +31765,7 @@ class BasicWindowSchur {
 
   /// Half the gradient of the cost, J^T W r.
   Vector6<S> camera_gradient(int camera) const noexcept {
-    return Eigen::Map<const Vector6<S>>(camera_gradient_.data() + 6 * camera);
+    return six(camera_gradient_, camera);
   }
   const Vector3<S>& landmark_gradient(int landmark) const noexcept { return at(landmark_gradient_, landmark); }
 
@@ -31708,14 +31787,35 @@ class BasicWindowSchur {
         for (int k = 0; k < 6; ++k) at(column_, 6 * at(s.slot_camera, i) + k) = at(eliminated_, i)(k, c);
       reduced_.solve(column_.data());
       if (!scale_row_.empty()) apply_scale_row(column_.data());
-      for (int i = begin; i < end; ++i)
-        out.col(c) +=
-            at(eliminated_, i).transpose() * Eigen::Map<const Vector6<S>>(column_.data() + 6 * at(s.slot_camera, i));
+      for (int i = begin; i < end; ++i) {
+        const Vector3<S> part = transposed_product(at(eliminated_, i), six(column_, at(s.slot_camera, i)));
+        for (int r = 0; r < 3; ++r) out(r, c) += part[r];
+      }
     }
-    return 0.5 * (out + out.transpose());
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < c; ++r) out(r, c) = out(c, r) = 0.5 * (out(r, c) + out(c, r));
+    return out;
   }
 
  private:
+  // c += a^T b for column-major a (2 x Rows), b (2 x Columns) and c (Rows x Columns), down the columns of c.
+  template <int Rows, int Columns>
+  static void add_rows(const S* a, const S* b, S* c) noexcept {
+    S first[Rows], second[Rows];
+    for (int r = 0; r < Rows; ++r) {
+      first[r] = a[2 * r];
+      second[r] = a[2 * r + 1];
+    }
+    for (int k = 0; k < Columns; ++k)
+      for (int r = 0; r < Rows; ++r) c[Rows * k + r] += first[r] * b[2 * k] + second[r] * b[2 * k + 1];
+  }
+
+  static Vector6<S> six(const std::vector<double>& all, int camera) noexcept {
+    Vector6<S> v;
+    for (int i = 0; i < 6; ++i) v[i] = at(all, 6 * camera + i);
+    return v;
+  }
+
   // Marquardt's diagonal of the cameras, never zero.
   void read_diagonal(int cameras) {
     diagonal_.resize(6 * static_cast<std::size_t>(cameras));
@@ -31891,8 +31991,8 @@ class BasicWindowTerms {
     if (s.scale_a >= 0) {
       const SE3<S>&a = at(x.T_w_c, s.scale_a), &b = at(x.T_w_c, s.scale_b);
       const Vector3<S> u = (b.t - a.t).normalized();
-      out.set_scale_row(at(s.camera_of_frame, s.scale_a), -(a.R.transpose() * u), at(s.camera_of_frame, s.scale_b),
-                        b.R.transpose() * u);
+      out.set_scale_row(at(s.camera_of_frame, s.scale_a), -transposed_product(a.R, u),
+                        at(s.camera_of_frame, s.scale_b), transposed_product(b.R, u));
     }
     return cost;
   }
@@ -31987,7 +32087,8 @@ class BasicWindowTerms {
                        Vector3<S>* p_c) noexcept {
     const SE3<S>& T = at(x.T_w_c, k.frame);
     const Vector3<S>& p_w = at(x.landmark, k.point);
-    *p_c = T.R.transpose() * (p_w - T.t);
+    const S d0 = p_w[0] - T.t[0], d1 = p_w[1] - T.t[1], d2 = p_w[2] - T.t[2];
+    for (int i = 0; i < 3; ++i) (*p_c)[i] = T.R(0, i) * d0 + T.R(1, i) * d1 + T.R(2, i) * d2;
     return (*p_c)[2] > o.min_depth && all_finite(*p_c);
   }
   static double chi2(const Window& w, const WindowPointObservation& k, const Vector3<S>& p_c) noexcept {
@@ -32027,20 +32128,25 @@ class BasicWindowTerms {
     const double weight = o.point_robust.weight(r2) * information;
     const int camera = at(s.camera_of_frame, ob.frame), slot = at(s.point_slot, k);
     const bool free = at(s.landmark_free, ob.point) != 0;
-    Eigen::Matrix<S, 2, 6> J_camera;
+    Eigen::Matrix<S, 2, 6> J_camera, weighted_camera;
     Eigen::Matrix<S, 2, 3> J_point;
     if (camera >= 0) {
-      J_camera << -J, J * hat(p_c);
-      const Eigen::Matrix<S, 6, 2> wJt = weight * J_camera.transpose();
-      out.add_camera(camera, wJt * J_camera, wJt * e);
+      for (int r = 0; r < 2; ++r) {
+        for (int c = 0; c < 3; ++c) J_camera(r, c) = -J(r, c);
+        J_camera(r, 3) = J(r, 1) * p_c[2] - J(r, 2) * p_c[1];
+        J_camera(r, 4) = J(r, 2) * p_c[0] - J(r, 0) * p_c[2];
+        J_camera(r, 5) = J(r, 0) * p_c[1] - J(r, 1) * p_c[0];
+      }
+      weighted_camera = scaled(weight, J_camera);
+      out.add_camera(camera, weighted_camera, J_camera, e);
     }
     if (free) {
-      const SE3<S>& T_w_c = at(x.T_w_c, ob.frame);
-      J_point = J * T_w_c.R.transpose();
-      const Eigen::Matrix<S, 3, 2> wJt = weight * J_point.transpose();
-      out.add_landmark(ob.point, wJt * J_point, wJt * e);
+      const Matrix3<S>& R = at(x.T_w_c, ob.frame).R;
+      for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 2; ++r) J_point(r, c) = J(r, 0) * R(c, 0) + J(r, 1) * R(c, 1) + J(r, 2) * R(c, 2);
+      out.add_landmark(ob.point, scaled(weight, J_point), J_point, e);
     }
-    if (slot >= 0) out.add_coupling(slot, weight * (J_camera.transpose() * J_point));
+    if (slot >= 0) out.add_coupling(slot, weighted_camera, J_point);
     return o.point_robust.rho(r2);
   }
 
@@ -32056,16 +32162,17 @@ class BasicWindowTerms {
     const int landmark = count(w.points) + ob.text;
     const int host = at(s.camera_of_frame, t.host), target = at(s.camera_of_frame, ob.frame);
     const Matrix6 A = adjoint(relative_pose(t, ob, x));
-    const Matrix6 pose = scale * H.template topLeftCorner<6, 6>();
-    const Vector6<S> g = scale * b.template head<6>();
-    const Matrix63 cross = scale * H.template topRightCorner<6, 3>();
-    if (host >= 0) out.add_camera(host, A.transpose() * pose * A, A.transpose() * g);
-    if (target >= 0) out.add_camera(target, pose, -g);
-    if (host >= 0 && target >= 0) out.add_cameras(host, target, -(A.transpose() * pose));
+    const Matrix6 pose = scaled(scale, block<6, 6>(H, 0, 0));
+    const Vector6<S> g = scaled(scale, block<6, 1>(b, 0, 0));
+    const Matrix63 cross = scaled(scale, block<6, 3>(H, 0, 6));
+    const Matrix6 host_pose = transposed_product(A, pose);
+    if (host >= 0) out.add_camera(host, product(host_pose, A), transposed_product(A, g));
+    if (target >= 0) out.add_camera(target, pose, scaled(S(-1), g));
+    if (host >= 0 && target >= 0) out.add_cameras(host, target, scaled(S(-1), host_pose));
     if (at(s.landmark_free, landmark))
-      out.add_landmark(landmark, scale * H.template bottomRightCorner<3, 3>(), scale * b.template tail<3>());
-    if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), A.transpose() * cross);
-    if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), -cross);
+      out.add_landmark(landmark, scaled(scale, block<3, 3>(H, 6, 6)), scaled(scale, block<3, 1>(b, 6, 0)));
+    if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), transposed_product(A, cross));
+    if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), scaled(S(-1), cross));
     return scale * ne.cost;
   }
 

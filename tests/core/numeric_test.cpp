@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "support/calculus.hpp"
 #include "support/dense.hpp"
@@ -71,6 +72,56 @@ void check_ldlt(Random& random) {
     EXPECT_LT(product_error(full, values(ldlt.inverse()), Eigen::MatrixXd::Identity(N, N)), tolerance<S>(1e-4, 1e-12))
         << N;
   }
+}
+
+// A Rows x Columns matrix of random numbers, and its values.
+template <class S, int Rows, int Columns>
+Eigen::Matrix<S, Rows, Columns> random_fixed(Random& random, Eigen::MatrixXd* same) {
+  Eigen::Matrix<S, Rows, Columns> m;
+  same->resize(Rows, Columns);
+  for (int c = 0; c < Columns; ++c)
+    for (int r = 0; r < Rows; ++r) {
+      m(r, c) = S(random.uniform(-1, 1));
+      (*same)(r, c) = static_cast<double>(value(m(r, c)));
+    }
+  return m;
+}
+
+template <class S, int Rows, int Columns>
+void expect_same(const Eigen::Matrix<S, Rows, Columns>& m, const Eigen::MatrixXd& expected, double bound) {
+  ASSERT_EQ(expected.rows(), Rows);
+  ASSERT_EQ(expected.cols(), Columns);
+  for (int c = 0; c < Columns; ++c)
+    for (int r = 0; r < Rows; ++r) EXPECT_NEAR(static_cast<double>(value(m(r, c))), expected(r, c), bound);
+}
+
+// Inner sizes that are summed in one chain, and, from four on, in two.
+template <class S, int Inner, int Rows, int Columns>
+void check_products(double bound) {
+  Random random(Inner * 100 + Rows * 10 + Columns);
+  Eigen::MatrixXd a, b, c;
+  const auto A = random_fixed<S, Rows, Inner>(random, &a);
+  const auto B = random_fixed<S, Inner, Columns>(random, &b);
+  const auto C = random_fixed<S, Inner, Rows>(random, &c);
+  expect_same(tp::product(A, B), a * b, bound);
+  expect_same(tp::transposed_product(C, B), c.transpose() * b, bound);
+  expect_same(tp::transposed(A), a.transpose(), 0);
+  expect_same(tp::scaled(S(-3), A), -3 * a, bound);
+}
+
+TYPED_TEST(Numeric, WrittenOutProductsAreProducts) {
+  using S = TypeParam;
+  const double bound = std::is_same<S, float>::value ? 1e-5 : 1e-14;
+  check_products<S, 1, 3, 2>(bound);
+  check_products<S, 2, 6, 3>(bound);
+  check_products<S, 3, 3, 1>(bound);
+  check_products<S, 4, 2, 5>(bound);
+  check_products<S, 6, 6, 3>(bound);
+  check_products<S, 8, 1, 1>(bound);
+  Random random(5);
+  Eigen::MatrixXd m;
+  const auto M = random_fixed<S, 5, 7>(random, &m);
+  expect_same(tp::block<2, 4>(M, 3, 1), m.block(3, 1, 2, 4), 0);
 }
 
 TYPED_TEST(Numeric, LdltSolves) {

@@ -37,7 +37,7 @@ using Wide = typename WideScalar<S>::type;
 }  // namespace detail
 
 /// A B of fixed-size matrices, written out: Eigen's loop over such a product can stay a function of its own, with the
-/// instructions of whichever translation unit the linker takes it from.
+/// instructions of whichever translation unit the linker takes it from; and compilers take long over its expressions.
 template <class S, int Rows, int Inner, int Columns>
 Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
                                         const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
@@ -49,6 +49,55 @@ Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
       c(i, j) = sum;
     }
   }
+  return c;
+}
+
+/// A^T B, written out likewise; long columns in two sums, which wait for each other half as long.
+template <class S, int Inner, int Rows, int Columns>
+Eigen::Matrix<S, Rows, Columns> transposed_product(const Eigen::Matrix<S, Inner, Rows>& a,
+                                                   const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
+  Eigen::Matrix<S, Rows, Columns> c;
+  for (int j = 0; j < Columns; ++j)
+    for (int i = 0; i < Rows; ++i) {
+      if constexpr (Inner > 2 && Inner % 2 == 0) {
+        S even = a(Inner - 2, i) * b(Inner - 2, j), odd = a(Inner - 1, i) * b(Inner - 1, j);
+        for (int k = Inner - 4; k >= 0; k -= 2) {
+          even = a(k, i) * b(k, j) + even;
+          odd = a(k + 1, i) * b(k + 1, j) + odd;
+        }
+        c(i, j) = even + odd;
+      } else {
+        S sum = a(0, i) * b(0, j);
+        for (int k = 1; k < Inner; ++k) sum += a(k, i) * b(k, j);
+        c(i, j) = sum;
+      }
+    }
+  return c;
+}
+
+/// A^T, written out likewise.
+template <class S, int Rows, int Columns>
+Eigen::Matrix<S, Columns, Rows> transposed(const Eigen::Matrix<S, Rows, Columns>& a) noexcept {
+  Eigen::Matrix<S, Columns, Rows> c;
+  for (int j = 0; j < Columns; ++j)
+    for (int i = 0; i < Rows; ++i) c(j, i) = a(i, j);
+  return c;
+}
+
+/// The block of Rows x Columns at (row, column), written out likewise.
+template <int Rows, int Columns, class S, int AllRows, int AllColumns>
+Eigen::Matrix<S, Rows, Columns> block(const Eigen::Matrix<S, AllRows, AllColumns>& a, int row, int column) noexcept {
+  Eigen::Matrix<S, Rows, Columns> c;
+  for (int j = 0; j < Columns; ++j)
+    for (int i = 0; i < Rows; ++i) c(i, j) = a(row + i, column + j);
+  return c;
+}
+
+/// factor A, written out likewise.
+template <class S, int Rows, int Columns>
+Eigen::Matrix<S, Rows, Columns> scaled(const S& factor, const Eigen::Matrix<S, Rows, Columns>& a) noexcept {
+  Eigen::Matrix<S, Rows, Columns> c;
+  for (int i = 0; i < Rows * Columns; ++i) c.data()[i] = factor * a.data()[i];
   return c;
 }
 

@@ -36,7 +36,7 @@ struct SE3 {
   /// First `b`, then this: T_a_b T_b_c = T_a_c.
   SE3 operator*(const SE3& b) const noexcept { return {product(R, b.R), product(R, b.t) + t}; }
   /// Destination to source.
-  SE3 inverse() const noexcept { return {R.transpose(), -(R.transpose() * t)}; }
+  SE3 inverse() const noexcept { return {transposed(R), -transposed_product(R, t)}; }
 
   /// The same of another scalar.
   template <class U>

@@ -25,6 +25,8 @@ class BasicWindowSchur {
  public:
   using Matrix6 = Eigen::Matrix<S, 6, 6>;
   using Matrix63 = Eigen::Matrix<S, 6, 3>;
+  using Matrix26 = Eigen::Matrix<S, 2, 6>;
+  using Matrix23 = Eigen::Matrix<S, 2, 3>;
 
   /// Pivots of at most this share of their diagonal entry count as undetermined.
   static constexpr double kRankTolerance = 1e-11;
@@ -70,6 +72,19 @@ class BasicWindowSchur {
   }
   void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
 
+  /// The same for two residuals e whose derivatives are `camera` and `landmark`; `weighted_...` are those times the weight.
+  void add_camera(int camera, const Matrix26& weighted, const Matrix26& rows, const Vector2<S>& e) noexcept {
+    add_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
+    add_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
+  }
+  void add_landmark(int landmark, const Matrix23& weighted, const Matrix23& rows, const Vector2<S>& e) noexcept {
+    add_rows<3, 3>(weighted.data(), rows.data(), at(landmark_, landmark).data());
+    add_rows<3, 1>(weighted.data(), e.data(), at(landmark_gradient_, landmark).data());
+  }
+  void add_coupling(int slot, const Matrix26& weighted, const Matrix23& rows) noexcept {
+    add_rows<6, 3>(weighted.data(), rows.data(), at(coupling_, slot).data());
+  }
+
   /// Builds and factorises S of the system damped by lambda times its diagonal. False where numbers overflowed. With
   /// lambda 0 landmarks and cameras that the system does not determine are marked (landmark_deficient(),
   /// camera_deficient()) and held in those directions.
@@ -93,9 +108,9 @@ class BasicWindowSchur {
       invert(l);
       const int begin = at(s.slot_begin, l), end = at(s.slot_begin, l + 1);
       for (int i = begin; i < end; ++i) {
-        at(eliminated_, i).noalias() = at(coupling_, i) * at(inverse_, l);
+        at(eliminated_, i) = product(at(coupling_, i), at(inverse_, l));
         const int ci = at(s.slot_camera, i);
-        const Vector6<S> g = at(eliminated_, i) * at(landmark_gradient_, l);
+        const Vector6<S> g = product(at(eliminated_, i), at(landmark_gradient_, l));
         for (int k = 0; k < 6; ++k) at(camera_step_, 6 * ci + k) += g[k];
         for (int j = begin; j <= i; ++j)
           subtract_outer(at(eliminated_, i).data(), at(coupling_, j).data(), 3,
@@ -120,16 +135,14 @@ class BasicWindowSchur {
     for (int l = 0; l < s.landmarks(); ++l) {
       Vector3<S> g = at(landmark_gradient_, l);
       for (int i = at(s.slot_begin, l); i < at(s.slot_begin, l + 1); ++i)
-        g += at(coupling_, i).transpose() * camera_step(at(s.slot_camera, i));
+        g += transposed_product(at(coupling_, i), camera_step(at(s.slot_camera, i)));
       at(landmark_step_, l) = -(at(inverse_, l) * g);
       if (!all_finite(at(landmark_step_, l))) return false;
     }
     return true;
   }
 
-  Vector6<S> camera_step(int camera) const noexcept {
-    return Eigen::Map<const Vector6<S>>(camera_step_.data() + 6 * camera);
-  }
+  Vector6<S> camera_step(int camera) const noexcept { return six(camera_step_, camera); }
   const Vector3<S>& landmark_step(int landmark) const noexcept { return at(landmark_step_, landmark); }
 
   /// What the quadratic model says the step takes off the cost: -g.x + lambda x.D x.
@@ -139,8 +152,10 @@ class BasicWindowSchur {
       sum += camera_step_[i] * (lambda_ * diagonal_[i] * camera_step_[i] - camera_gradient_[i]);
     for (int l = 0; l < structure_->landmarks(); ++l) {
       if (!at(structure_->landmark_free, l)) continue;
-      const Vector3<S>& x = at(landmark_step_, l);
-      sum += x.dot(lambda_ * damping(l).cwiseProduct(x) - at(landmark_gradient_, l));
+      const Vector3<S>&x = at(landmark_step_, l), &g = at(landmark_gradient_, l), d = damping(l);
+      double landmark = 0;
+      for (int i = 0; i < 3; ++i) landmark += x[i] * (lambda_ * (d[i] * x[i]) - g[i]);
+      sum += landmark;
     }
     return sum;
   }
@@ -151,7 +166,7 @@ class BasicWindowSchur {
 
   /// Half the gradient of the cost, J^T W r.
   Vector6<S> camera_gradient(int camera) const noexcept {
-    return Eigen::Map<const Vector6<S>>(camera_gradient_.data() + 6 * camera);
+    return six(camera_gradient_, camera);
   }
   const Vector3<S>& landmark_gradient(int landmark) const noexcept { return at(landmark_gradient_, landmark); }
 
@@ -173,14 +188,35 @@ class BasicWindowSchur {
         for (int k = 0; k < 6; ++k) at(column_, 6 * at(s.slot_camera, i) + k) = at(eliminated_, i)(k, c);
       reduced_.solve(column_.data());
       if (!scale_row_.empty()) apply_scale_row(column_.data());
-      for (int i = begin; i < end; ++i)
-        out.col(c) +=
-            at(eliminated_, i).transpose() * Eigen::Map<const Vector6<S>>(column_.data() + 6 * at(s.slot_camera, i));
+      for (int i = begin; i < end; ++i) {
+        const Vector3<S> part = transposed_product(at(eliminated_, i), six(column_, at(s.slot_camera, i)));
+        for (int r = 0; r < 3; ++r) out(r, c) += part[r];
+      }
     }
-    return 0.5 * (out + out.transpose());
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < c; ++r) out(r, c) = out(c, r) = 0.5 * (out(r, c) + out(c, r));
+    return out;
   }
 
  private:
+  // c += a^T b for column-major a (2 x Rows), b (2 x Columns) and c (Rows x Columns), down the columns of c.
+  template <int Rows, int Columns>
+  static void add_rows(const S* a, const S* b, S* c) noexcept {
+    S first[Rows], second[Rows];
+    for (int r = 0; r < Rows; ++r) {
+      first[r] = a[2 * r];
+      second[r] = a[2 * r + 1];
+    }
+    for (int k = 0; k < Columns; ++k)
+      for (int r = 0; r < Rows; ++r) c[Rows * k + r] += first[r] * b[2 * k] + second[r] * b[2 * k + 1];
+  }
+
+  static Vector6<S> six(const std::vector<double>& all, int camera) noexcept {
+    Vector6<S> v;
+    for (int i = 0; i < 6; ++i) v[i] = at(all, 6 * camera + i);
+    return v;
+  }
+
   // Marquardt's diagonal of the cameras, never zero.
   void read_diagonal(int cameras) {
     diagonal_.resize(6 * static_cast<std::size_t>(cameras));

@@ -97,8 +97,8 @@ class BasicWindowTerms {
     if (s.scale_a >= 0) {
       const SE3<S>&a = at(x.T_w_c, s.scale_a), &b = at(x.T_w_c, s.scale_b);
       const Vector3<S> u = (b.t - a.t).normalized();
-      out.set_scale_row(at(s.camera_of_frame, s.scale_a), -(a.R.transpose() * u), at(s.camera_of_frame, s.scale_b),
-                        b.R.transpose() * u);
+      out.set_scale_row(at(s.camera_of_frame, s.scale_a), -transposed_product(a.R, u),
+                        at(s.camera_of_frame, s.scale_b), transposed_product(b.R, u));
     }
     return cost;
   }
@@ -193,7 +193,8 @@ class BasicWindowTerms {
                        Vector3<S>* p_c) noexcept {
     const SE3<S>& T = at(x.T_w_c, k.frame);
     const Vector3<S>& p_w = at(x.landmark, k.point);
-    *p_c = T.R.transpose() * (p_w - T.t);
+    const S d0 = p_w[0] - T.t[0], d1 = p_w[1] - T.t[1], d2 = p_w[2] - T.t[2];
+    for (int i = 0; i < 3; ++i) (*p_c)[i] = T.R(0, i) * d0 + T.R(1, i) * d1 + T.R(2, i) * d2;
     return (*p_c)[2] > o.min_depth && all_finite(*p_c);
   }
   static double chi2(const Window& w, const WindowPointObservation& k, const Vector3<S>& p_c) noexcept {
@@ -233,20 +234,25 @@ class BasicWindowTerms {
     const double weight = o.point_robust.weight(r2) * information;
     const int camera = at(s.camera_of_frame, ob.frame), slot = at(s.point_slot, k);
     const bool free = at(s.landmark_free, ob.point) != 0;
-    Eigen::Matrix<S, 2, 6> J_camera;
+    Eigen::Matrix<S, 2, 6> J_camera, weighted_camera;
     Eigen::Matrix<S, 2, 3> J_point;
     if (camera >= 0) {
-      J_camera << -J, J * hat(p_c);
-      const Eigen::Matrix<S, 6, 2> wJt = weight * J_camera.transpose();
-      out.add_camera(camera, wJt * J_camera, wJt * e);
+      for (int r = 0; r < 2; ++r) {
+        for (int c = 0; c < 3; ++c) J_camera(r, c) = -J(r, c);
+        J_camera(r, 3) = J(r, 1) * p_c[2] - J(r, 2) * p_c[1];
+        J_camera(r, 4) = J(r, 2) * p_c[0] - J(r, 0) * p_c[2];
+        J_camera(r, 5) = J(r, 0) * p_c[1] - J(r, 1) * p_c[0];
+      }
+      weighted_camera = scaled(weight, J_camera);
+      out.add_camera(camera, weighted_camera, J_camera, e);
     }
     if (free) {
-      const SE3<S>& T_w_c = at(x.T_w_c, ob.frame);
-      J_point = J * T_w_c.R.transpose();
-      const Eigen::Matrix<S, 3, 2> wJt = weight * J_point.transpose();
-      out.add_landmark(ob.point, wJt * J_point, wJt * e);
+      const Matrix3<S>& R = at(x.T_w_c, ob.frame).R;
+      for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 2; ++r) J_point(r, c) = J(r, 0) * R(c, 0) + J(r, 1) * R(c, 1) + J(r, 2) * R(c, 2);
+      out.add_landmark(ob.point, scaled(weight, J_point), J_point, e);
     }
-    if (slot >= 0) out.add_coupling(slot, weight * (J_camera.transpose() * J_point));
+    if (slot >= 0) out.add_coupling(slot, weighted_camera, J_point);
     return o.point_robust.rho(r2);
   }
 
@@ -262,16 +268,17 @@ class BasicWindowTerms {
     const int landmark = count(w.points) + ob.text;
     const int host = at(s.camera_of_frame, t.host), target = at(s.camera_of_frame, ob.frame);
     const Matrix6 A = adjoint(relative_pose(t, ob, x));
-    const Matrix6 pose = scale * H.template topLeftCorner<6, 6>();
-    const Vector6<S> g = scale * b.template head<6>();
-    const Matrix63 cross = scale * H.template topRightCorner<6, 3>();
-    if (host >= 0) out.add_camera(host, A.transpose() * pose * A, A.transpose() * g);
-    if (target >= 0) out.add_camera(target, pose, -g);
-    if (host >= 0 && target >= 0) out.add_cameras(host, target, -(A.transpose() * pose));
+    const Matrix6 pose = scaled(scale, block<6, 6>(H, 0, 0));
+    const Vector6<S> g = scaled(scale, block<6, 1>(b, 0, 0));
+    const Matrix63 cross = scaled(scale, block<6, 3>(H, 0, 6));
+    const Matrix6 host_pose = transposed_product(A, pose);
+    if (host >= 0) out.add_camera(host, product(host_pose, A), transposed_product(A, g));
+    if (target >= 0) out.add_camera(target, pose, scaled(S(-1), g));
+    if (host >= 0 && target >= 0) out.add_cameras(host, target, scaled(S(-1), host_pose));
     if (at(s.landmark_free, landmark))
-      out.add_landmark(landmark, scale * H.template bottomRightCorner<3, 3>(), scale * b.template tail<3>());
-    if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), A.transpose() * cross);
-    if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), -cross);
+      out.add_landmark(landmark, scaled(scale, block<3, 3>(H, 6, 6)), scaled(scale, block<3, 1>(b, 6, 0)));
+    if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), transposed_product(A, cross));
+    if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), scaled(S(-1), cross));
     return scale * ne.cost;
   }
 
