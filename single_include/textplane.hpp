@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 125 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 24434087be54512f
+// Hash of these files: c17152246c5c0cce
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 24434087be54512f"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 c17152246c5c0cce"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -994,14 +994,22 @@ Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* 
   if (!all_finite(result)) return Status::non_finite;
   Matrix3<S> by_theta, outer;
   if (J_theta) {
-    by_theta = (Matrix3<S>::Identity() - result * T_t_h.t.transpose()) * T_t_h.R / k;
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) outer(r, c) = S(r == c ? 1 : 0) - result[r] * T_t_h.t[c];
+    by_theta = product(outer, T_t_h.R);
+    for (int i = 0; i < 9; ++i) by_theta.data()[i] /= k;
     if (!all_finite(by_theta)) return Status::non_finite;
   }
   if (J_pose) {
-    outer = result * result.transpose();
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) outer(r, c) = result[r] * result[c];
     if (!all_finite(outer)) return Status::non_finite;
-    J_pose->template leftCols<3>() = -outer;
-    J_pose->template rightCols<3>() = -hat(result);
+    const Matrix3<S> cross = hat(result);
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) {
+        (*J_pose)(r, c) = -outer(r, c);
+        (*J_pose)(r, 3 + c) = -cross(r, c);
+      }
   }
   if (J_theta) *J_theta = by_theta;
   *out = result;

@@ -89,14 +89,22 @@ Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* 
   if (!all_finite(result)) return Status::non_finite;
   Matrix3<S> by_theta, outer;
   if (J_theta) {
-    by_theta = (Matrix3<S>::Identity() - result * T_t_h.t.transpose()) * T_t_h.R / k;
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) outer(r, c) = S(r == c ? 1 : 0) - result[r] * T_t_h.t[c];
+    by_theta = product(outer, T_t_h.R);
+    for (int i = 0; i < 9; ++i) by_theta.data()[i] /= k;
     if (!all_finite(by_theta)) return Status::non_finite;
   }
   if (J_pose) {
-    outer = result * result.transpose();
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) outer(r, c) = result[r] * result[c];
     if (!all_finite(outer)) return Status::non_finite;
-    J_pose->template leftCols<3>() = -outer;
-    J_pose->template rightCols<3>() = -hat(result);
+    const Matrix3<S> cross = hat(result);
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) {
+        (*J_pose)(r, c) = -outer(r, c);
+        (*J_pose)(r, 3 + c) = -cross(r, c);
+      }
   }
   if (J_theta) *J_theta = by_theta;
   *out = result;
