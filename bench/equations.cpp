@@ -217,6 +217,7 @@ void add_equations() {
     add_forward<6>("pose", size, cycle);
     add_forward<15>("host_target_plane", size, cycle);
     add_policy<9>("template_l2", tp::LinearisePolicy::template_jacobian, false, size, cycle);
+    add_policy<9>("template_l2_prepared", tp::LinearisePolicy::template_jacobian, false, size, cycle_of(n, 4, true));
     add_policy<9>("template_huber", tp::LinearisePolicy::template_jacobian, true, size, cycle);
     add_policy<9>("esm", tp::LinearisePolicy::esm, true, size, cycle);
     add_cost(n);

@@ -124,21 +124,24 @@ Work pyramid_work() {
   return work;
 }
 
-// ECC on the patch and a margin of the target, as a careful user gives it.
+// ECC on the patch and the target: a margin of it, as a careful user cuts it out, or the whole frame, as ours are given it.
+constexpr int kEccMargin = 24;
 struct EccTask {
   Scene scene;
   cv::Mat patch, cut;
   tp::Matrix3<double> start, to_patch, from_cut;
-  EccTask(const cv::Size& size, unsigned seed, double px) : scene(make_dense_scene(size.width, size.height, seed, px)) {
+  EccTask(const cv::Size& size, unsigned seed, double px, bool whole = false)
+      : scene(make_dense_scene(size.width, size.height, seed, px)) {
     const cv::Rect box(scene.left, scene.top, size.width, size.height);
     patch = as_mat(scene.host)(box).clone();
     const tp::Matrix3<double> truth = scene.pixel_homography(scene.T_t_h, scene.theta);
     const tp::Vector3<double> centre =
         truth * tp::Vector3<double>(box.x + 0.5 * size.width, box.y + 0.5 * size.height, 1);
-    const int left = static_cast<int>(centre[0] / centre[2]) - size.width / 2 - 24;
-    const int top = static_cast<int>(centre[1] / centre[2]) - size.height / 2 - 24;
+    const int left = static_cast<int>(centre[0] / centre[2]) - size.width / 2 - kEccMargin;
+    const int top = static_cast<int>(centre[1] / centre[2]) - size.height / 2 - kEccMargin;
+    const cv::Rect frame(0, 0, Scene::kWidth, Scene::kHeight);
     const cv::Rect around =
-        cv::Rect(left, top, size.width + 48, size.height + 48) & cv::Rect(0, 0, Scene::kWidth, Scene::kHeight);
+        whole ? frame : cv::Rect(left, top, size.width + 2 * kEccMargin, size.height + 2 * kEccMargin) & frame;
     cut = as_mat(scene.target)(around).clone();
     to_patch.setIdentity();
     to_patch(0, 2) = scene.left;
@@ -166,8 +169,8 @@ struct EccTask {
 };
 
 // Per-pixel counter of one iteration: 20 iterations, their common beginning included, as it is in each call.
-Work ecc_iteration_work(const cv::Size& size) {
-  const auto task = std::make_shared<EccTask>(size, 1, 1.0);
+Work ecc_iteration_work(const cv::Size& size, bool whole = false) {
+  const auto task = std::make_shared<EccTask>(size, 1, 1.0, whole);
   Work work;
   work.items = 20.0 * size.area();
   work.errors["corner_error"] = task->run(20, -1);
@@ -199,6 +202,7 @@ void add_opencv() {
   add("pyramid3/opencv/640x480", pyramid_work);
   for (const cv::Size& size : {cv::Size(16, 16), cv::Size(40, 25), cv::Size(100, 40)})
     add("ecc_iteration/opencv/" + std::to_string(size.area()), [=] { return ecc_iteration_work(size); });
+  add("ecc_iteration_frame/opencv/4000", [] { return ecc_iteration_work(cv::Size(100, 40), true); });
   add("ecc_converge/opencv/4000", [] { return ecc_converge_work(cv::Size(100, 40)); });
 }
 
