@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 125 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: c17152246c5c0cce
+// Hash of these files: 7c55c647e4c18a95
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 c17152246c5c0cce"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 7c55c647e4c18a95"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
@@ -31679,7 +31679,8 @@ class BasicWindowSchur {
   }
   void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
 
-  /// The same for two residuals e whose derivatives are `camera` and `landmark`; `weighted_...` are those times the weight.
+  /// The same of two residuals e, whose derivatives are `rows`; `weighted` are derivatives times the weight, for a coupling those by
+  /// the camera.
   void add_camera(int camera, const Matrix26& weighted, const Matrix26& rows, const Vector2<S>& e) noexcept {
     add_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
     add_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
