@@ -4,7 +4,7 @@
 
 #include "io/input_error.hpp"
 #include "textplane/geometry/quad.hpp"
-#include "textslam/classical_detector.hpp"
+#include "textslam/detect/classical_detector.hpp"
 #include "textslam/run.hpp"
 
 using namespace textslam;

@@ -13,7 +13,7 @@
 
 #include "detectors/db_boxes.hpp"
 #include "detectors/east_boxes.hpp"
-#include "textslam/text_detector.hpp"
+#include "textslam/detect/text_detector.hpp"
 
 namespace textslam {
 

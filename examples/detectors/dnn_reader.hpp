@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "textslam/text_detector.hpp"
+#include "textslam/detect/text_detector.hpp"
 
 namespace textslam {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "textslam/text_detector.hpp"
+#include "textslam/detect/text_detector.hpp"
 
 namespace textslam {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "textslam/text_detector.hpp"
+#include "textslam/detect/text_detector.hpp"
 
 namespace tesseract {
 class TessBaseAPI;

@@ -13,7 +13,7 @@
 #include "planar/peers.hpp"
 #include "planar/registration.hpp"
 #include "renderer/random.hpp"
-#include "textslam/classical_detector.hpp"
+#include "textslam/detect/classical_detector.hpp"
 
 namespace planar {
 

@@ -6,10 +6,10 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "renderer/render_sequence.hpp"
-#include "textslam/detector_options.hpp"
-#include "textslam/progress.hpp"
+#include "textslam/detect/detector_options.hpp"
+#include "textslam/report/progress.hpp"
 #include "textslam/run.hpp"
-#include "textslam/sequence_options.hpp"
+#include "textslam/input/sequence_options.hpp"
 
 namespace {
 

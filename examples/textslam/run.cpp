@@ -9,14 +9,14 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "io/output_file.hpp"
-#include "textslam/detection_thread.hpp"
-#include "textslam/frame_line.hpp"
-#include "textslam/progress.hpp"
-#include "textslam/report.hpp"
-#include "textslam/report_frames.hpp"
-#include "textslam/text_detector.hpp"
-#include "textslam/thinned.hpp"
-#include "textslam/undistorter.hpp"
+#include "textslam/common/thinned.hpp"
+#include "textslam/detect/detection_thread.hpp"
+#include "textslam/detect/text_detector.hpp"
+#include "textslam/input/undistorter.hpp"
+#include "textslam/report/frame_line.hpp"
+#include "textslam/report/progress.hpp"
+#include "textslam/report/report.hpp"
+#include "textslam/report/report_frames.hpp"
 
 namespace textslam {
 namespace {

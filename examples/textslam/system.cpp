@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-#include "textslam/adjustment.hpp"
-#include "textslam/feature_tracks.hpp"
-#include "textslam/keyframe_culling.hpp"
-#include "textslam/loose_planes.hpp"
-#include "textslam/point_mapper.hpp"
-#include "textslam/recovery.hpp"
-#include "textslam/statistics.hpp"
-#include "textslam/text_merge.hpp"
-#include "textslam/text_reading.hpp"
-#include "textslam/text_refiner.hpp"
+#include "textslam/adjust/adjustment.hpp"
+#include "textslam/common/statistics.hpp"
+#include "textslam/map/keyframe_culling.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/text/loose_planes.hpp"
+#include "textslam/text/text_merge.hpp"
+#include "textslam/text/text_reading.hpp"
+#include "textslam/text/text_refiner.hpp"
+#include "textslam/track/feature_tracks.hpp"
+#include "textslam/track/recovery.hpp"
 
 namespace textslam {
 

@@ -18,16 +18,16 @@
 #include <vector>
 
 #include "io/evaluate.hpp"
-#include "textslam/adjuster.hpp"
-#include "textslam/initialiser.hpp"
-#include "textslam/local_map.hpp"
-#include "textslam/loop_closure.hpp"
-#include "textslam/map.hpp"
-#include "textslam/parameters.hpp"
-#include "textslam/pose_refit.hpp"
-#include "textslam/text_detector.hpp"
-#include "textslam/text_mapper.hpp"
-#include "textslam/tracker.hpp"
+#include "textslam/adjust/adjuster.hpp"
+#include "textslam/init/initialiser.hpp"
+#include "textslam/map/local_map.hpp"
+#include "textslam/loop/loop_closure.hpp"
+#include "textslam/map/map.hpp"
+#include "textslam/common/parameters.hpp"
+#include "textslam/track/pose_refit.hpp"
+#include "textslam/detect/text_detector.hpp"
+#include "textslam/text/text_mapper.hpp"
+#include "textslam/track/tracker.hpp"
 
 namespace textslam {
 

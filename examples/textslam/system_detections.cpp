@@ -1,7 +1,7 @@
 // System, the part that takes detections which come after their frame was tracked.
 #include <algorithm>
 
-#include "textslam/late_corners.hpp"
+#include "textslam/track/late_corners.hpp"
 #include "textslam/system.hpp"
 
 namespace textslam {

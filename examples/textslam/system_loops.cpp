@@ -1,9 +1,9 @@
 // System, the part that closes loops.
 #include <algorithm>
 
-#include "textslam/adjustment.hpp"
+#include "textslam/adjust/adjustment.hpp"
 #include "textslam/system.hpp"
-#include "textslam/text_merge.hpp"
+#include "textslam/text/text_merge.hpp"
 
 namespace textslam {
 

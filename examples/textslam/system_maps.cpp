@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <map>
 
-#include "textslam/adjustment.hpp"
-#include "textslam/map_join.hpp"
-#include "textslam/recovery.hpp"
+#include "textslam/adjust/adjustment.hpp"
+#include "textslam/loop/map_join.hpp"
+#include "textslam/track/recovery.hpp"
 #include "textslam/system.hpp"
 
 namespace textslam {

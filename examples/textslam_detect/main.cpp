@@ -9,8 +9,8 @@
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
-#include "textslam/detector_options.hpp"
-#include "textslam/progress.hpp"
+#include "textslam/detect/detector_options.hpp"
+#include "textslam/report/progress.hpp"
 
 namespace {
 

@@ -25,7 +25,7 @@ file(WRITE ${OUTPUT}.html "${page}")
 file(READ ${OUTPUT}.html bytes HEX)
 string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
 string(REGEX REPLACE "(................................................................................)" "\\1\n" bytes "${bytes}")
-file(WRITE ${OUTPUT} "#include \"textslam/report_template.hpp\"
+file(WRITE ${OUTPUT} "#include \"textslam/report/report_template.hpp\"
 
 namespace textslam {
 namespace {

@@ -1,13 +1,13 @@
 // The adjustment beside tracking: the same result as in step, and a map that grew meanwhile stays in one piece.
-#include "textslam/adjuster.hpp"
+#include "textslam/adjust/adjuster.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "textslam/point_mapper.hpp"
-#include "textslam/tracker.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/track/tracker.hpp"
 
 namespace textslam {
 namespace adjuster_test {

@@ -1,5 +1,5 @@
 // The detector's thread: it never keeps its caller waiting, takes key frames first, and says which frame a result belongs to.
-#include "textslam/detection_thread.hpp"
+#include "textslam/detect/detection_thread.hpp"
 
 #include <gtest/gtest.h>
 

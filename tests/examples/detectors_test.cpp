@@ -8,7 +8,7 @@
 #include "detectors/line_picture.hpp"
 #include "detectors/plugins.hpp"
 #include "examples/io_support.hpp"
-#include "textslam/text_detector.hpp"
+#include "textslam/detect/text_detector.hpp"
 
 #ifdef TEXTSLAM_WITH_DNN
 #include <opencv2/imgproc.hpp>

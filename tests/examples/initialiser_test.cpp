@@ -5,7 +5,7 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/plane_fit.hpp"
-#include "textslam/initialiser.hpp"
+#include "textslam/init/initialiser.hpp"
 
 namespace textslam {
 namespace initialiser_test {

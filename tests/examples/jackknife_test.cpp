@@ -1,5 +1,5 @@
 // The covariance by leaving groups out is what leaving them out gives.
-#include "textslam/jackknife.hpp"
+#include "textslam/text/jackknife.hpp"
 
 #include <gtest/gtest.h>
 

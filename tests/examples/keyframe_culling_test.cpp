@@ -1,11 +1,11 @@
 // Key frames that add nothing go, those that anything rests on stay.
-#include "textslam/keyframe_culling.hpp"
+#include "textslam/map/keyframe_culling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "textslam/point_mapper.hpp"
+#include "textslam/map/point_mapper.hpp"
 
 namespace textslam {
 namespace keyframe_culling_test {

@@ -7,8 +7,8 @@
 #include "examples/io_support.hpp"
 #include "io/image_file.hpp"
 #include "renderer/render_sequence.hpp"
-#include "textslam/evaluate_text.hpp"
-#include "textslam/outputs.hpp"
+#include "textslam/report/evaluate_text.hpp"
+#include "textslam/report/outputs.hpp"
 #include "textslam/system.hpp"
 
 namespace textslam {

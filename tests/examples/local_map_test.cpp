@@ -3,9 +3,9 @@
 
 #include <numeric>
 
-#include "textslam/loop_closure.hpp"
-#include "textslam/point_mapper.hpp"
-#include "textslam/tracker.hpp"
+#include "textslam/loop/loop_closure.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/track/tracker.hpp"
 
 namespace textslam {
 namespace local_map_test {

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "textplane/geometry/plane.hpp"
-#include "textslam/loop_alignment.hpp"
-#include "textslam/loop_closure.hpp"
-#include "textslam/point_mapper.hpp"
-#include "textslam/pose_graph.hpp"
+#include "textslam/loop/loop_alignment.hpp"
+#include "textslam/loop/loop_closure.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/loop/pose_graph.hpp"
 
 namespace textslam {
 namespace loop_closure_test {

@@ -1,5 +1,5 @@
 // Planes from points alone: RANSAC on known planes, and the life of a text object whose plane it is.
-#include "textslam/loose_planes.hpp"
+#include "textslam/text/loose_planes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "textplane/geometry/plane.hpp"
-#include "textslam/point_mapper.hpp"
+#include "textslam/map/point_mapper.hpp"
 
 namespace textslam {
 namespace loose_planes_test {

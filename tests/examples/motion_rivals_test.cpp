@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "textslam/motion_rivals.hpp"
-#include "textslam/two_view.hpp"
+#include "textslam/init/motion_rivals.hpp"
+#include "textslam/init/two_view.hpp"
 
 namespace textslam {
 namespace motion_rivals_test {

@@ -1,5 +1,5 @@
 // The pose of one quad: exact and noisy corners, both solutions, and what is no quad.
-#include "textslam/planar_pose.hpp"
+#include "textslam/track/planar_pose.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,12 +6,12 @@
 
 #include "io/data_uri.hpp"
 #include "io/image_codecs.hpp"
-#include "textslam/frame_line.hpp"
-#include "textslam/progress.hpp"
-#include "textslam/report_data.hpp"
-#include "textslam/report_frames.hpp"
-#include "textslam/report_parameters.hpp"
-#include "textslam/report_template.hpp"
+#include "textslam/report/frame_line.hpp"
+#include "textslam/report/progress.hpp"
+#include "textslam/report/report_data.hpp"
+#include "textslam/report/report_frames.hpp"
+#include "textslam/report/report_parameters.hpp"
+#include "textslam/report/report_template.hpp"
 
 namespace textslam {
 namespace report_test {

@@ -1,7 +1,7 @@
 // A text gets another host while the adjustment of the map is under way: the adjusted plane follows it there.
 #include "examples/text_hosting_support.hpp"
-#include "textslam/adjustment.hpp"
-#include "textslam/point_mapper.hpp"
+#include "textslam/adjust/adjustment.hpp"
+#include "textslam/map/point_mapper.hpp"
 
 namespace textslam {
 namespace text_hosting_test {

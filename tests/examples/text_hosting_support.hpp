@@ -10,8 +10,8 @@
 #include <random>
 
 #include "textplane/geometry/plane.hpp"
-#include "textslam/text_hosting.hpp"
-#include "textslam/text_plane.hpp"
+#include "textslam/text/text_hosting.hpp"
+#include "textslam/text/text_plane.hpp"
 
 namespace textslam {
 namespace text_hosting_test {

@@ -1,10 +1,10 @@
 // A camera that walks up to a sign: the text gets a host that shows it better, and stays the sign that it was.
-#include "textslam/text_hosting.hpp"
+#include "textslam/text/text_hosting.hpp"
 
 #include <algorithm>
 
 #include "examples/text_hosting_support.hpp"
-#include "textslam/text_mapper.hpp"
+#include "textslam/text/text_mapper.hpp"
 
 namespace textslam {
 namespace text_hosting_test {

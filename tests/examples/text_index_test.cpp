@@ -1,5 +1,5 @@
 // The texts of a map by their words: the best view of each, the file, and queries.
-#include "textslam/text_index.hpp"
+#include "textslam/report/text_index.hpp"
 
 #include <gtest/gtest.h>
 

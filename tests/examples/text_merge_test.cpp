@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "textplane/geometry/plane.hpp"
-#include "textslam/evaluate_text.hpp"
-#include "textslam/text_merge.hpp"
+#include "textslam/report/evaluate_text.hpp"
+#include "textslam/text/text_merge.hpp"
 
 namespace textslam {
 namespace text_merge_test {

@@ -1,5 +1,5 @@
 // Texts are looked at squarely, whatever the slant and the box they were found in, and read where they are sharpest.
-#include "textslam/text_reading.hpp"
+#include "textslam/text/text_reading.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/plane.hpp"
-#include "textslam/map_join.hpp"
-#include "textslam/point_mapper.hpp"
-#include "textslam/text_recovery.hpp"
+#include "textslam/loop/map_join.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/track/text_recovery.hpp"
 
 namespace textslam {
 namespace text_recovery_test {

@@ -1,8 +1,8 @@
 // The last refinement tells how sure a plane is: views that disagree make it less so, the surface round it more.
-#include "textslam/text_refiner.hpp"
+#include "textslam/text/text_refiner.hpp"
 
 #include "examples/text_hosting_support.hpp"
-#include "textslam/point_mapper.hpp"
+#include "textslam/map/point_mapper.hpp"
 
 namespace textslam {
 namespace text_hosting_test {

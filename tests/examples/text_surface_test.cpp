@@ -5,7 +5,7 @@
 #include <random>
 
 #include "textplane/geometry/plane.hpp"
-#include "textslam/text_surface.hpp"
+#include "textslam/text/text_surface.hpp"
 
 namespace textslam {
 namespace text_surface_test {

@@ -1,5 +1,5 @@
 // Readings of one word: how alike they are, and what they say together.
-#include "textslam/text_words.hpp"
+#include "textslam/text/text_words.hpp"
 
 #include <gtest/gtest.h>
 

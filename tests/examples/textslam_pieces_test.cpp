@@ -7,10 +7,10 @@
 
 #include "examples/io_support.hpp"
 #include "textplane/geometry/plane.hpp"
-#include "textslam/evaluate_text.hpp"
-#include "textslam/parameters.hpp"
-#include "textslam/point_mapper.hpp"
-#include "textslam/two_view.hpp"
+#include "textslam/report/evaluate_text.hpp"
+#include "textslam/common/parameters.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/init/two_view.hpp"
 
 namespace textslam {
 namespace textslam_pieces_test {

@@ -1,4 +1,4 @@
-#include "textslam/thinned.hpp"
+#include "textslam/common/thinned.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,57 @@
+// Adjuster: the adjustment that follows a key frame, in step with the frames or on a thread of its own.
+//
+// It is one around the newest key frame, or, as often as the map has grown by a share, one of the whole map: what is fixed at
+// the rim of a local one keeps the errors of its time, and live poses inherit them.
+//
+// In step, the adjustment is done when keyframe_added() returns, and the same frames give the same bytes. On its own thread
+// the tracker goes on with the map as it is; the result is taken over between two frames, by collect(). A key frame that
+// comes while one is under way waits: the adjustment after it covers both.
+//
+// Threads: all members are called from one thread, which alone touches the map.
+#ifndef TEXTSLAM_ADJUST_ADJUSTER_HPP
+#define TEXTSLAM_ADJUST_ADJUSTER_HPP
+
+#include <future>
+
+#include "textslam/adjust/adjustment.hpp"
+
+namespace textslam {
+
+class Adjuster {
+ public:
+  explicit Adjuster(const Parameters& parameters) : parameters_(parameters) {}
+  ~Adjuster();
+  Adjuster(const Adjuster&) = delete;
+  Adjuster& operator=(const Adjuster&) = delete;
+
+  /// After the newest key frame was inserted and its tracks triangulated.
+  void keyframe_added(Map& map);
+
+  struct Collected {
+    bool changed = false;  ///< The map was.
+    SE3d moved;            ///< Motion of the world at its newest key frame: poses of frames since then follow it.
+    int frame = -1;        ///< Index of the key frame's frame,
+    double ms = 0;         ///< and what its adjustment took.
+  };
+  /// Takes over the adjustment under way if it is finished, and begins the one that waits.
+  Collected collect(Map& map);
+  /// As collect(), but waits for all of it: before the map is left, joined or written.
+  Collected settle(Map& map);
+
+ private:
+  void begin(const Map& map);
+  std::unique_ptr<StagedAdjustment> prepare(const Map& map);
+  bool has_grown(const Map& map);
+
+  const Parameters& parameters_;
+  std::unique_ptr<StagedAdjustment> adjustment_;
+  std::future<double> solved_;  // valid while one is under way; gives the ms it took
+  int frame_ = -1;
+  bool waiting_ = false;             // a key frame came meanwhile
+  int whole_map_ = -1;               // number of the map that was last adjusted as a whole,
+  std::size_t whole_keyframes_ = 0;  // and how many key frames it had
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_ADJUST_ADJUSTER_HPP

@@ -1,0 +1,231 @@
+#include "textslam/adjust/adjustment.hpp"
+
+#include <algorithm>
+
+#include "textplane/solver/window.hpp"
+#include "textslam/adjust/adjustment_selection.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/text/text_plane.hpp"
+
+namespace textslam {
+namespace {
+
+class Adjustment {
+ public:
+  Adjustment(const Map& map, const Parameters& parameters, const AdjustmentSelection& selection, int text_targets)
+      : parameters_(parameters), text_targets_(static_cast<std::size_t>(text_targets)) {
+    slot_of_.assign(map.keyframes.size(), -1);
+    window_.camera = map.camera;
+    for (const int id : selection.free_frames) add_frame(map, id, false);
+    for (const int id : selection.fixed_frames) add_frame(map, id, true);
+    if (selection.scale_frame >= 0) {
+      scale_frame_a_ = slot_of_[static_cast<std::size_t>(selection.fixed_frames[0])];
+      scale_frame_b_ = slot_of_[static_cast<std::size_t>(selection.scale_frame)];
+    }
+    for (const int id : selection.points) add_point(map, id);
+    patches_.reserve(map.texts.size());  // the window points to them
+    if (parameters.mode == Mode::text)
+      for (const TextObject& text : map.texts) add_text(map, text);
+  }
+
+  void solve(int iterations) {
+    textplane::WindowOptions options;
+    options.sigma_photo = parameters_.photometric_sigma;
+    options.max_iterations = iterations;
+    options.scale_frame_a = scale_frame_a_;
+    options.scale_frame_b = scale_frame_b_;
+    textplane::WindowWorkspace workspace;
+    textplane::solve_window(window_, options, workspace);
+  }
+
+  // A text is seen sharp here and blurred there. What its observations weigh goes with the inverse variance of a pixel's
+  // residual, 1 - zncc up to a factor; together they weigh as before.
+  void weigh_texts(const Map& map) {
+    constexpr double kLeastVariance = 0.02;  // below it, interpolation counts for more than the image
+    std::vector<double> sums(texts_.size(), 0), counts(texts_.size(), 0);
+    textplane::PhotometricWorkspace workspace;
+    for (textplane::WindowTextObservation& o : window_.text_observations) {
+      const auto slot = static_cast<std::size_t>(o.text);
+      const TextObject& text = map.texts[static_cast<std::size_t>(texts_[slot])];
+      const KeyFrame& keyframe = map.keyframe(frames_[static_cast<std::size_t>(o.frame)]);
+      const auto cost =
+          compare_text(map, text, 0, *keyframe.frame.image, keyframe.T_w_c.inverse(), o.scale_shift, workspace);
+      o.weight = 1 / std::max(kLeastVariance, 1 - (textplane::is_ok(cost.status) ? cost.zncc : 0));
+      sums[slot] += o.weight;
+      ++counts[slot];
+    }
+    for (textplane::WindowTextObservation& o : window_.text_observations) {
+      const auto slot = static_cast<std::size_t>(o.text);
+      o.weight *= counts[slot] / sums[slot];
+    }
+  }
+
+  void write_back(Map& map) const {
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+      map.keyframe(frames_[i]).T_w_c = textplane::renormalised(window_.frames[i].T_w_c);
+    for (std::size_t i = 0; i < points_.size(); ++i) map.point(points_[i]).p_w = window_.points[i].p_w;
+  }
+
+  // After all key frames of the map have their poses: a text may have another host by now, one that came later.
+  void write_back_texts(Map& map) const {
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+      TextObject& text = map.texts[static_cast<std::size_t>(texts_[i])];
+      const textplane::WindowText& adjusted = window_.texts[i];
+      if (text.state != TextState::mapped || !textplane::is_ok(adjusted.status)) continue;
+      Vec3 theta = adjusted.theta;
+      Eigen::Matrix3d covariance = adjusted.covariance;
+      const int host = frames_[static_cast<std::size_t>(adjusted.host)];
+      if (text.host != host && !transport_plane(map, host, text.host, &theta, &covariance)) continue;
+      text.theta = theta;
+      text.covariance = covariance;
+      text.zncc = adjusted.zncc;
+    }
+  }
+
+  int remove_outliers(Map& map) const {
+    int removed = 0;
+    for (const textplane::WindowPointObservation& o : window_.point_observations) {
+      const int point = points_[static_cast<std::size_t>(o.point)];
+      if (o.chi2 <= 1.5 * parameters_.outlier_chi2 || map.point(point).bad) continue;
+      remove_observation(map, point, frames_[static_cast<std::size_t>(o.frame)]);
+      ++removed;
+    }
+    return removed;
+  }
+
+ private:
+  void add_frame(const Map& map, int id, bool fixed) {
+    slot_of_[static_cast<std::size_t>(id)] = static_cast<int>(frames_.size());
+    frames_.push_back(id);
+    textplane::WindowFrame frame;
+    frame.T_w_c = map.keyframe(id).T_w_c;
+    frame.fixed = fixed;
+    images_.push_back(map.keyframe(id).frame.image);
+    frame.image = images_.back()->view();
+    window_.frames.push_back(frame);
+  }
+
+  void add_point(const Map& map, int id) {
+    const MapPoint& point = map.point(id);
+    int usable = 0;
+    for (const PointObservation& o : point.observations) usable += slot_of_[static_cast<std::size_t>(o.keyframe)] >= 0;
+    if (usable < 2) return;
+    for (const PointObservation& o : point.observations) {
+      const int slot = slot_of_[static_cast<std::size_t>(o.keyframe)];
+      if (slot < 0) continue;
+      textplane::WindowPointObservation observation;
+      observation.frame = slot;
+      observation.point = static_cast<int>(points_.size());
+      observation.px = o.px;
+      observation.sigma = parameters_.window_point_sigma;
+      window_.point_observations.push_back(observation);
+    }
+    textplane::WindowPoint window_point;
+    window_point.p_w = point.p_w;
+    window_.points.push_back(window_point);
+    points_.push_back(id);
+  }
+
+  void add_text(const Map& map, const TextObject& text) {
+    if (text.state != TextState::mapped || slot_of_[static_cast<std::size_t>(text.host)] < 0) return;
+    std::vector<int> usable;
+    for (const int id : text.targets)
+      if (slot_of_[static_cast<std::size_t>(id)] >= 0) usable.push_back(id);
+    if (usable.empty()) return;
+    for (const int id : spread(usable, text_targets_)) {
+      textplane::WindowTextObservation observation;
+      observation.text = static_cast<int>(texts_.size());
+      observation.frame = slot_of_[static_cast<std::size_t>(id)];
+      Quad<double> quad;
+      if (project_text(map, text, map.keyframe(id).T_w_c.inverse(), &quad))
+        observation.scale_shift = scale_shift(text, quad);
+      window_.text_observations.push_back(observation);
+    }
+    textplane::WindowText window_text;
+    window_text.host = slot_of_[static_cast<std::size_t>(text.host)];
+    window_text.theta = text.theta;
+    patches_.push_back(text.patch);
+    window_text.patch = &patches_.back();
+    window_.texts.push_back(window_text);
+    texts_.push_back(text.id);
+  }
+
+  const Parameters& parameters_;
+  std::size_t text_targets_;                     // at most, of a text
+  int scale_frame_a_ = -1, scale_frame_b_ = -1;  // of the window
+  textplane::Window window_;
+  std::vector<std::shared_ptr<const Pyramid>> images_;  // of the window's frames
+  std::vector<textplane::TextPatch> patches_;           // of its texts
+  std::vector<int> slot_of_;                            // key frame id -> frame of the window, -1: not in it
+  std::vector<int> frames_, points_, texts_;            // index in the window -> id
+};
+
+class StagedWindow : public StagedAdjustment {
+ public:
+  StagedWindow(const Map& map, const Parameters& parameters, const AdjustmentSelection& selection)
+      : adjustment_(map, parameters, selection, parameters.text_targets),
+        iterations_(parameters.window_iterations),
+        newest_(static_cast<int>(map.keyframes.size()) - 1),
+        points_(map.points.size()),
+        T_w_c_(map.keyframe(newest_).T_w_c) {}
+
+  void solve() override { adjustment_.solve(iterations_); }
+
+  SE3d apply(Map& map) const override {
+    adjustment_.write_back(map);
+    adjustment_.remove_outliers(map);
+    const SE3d moved = map.keyframe(newest_).T_w_c * T_w_c_.inverse();
+    for (std::size_t i = static_cast<std::size_t>(newest_) + 1; i < map.keyframes.size(); ++i)
+      map.keyframes[i].T_w_c = textplane::renormalised(moved * map.keyframes[i].T_w_c);
+    for (std::size_t i = points_; i < map.points.size(); ++i) map.points[i].p_w = moved * map.points[i].p_w;
+    adjustment_.write_back_texts(map);
+    return moved;
+  }
+
+ private:
+  Adjustment adjustment_;
+  int iterations_;
+  int newest_;          // key frame
+  std::size_t points_;  // of the map, when it was prepared
+  SE3d T_w_c_;          // of the newest key frame then
+};
+
+}  // namespace
+
+std::unique_ptr<StagedAdjustment> StagedAdjustment::around_newest(const Map& map, const Parameters& parameters) {
+  if (map.keyframes.size() < 3) return nullptr;
+  const AdjustmentSelection selection = local_selection(map, parameters);
+  if (selection.free_frames.empty()) return nullptr;
+  return std::make_unique<StagedWindow>(map, parameters, selection);
+}
+
+std::unique_ptr<StagedAdjustment> StagedAdjustment::of_all(const Map& map, const Parameters& parameters) {
+  if (map.keyframe_ids().size() < 3) return nullptr;
+  return std::make_unique<StagedWindow>(map, parameters, whole_selection(map, parameters));
+}
+
+void adjust_local(Map& map, const Parameters& parameters) {
+  if (map.keyframes.size() < 3) return adjust_all(map, parameters, parameters.window_iterations);
+  const auto adjustment = StagedAdjustment::around_newest(map, parameters);
+  if (!adjustment) return;
+  adjustment->solve();
+  adjustment->apply(map);
+}
+
+void adjust_all(Map& map, const Parameters& parameters, int iterations) {
+  if (map.keyframes.size() < 2) return;
+  AdjustmentSelection selection = whole_selection(map, parameters);
+  for (int round = 0; round < 2; ++round) {
+    Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
+    adjustment.weigh_texts(map);
+    adjustment.solve(iterations);
+    adjustment.write_back(map);
+    adjustment.write_back_texts(map);
+    if (adjustment.remove_outliers(map) == 0) break;
+    selection.points.erase(
+        std::remove_if(selection.points.begin(), selection.points.end(), [&](int id) { return map.point(id).bad; }),
+        selection.points.end());
+  }
+}
+
+}  // namespace textslam

@@ -1,0 +1,36 @@
+// Bundle adjustment of the map by the library's window solver: around the newest key frame, or over all of them.
+#ifndef TEXTSLAM_ADJUST_ADJUSTMENT_HPP
+#define TEXTSLAM_ADJUST_ADJUSTMENT_HPP
+
+#include <memory>
+
+#include "textslam/map/map.hpp"
+#include "textslam/common/parameters.hpp"
+
+namespace textslam {
+
+/// An adjustment in its three steps, so that the long one may run beside tracking: solve() touches nothing but what was copied
+/// before (images are shared and constant).
+class StagedAdjustment {
+ public:
+  /// Around the newest key frame, or of the whole map; null where there is nothing to adjust, as in a map of fewer than three key
+  /// frames.
+  static std::unique_ptr<StagedAdjustment> around_newest(const Map& map, const Parameters& parameters);
+  static std::unique_ptr<StagedAdjustment> of_all(const Map& map, const Parameters& parameters);
+  virtual ~StagedAdjustment() = default;
+  virtual void solve() = 0;
+  /// Writes the result into the map it was prepared from, which may have grown since: key frames and points that came later
+  /// move along with the newest of then. Returns this motion of the world, for what else came later.
+  virtual SE3d apply(Map& map) const = 0;
+};
+
+/// Adjusts the newest key frame and those that share most points with it, with their points and text planes; key frames
+/// around them stay fixed. Observations that no longer fit are removed.
+void adjust_local(Map& map, const Parameters& parameters);
+
+/// Adjusts everything; the first key frame is fixed, and the distance to its farthest neighbour in view fixes the scale.
+void adjust_all(Map& map, const Parameters& parameters, int iterations);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_ADJUST_ADJUSTMENT_HPP

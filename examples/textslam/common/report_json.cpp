@@ -1,0 +1,53 @@
+#include "textslam/common/report_json.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace textslam {
+
+Json short_number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  const double rounded = std::strtod(text, nullptr);
+  // Whole numbers without their ".0".
+  if (rounded == std::trunc(rounded) && std::abs(rounded) < 1e9) return static_cast<long>(rounded);
+  return rounded;
+}
+
+Json short_vector(const Vector3<double>& v) {
+  return Json::array({short_number(v.x()), short_number(v.y()), short_number(v.z())});
+}
+
+Json short_pose(const SE3d& T) {
+  Eigen::Quaterniond q(T.R);
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  Json pose = short_vector(T.t);
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) pose.push_back(short_number(value));
+  return pose;
+}
+
+Json short_quad(const Quad<double>& quad) {
+  Json out = Json::array();
+  for (const auto& corner : quad.corner) {
+    if (!corner.allFinite()) return nullptr;
+    for (const double value : {corner.x(), corner.y()}) out.push_back(short_number(std::round(10 * value) / 10));
+  }
+  return out;
+}
+
+std::string script_text(const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text)
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  return out;
+}
+
+}  // namespace textslam

@@ -1,0 +1,28 @@
+// The order statistics that several steps decide by.
+#ifndef TEXTSLAM_COMMON_STATISTICS_HPP
+#define TEXTSLAM_COMMON_STATISTICS_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace textslam {
+
+/// The upper median; 0 of nothing.
+inline double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The value that 95 of 100 do not exceed; 0 of nothing.
+inline double percentile95(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, values.size() * 95 / 100)];
+}
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_COMMON_STATISTICS_HPP

@@ -1,0 +1,68 @@
+// DetectionThread: a text detector beside tracking, at its own rate.
+//
+// offer() leaves an image to it. While the detector is busy at most one key frame and one other frame wait, the newest of
+// each, and the key frame goes first: it is the one that new texts are hosted by. What is passed over is never detected.
+// collect(), between two frames, gives what was finished since, each with the frame that it belongs to.
+//
+// Threads: all members are called from one thread and never wait for the detector, but for the destructor. `detect` is
+// called from another, for one image at a time.
+#ifndef TEXTSLAM_DETECT_DETECTION_THREAD_HPP
+#define TEXTSLAM_DETECT_DETECTION_THREAD_HPP
+
+#include <array>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "io/detections.hpp"
+
+namespace textslam {
+
+class DetectionThread {
+ public:
+  using RawImage = std::shared_ptr<const Image<std::uint8_t>>;
+  using Detect = std::function<std::vector<Detection>(int frame, const Image<std::uint8_t>& raw)>;
+
+  struct Result {
+    int frame = -1;  ///< Index of the frame.
+    std::vector<Detection> detections;
+    double ms = 0;  ///< What the detector took.
+  };
+
+  explicit DetectionThread(Detect detect);
+  /// Waits for the image that is worked on; those that wait are dropped.
+  ~DetectionThread();
+  DetectionThread(const DetectionThread&) = delete;
+  DetectionThread& operator=(const DetectionThread&) = delete;
+
+  /// After the frame was tracked, and it is known whether it became a key frame.
+  void offer(int frame, RawImage image, bool keyframe);
+  /// What is finished, in the order in which it was. Throws what `detect` threw, once what came before has been collected:
+  /// the thread has ended then, and later offers are dropped.
+  std::vector<Result> collect();
+
+ private:
+  struct Job {
+    int frame = -1;
+    RawImage image;  // null: nothing waits
+  };
+
+  void work();
+
+  Detect detect_;
+  std::mutex mutex_;  // of all below but thread_
+  std::condition_variable changed_;
+  std::array<Job, 2> waiting_;  // a key frame, another frame
+  std::vector<Result> finished_;
+  std::exception_ptr failure_;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_DETECT_DETECTION_THREAD_HPP

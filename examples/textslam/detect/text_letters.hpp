@@ -1,0 +1,58 @@
+// Letters: connected pieces of ink that look like a letter, the second step of the classical text detector.
+#ifndef TEXTSLAM_DETECT_TEXT_LETTERS_HPP
+#define TEXTSLAM_DETECT_TEXT_LETTERS_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "io/names.hpp"
+#include "textslam/detect/classical_parameters.hpp"
+
+namespace textslam {
+
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A stretch of equal ink in one row, x0 to x1 inclusive.
+struct InkRun {
+  int y, x0, x1;
+  int parent;  ///< union-find over runs; a root is the first run of its piece
+  int joints;  ///< of a root: pairs of runs of its piece that touch
+  std::uint8_t ink;
+};
+
+/// A piece of ink that may be a letter. Lengths in px of the image it was found in; tones in grey levels.
+struct Letter {
+  std::vector<Vector2<double>> outline;              ///< convex hull of its pixels' squares, clockwise on the screen
+  Vector2<double> centre = Vector2<double>::Zero();  ///< of the bounding box
+  double size = 0;                                   ///< the longer side of the bounding box
+  double area = 0;                                   ///< px^2
+  double stroke = 0;                                 ///< width of the stroke
+  double ink = 0, paper = 0;                         ///< mean tone of the letter, and of what is beside it
+  bool light = false;                                ///< lighter than its paper
+
+  double contrast() const { return light ? ink - paper : paper - ink; }
+};
+
+/// The extent of a letter along a direction.
+struct Extent {
+  double low, high;
+  double length() const { return high - low; }
+};
+Extent extent(const Letter& letter, const Vector2<double>& direction);
+
+/// Memory that find_letters() keeps from call to call.
+struct LetterScratch {
+  std::vector<InkRun> runs;
+  std::vector<int> piece, first, order;  ///< of runs: their piece; of pieces: where their runs start in `order`
+  std::vector<int> distance;
+};
+
+/// The letters of an image whose ink is marked (mark_ink()), in the order of their first pixel. Pieces at the image's
+/// edge are left out: they are cut, and so would be the text.
+void find_letters(const ImageView8& image, const Image<std::uint8_t>& ink, const ClassicalParameters& parameters,
+                  LetterScratch& scratch, std::vector<Letter>& letters);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_DETECT_TEXT_LETTERS_HPP

@@ -1,0 +1,30 @@
+// Quads: the outline of a line of letters, and whether it is text; the fourth step of the classical text detector.
+#ifndef TEXTSLAM_DETECT_TEXT_QUADS_HPP
+#define TEXTSLAM_DETECT_TEXT_QUADS_HPP
+
+#include <vector>
+
+#include "textslam/detect/classical_parameters.hpp"
+#include "textslam/detect/text_letters.hpp"
+
+namespace textslam {
+
+struct TextQuad {
+  Quad<double> quad;  ///< px of the image the letters were found in, clockwise from the text's top left
+  double score = 0;   ///< in (0, 1]; 0 where the line is not text
+};
+
+/// The quad around a line: top and bottom are lines through the letters' tops and bottoms (the text may taper), the
+/// sides lean with the letters. Its score says how much the letters look like print: many of them, on common lines,
+/// of even tones; it is 0 below min_score, and where a pattern (books, railings, tiles, leaves) explains them as
+/// well.
+TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& line,
+                  const ClassicalParameters& parameters);
+
+/// Drops each quad that shares more than max_shared_area of the smaller of the two with one of a better score. Best
+/// first.
+void suppress_overlaps(std::vector<TextQuad>& quads, const ClassicalParameters& parameters);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_DETECT_TEXT_QUADS_HPP

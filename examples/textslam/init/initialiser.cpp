@@ -1,0 +1,166 @@
+#include "textslam/init/initialiser.hpp"
+
+#include <algorithm>
+
+#include "textplane/geometry/quad.hpp"
+#include "textslam/adjust/adjustment.hpp"
+#include "textslam/common/statistics.hpp"
+#include "textslam/init/two_view.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/track/feature_tracks.hpp"
+#include "textslam/track/late_corners.hpp"
+#include "textslam/track/rotation_prior.hpp"
+
+namespace textslam {
+
+void Initialiser::restart(const Frame& frame) {
+  reference_ = last_ = frame;
+  tracks_.clear();
+  std::vector<Quad<double>> quads;
+  if (parameters_.mode == Mode::text) quads = quads_of(frame.detections);
+  add_corners(frame, 0, quads, parameters_, tracks_);
+  rivals_.clear();
+  waited_ = 0;
+}
+
+void Initialiser::add_detections(int frame, std::vector<Detection> detections) {
+  if (tracks_.empty() || reference_.index != frame) return;
+  reference_.detections = std::move(detections);
+  // Rivals are judged by corners that were followed from their first view on.
+  if (parameters_.mode != Mode::text || !rivals_.empty()) return;
+  const std::vector<Quad<double>> quads = quads_of(reference_.detections);
+  std::vector<Track> then = tracks_;
+  std::vector<Vec2f> now;
+  for (Track& track : then) {
+    now.push_back(track.px);
+    track.px = track.observations.front().px.cast<float>();
+  }
+  const std::vector<Track> corners = late_corners(reference_, 0, quads, then, now, last_, parameters_);
+  tracks_.insert(tracks_.end(), corners.begin(), corners.end());
+}
+
+bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) {
+  if (tracks_.empty()) {
+    restart(frame);
+    return false;
+  }
+  const RotationPrior prior = align_rotation(last_, frame, map.camera, Eigen::Matrix3d::Identity());
+  std::vector<Vec2f> guesses;
+  for (const Track& track : tracks_) {
+    const Vec3 m = prior.R_b_a * map.camera.unproject(track.px.cast<double>());
+    guesses.push_back(map.camera.project(m).cast<float>());
+  }
+  advance_tracks(last_, frame, guesses, parameters_, tracks_);
+  last_ = frame;
+  if (static_cast<int>(tracks_.size()) < matches_needed()) {
+    restart(frame);
+    return false;
+  }
+  const std::optional<Motion> motion = rivals_.empty() ? motion_of_two_views(map.camera) : motion_of_rivals(map.camera);
+  return motion && build(frame, *motion, map, tracks);
+}
+
+// Corners on texts are strong ones, and fewer of them do.
+int Initialiser::matches_needed() const {
+  if (parameters_.mode != Mode::text) return parameters_.init_min_matches;
+  const std::vector<Quad<double>> quads = quads_of(reference_.detections);
+  int on_text = 0;
+  for (const Track& track : tracks_)
+    on_text += std::any_of(quads.begin(), quads.end(), [&](const Quad<double>& quad) {
+      return textplane::contains(quad, track.observations[0].px);
+    });
+  return on_text >= parameters_.init_min_text_matches ? parameters_.init_min_text_matches
+                                                      : parameters_.init_min_matches;
+}
+
+std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const Pinhole<double>& camera) {
+  std::vector<Vec3> a, b;
+  for (const Track& track : tracks_) {
+    a.push_back(camera.unproject(track.observations[0].px));
+    b.push_back(camera.unproject(track.px.cast<double>()));
+  }
+  const TwoView view = estimate_two_view(a, b, camera.fx);
+  if (!view.ok || view.inliers < matches_needed() || view.parallax < parameters_.init_min_parallax ||
+      view.direction_sigma > parameters_.init_max_direction || view.rms > parameters_.init_max_rms)
+    return std::nullopt;
+  const double limit = clear_ratio(static_cast<double>(a.size()) - 5, parameters_.init_clear);
+  std::vector<SE3d> close;
+  for (const TwoViewMotion& motion : view.motions)
+    if (motion.cost <= limit * view.motions.front().cost) close.push_back(motion.T_b_a);
+  if (close.size() < 2) return Motion{view.T_b_a, view.inlier};
+  rivals_.begin(close);
+  for (Track& track : tracks_) track.observations.push_back({1, track.px.cast<double>()});
+  return std::nullopt;
+}
+
+std::optional<Initialiser::Motion> Initialiser::motion_of_rivals(const Pinhole<double>& camera) {
+  ++waited_;
+  std::vector<double> flow;
+  for (const Track& track : tracks_) flow.push_back((track.observations.back().px - track.px.cast<double>()).norm());
+  if (median(std::move(flow)) < parameters_.init_view_flow) return std::nullopt;
+  const bool full = static_cast<int>(tracks_[0].observations.size()) >= parameters_.init_views;
+  for (Track& track : tracks_) {
+    if (full) track.observations.pop_back();
+    track.observations.push_back({static_cast<int>(track.observations.size()), track.px.cast<double>()});
+  }
+  rivals_.judge(tracks_, camera, full);
+  if (rivals_.rms() > parameters_.init_max_rms) {
+    restart(last_);
+    return std::nullopt;
+  }
+  if (!rivals_.won() && waited_ < parameters_.init_patience) return std::nullopt;
+  const Motion best{rivals_.T_newest_a(), rivals_.inlier()};
+  if (std::count(best.inlier.begin(), best.inlier.end(), 1) < matches_needed()) return std::nullopt;
+  // The camera may have come back to where it began.
+  if (parallax(best, camera) < parameters_.init_min_parallax) return std::nullopt;
+  return best;
+}
+
+// Degrees, median over the inliers, the rotation removed.
+double Initialiser::parallax(const Motion& motion, const Pinhole<double>& camera) const {
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!motion.inlier[i]) continue;
+    const Vec3 turned = motion.T_b_a.R * camera.unproject(tracks_[i].observations[0].px);
+    angles.push_back(degrees_between(turned, camera.unproject(tracks_[i].px.cast<double>())));
+  }
+  return median(std::move(angles));
+}
+
+bool Initialiser::build(const Frame& frame, const Motion& motion, Map& map, std::vector<Track>* tracks) {
+  map.keyframes.clear();
+  map.points.clear();
+  map.texts.clear();
+  std::vector<Track> kept;
+  for (std::size_t i = 0; i < tracks_.size(); ++i)
+    if (motion.inlier[i]) {
+      kept.push_back(tracks_[i]);
+      kept.back().observations.resize(1);
+    }
+  const SE3d T_w_b = motion.T_b_a.inverse();
+  map.keyframes.push_back({reference_, SE3d{}, {}, false});
+  insert_keyframe(map, frame, T_w_b, kept);
+  Parameters loose = parameters_;
+  loose.min_parallax = 0.5 * parameters_.init_min_parallax;
+  triangulate_tracks(map, loose, kept);
+  adjust_all(map, parameters_, 20);
+
+  int points = 0;
+  for (const MapPoint& point : map.points) points += point.bad ? 0 : 1;
+  const double depth = median_depth(map, 0);
+  if (points < matches_needed() / 2 || !(depth > 0)) {
+    map.keyframes.clear();
+    map.points.clear();
+    return false;
+  }
+  for (KeyFrame& keyframe : map.keyframes) keyframe.T_w_c.t /= depth;
+  for (MapPoint& point : map.points) point.p_w /= depth;
+  kept.erase(
+      std::remove_if(kept.begin(), kept.end(), [&](const Track& t) { return t.point >= 0 && map.point(t.point).bad; }),
+      kept.end());
+  *tracks = std::move(kept);
+  forget();
+  return true;
+}
+
+}  // namespace textslam

@@ -1,0 +1,140 @@
+#include "textslam/loop/loop_closure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "textplane/geometry/quad.hpp"
+#include "textslam/common/statistics.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/text/text_merge.hpp"
+#include "textslam/track/pose_refit.hpp"
+
+namespace textslam {
+namespace {
+
+Map part_of(const Map& map, const LocalMap& local, bool inside) {
+  Map part = map;
+  for (std::size_t i = 0; i < part.points.size(); ++i) {
+    if (local.has_point(static_cast<int>(i)) == inside) continue;
+    part.points[i].bad = true;
+    part.points[i].observations.clear();
+  }
+  for (KeyFrame& keyframe : part.keyframes)
+    keyframe.points.erase(
+        std::remove_if(keyframe.points.begin(), keyframe.points.end(), [&](int id) { return part.point(id).bad; }),
+        keyframe.points.end());
+  for (TextObject& text : part.texts)
+    if (local.has_text(text.id) != inside) text.state = TextState::dropped;
+  return part;
+}
+
+// Points outside the local map that key frame `id` would see if there were no drift.
+int old_points_in_view(const Map& map, const LocalMap& local, int id) {
+  const SE3d& T_w_c = map.keyframe(id).T_w_c;
+  const SE3d T_c_w = T_w_c.inverse();
+  int count = 0;
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const MapPoint& point = map.points[i];
+    if (point.bad || local.has_point(static_cast<int>(i))) continue;
+    const Vec3 p = T_c_w * point.p_w;
+    if (!(p.z() > 0)) continue;
+    const Vec2 px = map.camera.project(p);
+    if (!(px.x() >= 0 && px.y() >= 0 && px.x() < map.width && px.y() < map.height)) continue;
+    const Vec3 from_host = point.p_w - map.keyframe(point.observations.front().keyframe).T_w_c.t;
+    count += (point.p_w - T_w_c.t).normalized().dot(from_host.normalized()) > kMinViewCosine ? 1 : 0;
+  }
+  return count;
+}
+
+// The detections that may be old texts: those that read like one, and, as some are never read, those unread on no text that
+// is known here.
+std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, const KeyFrame& keyframe) {
+  const SE3d T_c_w = keyframe.T_w_c.inverse();
+  std::vector<std::string> words;
+  std::vector<Quad<double>> known;
+  for (const TextObject& text : map.texts) {
+    Quad<double> quad;
+    if (text.state != TextState::mapped) continue;
+    if (!local.has_text(text.id)) {
+      words.push_back(text.word());
+    } else if (facing(map, text, T_c_w) > 0 && project_text(map, text, T_c_w, &quad)) {
+      known.push_back(quad);
+    }
+  }
+  std::vector<Detection> out;
+  if (words.empty()) return out;
+  for (const Detection& detection : keyframe.frame.detections) {
+    const bool wanted = is_read(detection.text)
+                            ? std::find(words.begin(), words.end(), detection.text) != words.end()
+                            : std::none_of(known.begin(), known.end(), [&](const Quad<double>& quad) {
+                                return textplane::iou(quad, detection.quad) >= kSameTextOverlap;
+                              });
+    if (wanted) out.push_back(detection);
+  }
+  return out;
+}
+
+// The key frame, of the old part, that shows most of the points seen.
+int key_frame_met(const Map& old_part, const Recovery& seen) {
+  std::vector<int> counts(old_part.keyframes.size(), 0);
+  for (const Track& track : seen.tracks)
+    if (track.point >= 0 && track.inlier)
+      for (const PointObservation& o : old_part.point(track.point).observations)
+        ++counts[static_cast<std::size_t>(o.keyframe)];
+  return static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+}  // namespace
+
+double way_between(const Map& map, int a, int b) {
+  double way = 0;
+  int before = a;
+  for (int id = a + 1; id <= b; ++id) {
+    if (map.keyframe(id).culled) continue;
+    way += (map.keyframe(id).T_w_c.t - map.keyframe(before).T_w_c.t).norm();
+    before = id;
+  }
+  return way;
+}
+
+Map old_part(const Map& map, const LocalMap& local) { return part_of(map, local, false); }
+
+Map recent_part(const Map& map, const LocalMap& local) { return part_of(map, local, true); }
+
+Loop find_loop(const Map& map, const LocalMap& local, const Parameters& parameters) {
+  Loop loop;
+  loop.keyframe = static_cast<int>(map.keyframes.size()) - 1;
+  const KeyFrame& newest = map.keyframe(loop.keyframe);
+  const bool expected = old_points_in_view(map, local, loop.keyframe) >= 2 * parameters.min_inliers;
+  Frame frame = newest.frame;
+  frame.detections.clear();
+  if (parameters.mode == Mode::text) frame.detections = detections_of_old(map, local, newest);
+  if (!expected && frame.detections.empty()) return loop;
+
+  const Map old = old_part(map, local);
+  if (expected) loop.seen = recognise_from(old, parameters, frame, newest.T_w_c.inverse());
+  if (!loop.seen.ok && !frame.detections.empty())
+    loop.seen = relocalise_by_texts(old, parameters, frame, {WordMatch::same, WordMatch::unread});
+  if (!loop.seen.ok) return loop;
+  loop.link = link_maps(old, recent_part(map, local), parameters, loop.seen);
+  loop.met = key_frame_met(old, loop.seen);
+  loop.ok = loop.link.ok;
+  return loop;
+}
+
+Drift drift_left(const Map& map, const Parameters& parameters, const Loop& loop) {
+  Drift left;
+  const SE3d& T_w_c = map.keyframe(loop.keyframe).T_w_c;
+  SE3d by_old = T_w_c.inverse();
+  const std::vector<SeenPoint> old_points = seen_points(loop.seen.tracks, loop.seen.tracks.size());
+  if (!refit_pose(map, parameters, old_points, &by_old)) return left;
+  const SE3d T_c_w = T_w_c.inverse();
+  std::vector<double> ratios;
+  for (const SeenPoint& seen : old_points)
+    if (!map.point(seen.point).bad)
+      ratios.push_back((by_old * map.point(seen.point).p_w).z() / (T_c_w * map.point(seen.point).p_w).z());
+  return {(by_old.inverse().t - T_w_c.t).norm() / way_between(map, loop.met, loop.keyframe),
+          degrees(by_old.R * T_w_c.R), median(std::move(ratios))};
+}
+
+}  // namespace textslam

@@ -1,0 +1,191 @@
+// Loop closure, the part that changes the map.
+#include <algorithm>
+#include <cmath>
+
+#include "textslam/loop/loop_alignment.hpp"
+#include "textslam/loop/loop_closure.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/loop/pose_graph.hpp"
+#include "textslam/common/statistics.hpp"
+#include "textslam/text/text_merge.hpp"
+
+namespace textslam {
+namespace {
+
+constexpr double kSameSpot = 0.3;      // px between points whose observations are those of one
+constexpr double kLeastLength = 0.01;  // of an edge, in units of the depth of what is seen
+
+class Spreader {
+ public:
+  Spreader(Map& map, const Parameters& parameters, const Loop& loop)
+      : map_(map), parameters_(parameters), loop_(loop), unit_(median_depth(map, loop.keyframe)) {}
+
+  // Where the key frames would be without drift. False where that cannot be told.
+  bool solve() {
+    if (!(unit_ > 0)) return false;
+    for (const KeyFrame& keyframe : map_.keyframes) before_.push_back(similarity_of(keyframe.T_w_c));
+    nodes_ = before_;
+    add_neighbours();
+    add_sequence();
+    const LoopAlignment aligned = align_loop(map_, parameters_, loop_.link, loop_.keyframe);
+    const Similarity& newest = node(before_, loop_.keyframe);
+    GraphEdge edge = edge_of(loop_.met, loop_.keyframe, kLeastLength);
+    edge.S_a_b =
+        compose(inverse(node(before_, loop_.met)), aligned.ok ? aligned.S_w_k : compose(loop_.link.S_a_b, newest));
+    if (aligned.ok) edge.information = aligned.information;
+    edges_.push_back(edge);
+    return relax(nodes_, edges_, 0);
+  }
+
+  // Of the newest key frame against the one that it met.
+  Drift drift() const {
+    const Similarity is = compose(inverse(node(nodes_, loop_.met)), node(nodes_, loop_.keyframe));
+    const Similarity was = compose(inverse(node(before_, loop_.met)), node(before_, loop_.keyframe));
+    return {(is.t - was.t).norm() / way_between(map_, loop_.met, loop_.keyframe), degrees(is.R.transpose() * was.R),
+            is.scale};
+  }
+
+  // Moves the map; the scales of the key frames. Points go with the key frame that saw them first, planes with their host.
+  std::vector<double> spread() {
+    for (MapPoint& point : map_.points) {
+      if (point.bad) continue;
+      const int host = point.observations.front().keyframe;
+      point.p_w = node(nodes_, host) * (inverse(node(before_, host)) * point.p_w);
+    }
+    for (TextObject& text : map_.texts) {
+      const double s = node(nodes_, text.host).scale;
+      text.theta /= s;
+      text.covariance /= s * s;
+    }
+    std::vector<double> scales;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      map_.keyframes[i].T_w_c = SE3d{nodes_[i].R, nodes_[i].t};
+      scales.push_back(nodes_[i].scale);
+    }
+    return scales;
+  }
+
+ private:
+  static const Similarity& node(const std::vector<Similarity>& nodes, int id) {
+    return nodes[static_cast<std::size_t>(id)];
+  }
+
+  // As the map has it, with what is lost on a way of this length, in units.
+  GraphEdge edge_of(int a, int b, double length) const {
+    GraphEdge edge;
+    edge.a = a;
+    edge.b = b;
+    edge.S_a_b = compose(inverse(node(before_, a)), node(before_, b));
+    edge.information *= 1 / (parameters_.loop_drift * parameters_.loop_drift * length);
+    edge.information.topLeftCorner<3, 3>() /= unit_ * unit_;
+    return edge;
+  }
+
+  void add_edge(int a, int b) {
+    const Similarity S_a_b = compose(inverse(node(before_, a)), node(before_, b));
+    edges_.push_back(edge_of(a, b, kLeastLength + S_a_b.t.norm() / unit_ + textplane::so3_log<double>(S_a_b.R).norm()));
+  }
+
+  void add_neighbours() {
+    for (int b = 0; b < static_cast<int>(nodes_.size()); ++b) {
+      const std::vector<int> shared = shared_points(map_, map_.keyframe(b).points);
+      for (int a = 0; a < b; ++a)
+        if (shared[static_cast<std::size_t>(a)] >= parameters_.local_min_shared) add_edge(a, b);
+    }
+  }
+
+  // Neighbours in time hold the graph together where nothing else does. Those culled hang on it by one edge, and do nothing.
+  void add_sequence() {
+    std::vector<int> order;
+    for (int id = 0; id < static_cast<int>(nodes_.size()); ++id) order.push_back(id);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return map_.keyframe(a).frame.index < map_.keyframe(b).frame.index; });
+    int before = order.front();
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      add_edge(before, order[i]);
+      if (!map_.keyframe(order[i]).culled) before = order[i];
+    }
+  }
+
+  Map& map_;
+  const Parameters& parameters_;
+  const Loop& loop_;
+  double unit_;
+  std::vector<Similarity> before_, nodes_;
+  std::vector<GraphEdge> edges_;
+};
+
+bool observes(const Map& map, int point, int keyframe) {
+  const auto& observations = map.point(point).observations;
+  return std::any_of(observations.begin(), observations.end(),
+                     [&](const PointObservation& o) { return o.keyframe == keyframe; });
+}
+
+void merge_points(Map& map, int kept, int other) {
+  MapPoint& from = map.point(other);
+  map.point(kept).visible += from.visible;
+  map.point(kept).found += from.found;
+  const std::vector<PointObservation> moved = std::move(from.observations);
+  from.observations.clear();
+  from.bad = true;
+  for (const PointObservation& o : moved) {
+    auto& points = map.keyframe(o.keyframe).points;
+    points.erase(std::remove(points.begin(), points.end(), other), points.end());
+    if (!observes(map, kept, o.keyframe)) add_observation(map, kept, o.keyframe, o.px);
+  }
+}
+
+// Largest distance, px, between two points in the key frames that show both.
+double distance_seen(const Map& map, const Loop& loop, int old_point, int recent_point) {
+  double largest = 0;
+  for (const LinkSighting& sighting : loop.link.sightings)
+    for (const Track& track : sighting.tracks)
+      for (const PointObservation& o : map.point(recent_point).observations)
+        if (track.point == old_point && o.keyframe == sighting.keyframe)
+          largest = std::max(largest, (o.px - track.px.cast<double>()).norm());
+  return largest;
+}
+
+// Median distance, px, between where the map expects the old points in the newest key frame and where they are.
+double shift_seen(const Map& map, const Loop& loop) {
+  const SE3d T_c_w = map.keyframe(loop.keyframe).T_w_c.inverse();
+  std::vector<double> shifts;
+  for (const Track& track : loop.seen.tracks) {
+    if (track.point < 0 || !track.inlier) continue;
+    const Vec3 p = T_c_w * map.point(track.point).p_w;
+    shifts.push_back(p.z() > 0 ? (map.camera.project(p) - track.px.cast<double>()).norm() : map.width);
+  }
+  return median(std::move(shifts));
+}
+
+}  // namespace
+
+LoopCorrection close_loop(Map& map, const Parameters& parameters, const Loop& loop) {
+  LoopCorrection out;
+  for (std::size_t i = 0; i < map.points.size(); ++i) out.points.push_back(static_cast<int>(i));
+  out.scales.assign(map.keyframes.size(), 1);
+  Spreader spreader(map, parameters, loop);
+  if (spreader.solve()) {
+    out.found = spreader.drift();
+    out.spread = shift_seen(map, loop) > parameters.loop_max_shift;
+    if (out.spread) out.scales = spreader.spread();
+  }
+
+  for (const auto& [kept, other] : loop.link.points) {
+    if (map.point(kept).bad || map.point(other).bad || distance_seen(map, loop, kept, other) > kSameSpot) continue;
+    merge_points(map, kept, other);
+    out.points[static_cast<std::size_t>(other)] = kept;
+  }
+  for (const auto& [a, b] : loop.link.texts) {
+    const bool second =
+        map.texts[static_cast<std::size_t>(b)].targets.size() > map.texts[static_cast<std::size_t>(a)].targets.size();
+    merge_texts(map, second ? b : a, second ? a : b);
+  }
+  for (const LinkSighting& sighting : loop.link.sightings)
+    for (const Track& track : sighting.tracks)
+      if (!map.point(track.point).bad && !observes(map, track.point, sighting.keyframe))
+        add_observation(map, track.point, sighting.keyframe, track.px.cast<double>());
+  return out;
+}
+
+}  // namespace textslam

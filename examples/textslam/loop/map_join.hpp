@@ -1,0 +1,48 @@
+// Joining of two maps that turn out to show one place.
+//
+// Key frames of map b are looked for in map a. What both maps know of such a frame, points found at the same pixel and texts
+// that fall on each other, gives the similarity between their worlds; it must hold over several key frames. Then b's
+// contents move over to a, and what is in both becomes one.
+#ifndef TEXTSLAM_LOOP_MAP_JOIN_HPP
+#define TEXTSLAM_LOOP_MAP_JOIN_HPP
+
+#include <utility>
+#include <vector>
+
+#include "io/evaluate.hpp"
+#include "textslam/map/map.hpp"
+#include "textslam/common/parameters.hpp"
+#include "textslam/track/recovery.hpp"
+
+namespace textslam {
+
+/// A key frame of b, and the points of a that it shows.
+struct LinkSighting {
+  int keyframe;
+  std::vector<Track> tracks;
+};
+
+struct MapLink {
+  bool ok = false;
+  Similarity S_a_b;                         ///< World of b to world of a.
+  std::vector<std::pair<int, int>> points;  ///< Ids in a and in b of what is one point; each id once.
+  std::vector<std::pair<int, int>> texts;   ///< Of what is one text.
+  int keyframes = 0;                        ///< Of b, that agree with the similarity.
+  std::vector<LinkSighting> sightings;      ///< These.
+};
+
+/// Where map b lies in map a. `seen` is b's newest key frame as recognised in a; the others are looked for from there.
+MapLink link_maps(const Map& a, const Map& b, const Parameters& parameters, const Recovery& seen);
+
+/// What became of b's ids in a.
+struct JoinedIds {
+  int first_keyframe = 0;   ///< Key frame k of b is first_keyframe + k.
+  std::vector<int> points;  ///< -1 for those that were bad.
+};
+
+/// Moves the contents of b into a by the link. a's poses stay as they are; nothing is adjusted.
+JoinedIds join_maps(Map& a, const Map& b, const MapLink& link);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_LOOP_MAP_JOIN_HPP

@@ -1,0 +1,41 @@
+// Pose graph: key frames held together by what is known of their relative poses. A loop that is closed pulls on it, and the
+// drift spreads over the way on which it came about.
+#ifndef TEXTSLAM_LOOP_POSE_GRAPH_HPP
+#define TEXTSLAM_LOOP_POSE_GRAPH_HPP
+
+#include <vector>
+
+#include "io/evaluate.hpp"
+
+namespace textslam {
+
+/// A after B.
+Similarity compose(const Similarity& A, const Similarity& B);
+Similarity inverse(const Similarity& S);
+Similarity similarity_of(const SE3d& T);
+
+/// Translation, rotation (radians) and logarithm of the scale.
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+
+/// S moved in its source's frame: S times (step's translation, exponential of its rotation, exponential of its last entry).
+Similarity moved(const Similarity& S, const Vector7& step);
+
+/// What is known of nodes a and b: S_w_b = S_w_a S_a_b, moved by an error of this information (inverse covariance).
+struct GraphEdge {
+  int a = 0, b = 0;
+  Similarity S_a_b;
+  Matrix7 information = Matrix7::Identity();
+};
+
+/// Nodes are S_w_k, frame k to the world, monocular: each with a scale. Minimises over all but node `fixed`
+///
+///   sum over edges of e^T information e,  e = (t, log R, log s) of S_a_b^-1 S_w_a^-1 S_w_b,
+///
+/// by Gauss-Newton from the nodes given. Every node must hang together with the fixed one. False, and the nodes as they were,
+/// where the system cannot be solved.
+bool relax(std::vector<Similarity>& nodes, const std::vector<GraphEdge>& edges, int fixed);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_LOOP_POSE_GRAPH_HPP

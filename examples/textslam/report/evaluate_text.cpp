@@ -1,0 +1,35 @@
+#include "textslam/report/evaluate_text.hpp"
+
+#include "textplane/geometry/plane.hpp"
+
+namespace textslam {
+
+std::array<Vec3, 4> world_corners(const Map& map, const TextObject& text) {
+  std::array<Vec3, 4> corners;
+  const SE3d& T_w_h = map.keyframe(text.host).T_w_c;
+  for (std::size_t i = 0; i < 4; ++i)
+    corners[i] = T_w_h * textplane::plane_point<double>(text.theta, map.camera.unproject(text.patch.quad.corner[i]));
+  return corners;
+}
+
+std::vector<MappedText> mapped_texts(const Map& map) {
+  std::vector<MappedText> texts;
+  for (const TextObject& text : map.texts) {
+    if (text.state != TextState::mapped) continue;
+    const Vec3 normal = map.keyframe(text.host).T_w_c.R * textplane::plane_normal(text.theta);
+    texts.push_back({text.id, text.word(), world_corners(map, text), normal});
+  }
+  return texts;
+}
+
+std::vector<TrueSign> read_true_signs(const Sequence& sequence) {
+  std::vector<std::string> stems;
+  for (const FrameRef& frame : sequence.frames) stems.push_back(frame.stem);
+  return read_true_signs(sequence.folder, stems);
+}
+
+TextEvaluation evaluate_text(const Map& map, const std::vector<TrueSign>& signs, const Similarity& alignment) {
+  return evaluate_texts(mapped_texts(map), signs, alignment);
+}
+
+}  // namespace textslam

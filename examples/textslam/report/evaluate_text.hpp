@@ -1,0 +1,29 @@
+// The texts of the map as an output: in the world frame, and against the exact signs of a rendered sequence. Runs after the
+// map is final; the system never sees the truth.
+#ifndef TEXTSLAM_REPORT_EVALUATE_TEXT_HPP
+#define TEXTSLAM_REPORT_EVALUATE_TEXT_HPP
+
+#include <array>
+#include <vector>
+
+#include "io/evaluate_signs.hpp"
+#include "io/sequence.hpp"
+#include "textslam/map/map.hpp"
+
+namespace textslam {
+
+/// World positions of the corners of a text that has a plane.
+std::array<Vec3, 4> world_corners(const Map& map, const TextObject& text);
+
+/// The mapped texts of the map, in the order of their ids.
+std::vector<MappedText> mapped_texts(const Map& map);
+
+/// The signs in the folder truth of a sequence; see read_true_signs() in io/evaluate_signs.hpp.
+std::vector<TrueSign> read_true_signs(const Sequence& sequence);
+
+/// Matches the mapped texts to the signs after `alignment` (map to truth).
+TextEvaluation evaluate_text(const Map& map, const std::vector<TrueSign>& signs, const Similarity& alignment);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_REPORT_EVALUATE_TEXT_HPP

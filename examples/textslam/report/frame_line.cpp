@@ -1,0 +1,39 @@
+#include "textslam/report/frame_line.hpp"
+
+#include <cstdio>
+
+#include "textslam/common/report_json.hpp"
+
+namespace textslam {
+
+const char* to_string(FrameState state) {
+  return state == FrameState::tracked ? "tracked" : state == FrameState::lost ? "lost" : "waiting";
+}
+
+std::string frame_line(int index, const FrameRecord& record, const Map& map) {
+  const bool is_keyframe = record.live && map.keyframe(record.keyframe).frame.index == index;
+  return Json{{"frame", index},
+              {"timestamp", record.timestamp},
+              {"state", to_string(record.state)},
+              {"points", record.points},
+              {"texts", record.texts},
+              {"keyframe", is_keyframe},
+              {"map_keyframes", map.keyframe_ids().size()},
+              {"pose", record.live ? short_pose(record.T_w_c_live) : Json(nullptr)},
+              {"ms",
+               {{"detection", short_number(record.detect_ms)},
+                {"tracking", short_number(record.track_ms)},
+                {"mapping", short_number(record.map_ms)}}}}
+      .dump();
+}
+
+std::string summary_line(const RunSummary& summary) {
+  return Json{{"summary", Json::parse(metrics_json(summary))}}.dump();
+}
+
+void print_line(const std::string& line) {
+  std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace textslam

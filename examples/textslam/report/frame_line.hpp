@@ -1,0 +1,27 @@
+// A run as lines of JSON, for programs: one a frame as it is processed, then one of the whole.
+#ifndef TEXTSLAM_REPORT_FRAME_LINE_HPP
+#define TEXTSLAM_REPORT_FRAME_LINE_HPP
+
+#include <string>
+
+#include "textslam/report/outputs.hpp"
+
+namespace textslam {
+
+const char* to_string(FrameState state);
+
+/// {"frame", "timestamp", "state", "points", "texts", "keyframe", "map_keyframes", "pose", "ms"}, without a line end:
+/// `pose` is [x, y, z, qx, qy, qz, qw], camera to world, as known live, null where there is none; `keyframe`: it became
+/// one; `map_keyframes`: how many the map holds; `ms`: what detection, tracking and mapping took. What the end of the run
+/// changes is in the output files alone.
+std::string frame_line(int index, const FrameRecord& record, const Map& map);
+
+/// {"summary": metrics.json}, without a line end.
+std::string summary_line(const RunSummary& summary);
+
+/// Writes the line to standard output at once.
+void print_line(const std::string& line);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_REPORT_FRAME_LINE_HPP

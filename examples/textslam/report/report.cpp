@@ -1,0 +1,84 @@
+#include "textslam/report/report.hpp"
+
+#include <stdexcept>
+
+#include "textplane/config.hpp"
+#include "textplane/simd/dispatch.hpp"
+#include "textslam/report/report_data.hpp"
+#include "textslam/report/report_parameters.hpp"
+#include "textslam/report/report_template.hpp"
+
+namespace textslam {
+namespace {
+
+Json summary_json(const RunSummary& s) {
+  Json out{{"frames", s.frames},       {"tracked", s.tracked},      {"tracked_live", s.tracked_live},
+           {"keyframes", s.keyframes}, {"points", s.points},        {"texts", s.texts},
+           {"loops", s.loops.size()},  {"map_frames", s.map_frames}};
+  if (s.has_truth && textplane::is_ok(s.trajectory.status)) {
+    out["scale"] = short_number(s.trajectory.alignment.scale);
+    out["path_length"] = short_number(s.trajectory.path_length);
+    out["ate_rmse"] = short_number(s.trajectory.ate.rmse);
+    out["ate_live_rmse"] = short_number(s.live.ate.rmse);
+    out["rpe_rotation_deg"] = short_number(s.trajectory.rpe_frame.rotation.rmse);
+  }
+  if (s.text.available) {
+    out["signs_visible"] = s.text.signs;
+    out["signs_mapped"] = s.text.mapped;
+    out["false_texts"] = s.text.false_texts;
+    out["angle_median_deg"] = short_number(s.text.angle.median);
+  }
+  return out;
+}
+
+Json camera_json(const Sequence& sequence) {
+  const CameraModel& camera = sequence.camera;
+  Json out{{"width", camera.width},
+           {"height", camera.height},
+           {"fx", short_number(camera.pinhole.fx)},
+           {"fy", short_number(camera.pinhole.fy)},
+           {"cx", short_number(camera.pinhole.cx)},
+           {"cy", short_number(camera.pinhole.cy)}};
+  if (sequence.approximate_fov > 0) out["approximate_fov_deg"] = short_number(sequence.approximate_fov);
+  return out;
+}
+
+Json data_json(const ReportInput& in) {
+  return {{"version", TEXTPLANE_VERSION_STRING},
+          {"summary", summary_json(in.summary)},
+          {"camera", camera_json(in.sequence)},
+          {"min_zncc", in.parameters.text_min_zncc},
+          {"cull_zncc", in.parameters.text_cull_zncc},
+          {"start", in.system.records().empty() ? Json(nullptr) : Json(in.system.records().front().timestamp)},
+          {"texts", texts_json(in.system, in.summary)},
+          {"world", world_json(in.system, in.sequence, in.summary, in.signs)},
+          {"series", series_json(in.system, in.sequence, in.summary)},
+          {"frames", frames_json(in.system, in.parameters, in.detections, in.image)},
+          {"parameters", parameters_json(in.parameters)}};
+}
+
+Json run_json(const ReportInput& in) {
+  return {{"command", in.command},
+          {"sequence", in.sequence.video ? in.sequence.images_file : in.sequence.folder},
+          {"first", in.first},
+          {"target", textplane::simd::to_string(textplane::simd::active_target())},
+          {"timing", report_timing_json(in.system)}};
+}
+
+void fill(std::string& page, const std::string& mark, const std::string& text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) throw std::logic_error("the report's template has no " + mark);
+  page.replace(at, mark.size(), text);
+}
+
+}  // namespace
+
+std::string report_html(const ReportInput& input) {
+  std::string page(report_template());
+  // From the back: what is filled in may hold the other mark.
+  fill(page, "@DATA@", script_text(data_json(input)));
+  fill(page, "@RUN@", script_text(run_json(input)));
+  return page;
+}
+
+}  // namespace textslam

@@ -1,0 +1,38 @@
+// report.html: one page that shows what a run made of a sequence, without a network. The page is examples/viewer, which is
+// built into the program, with two blocks of JSON:
+//
+//   <script id="data">  the map, the frames, the parameters: the same bytes whenever the run is the same
+//   <script id="run">   what may differ between equal runs: the command line, where the sequence lies, the SIMD target, and the
+//                       milliseconds
+//
+// What is in them: report_data.hpp, report_frames.hpp, report_parameters.hpp.
+#ifndef TEXTSLAM_REPORT_REPORT_HPP
+#define TEXTSLAM_REPORT_REPORT_HPP
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "textslam/report/outputs.hpp"
+#include "textslam/report/report_frames.hpp"
+
+namespace textslam {
+
+struct ReportInput {
+  const System& system;  ///< After finish() and fill_in().
+  const Parameters& parameters;
+  const Sequence& sequence;
+  const RunSummary& summary;
+  const std::vector<TrueSign>& signs;                       ///< Empty where they are not known.
+  const std::map<int, std::vector<Detection>>& detections;  ///< By the frames that may be shown; undistorted px.
+  ImageSource image;                                        ///< Called once for each picture.
+  const std::vector<std::string>& command;                  ///< The command line, the program's name first.
+  int first = 0;                                            ///< Index in the sequence of the first frame.
+};
+
+/// The page. Throws what `image` throws.
+std::string report_html(const ReportInput& input);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_REPORT_REPORT_HPP

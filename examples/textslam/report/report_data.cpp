@@ -1,0 +1,166 @@
+#include "textslam/report/report_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/data_uri.hpp"
+#include "textplane/geometry/plane.hpp"
+#include "textslam/common/statistics.hpp"
+#include "textslam/loop/pose_graph.hpp"
+#include "textslam/report/report_frames.hpp"
+
+namespace textslam {
+namespace {
+
+bool is_aligned(const RunSummary& summary) { return summary.has_truth && textplane::is_ok(summary.trajectory.status); }
+
+Vec3 to_map(const Similarity& map_to_truth, const Vec3& p) {
+  return map_to_truth.R.transpose() * (p - map_to_truth.t) / map_to_truth.scale;
+}
+
+Json short_corners(const std::array<Vec3, 4>& corners) {
+  Json out = Json::array();
+  for (const Vec3& corner : corners) out.push_back(short_vector(corner));
+  return out;
+}
+
+// The true position of each frame, as far as it is known.
+std::vector<const StampedPose*> truth_of_frames(const System& system, const Sequence& sequence) {
+  std::vector<StampedPose> frames;
+  for (const FrameRecord& record : system.records()) frames.push_back({record.timestamp, {}});
+  std::vector<const StampedPose*> truth(frames.size(), nullptr);
+  for (const PosePair& pair : associate(frames, sequence.groundtruth, EvaluationOptions{}.tolerance))
+    truth[pair.estimate] = &sequence.groundtruth[pair.truth];
+  return truth;
+}
+
+// px rms of the points that a frame saw, from T_c_w.
+double reprojection(const Map& map, const std::vector<SeenPoint>& seen, const SE3d& T_c_w) {
+  double sum = 0;
+  int count = 0;
+  for (const SeenPoint& s : seen) {
+    const Vec3 p = T_c_w * map.point(s.point).p_w;
+    if (map.point(s.point).bad || !(p.z() > 0)) continue;
+    sum += (map.camera.project(p) - s.px.cast<double>()).squaredNorm();
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : std::nan("");
+}
+
+}  // namespace
+
+Json texts_json(const System& system, const RunSummary& summary) {
+  const Map& map = system.map();
+  Json texts = Json::array();
+  std::size_t bytes = 0;
+  for (const TextObject& text : map.texts) {
+    if (text.state != TextState::mapped) continue;
+    const KeyFrame& host = map.keyframe(text.host);
+    const std::array<Vec3, 4> corners = world_corners(map, text);
+    const std::string picture = text_jpeg(map, text);
+    bytes += picture.size();
+    texts.push_back({{"id", text.id},
+                     {"word", text.word()},
+                     {"corners", short_corners(corners)},
+                     {"centre", short_vector((corners[0] + corners[1] + corners[2] + corners[3]) / 4)},
+                     {"normal", short_vector(host.T_w_c.R * textplane::plane_normal(text.theta))},
+                     {"sigma_deg", short_number(normal_sigma(text) * 180 / M_PI)},
+                     {"observations", text.targets.size() + 1},
+                     {"zncc", short_number(text.zncc)},
+                     {"host", host.frame.index},
+                     {"image", bytes <= kTextureBytes ? Json(jpeg_uri(picture)) : Json(nullptr)}});
+    for (const SignMatch& match : summary.text.matches) {
+      if (match.text != text.id) continue;
+      texts.back()["sign"] = match.sign;
+      if (match.sign < 0) continue;
+      texts.back()["angle_deg"] = short_number(match.angle);
+      texts.back()["centre_error"] = short_number(match.centre);
+      texts.back()["word_right"] = match.word;
+    }
+  }
+  return texts;
+}
+
+Json world_json(const System& system, const Sequence& sequence, const RunSummary& summary,
+                const std::vector<TrueSign>& signs) {
+  const Map& map = system.map();
+  Json points = Json::array(), keyframes = Json::array(), trajectory = Json::array(), truth = Json::array(),
+       true_signs = Json::array();
+  std::vector<int> good;
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    if (!map.points[i].bad) good.push_back(static_cast<int>(i));
+  for (const int id : spread(good, kReportPoints))
+    for (const double value : map.point(id).p_w) points.push_back(short_number(value));
+  for (const int id : map.keyframe_ids())
+    keyframes.push_back({{"frame", map.keyframe(id).frame.index}, {"pose", short_pose(map.keyframe(id).T_w_c)}});
+  for (const FrameRecord& record : system.records())
+    trajectory.push_back(record.state == FrameState::tracked ? short_pose(system.final_pose(record)) : Json(nullptr));
+  if (is_aligned(summary)) {
+    const Similarity& alignment = summary.trajectory.alignment;
+    for (const StampedPose* pose : truth_of_frames(system, sequence))
+      truth.push_back(pose ? short_vector(to_map(alignment, pose->T_w_c.t)) : Json(nullptr));
+    for (const TrueSign& sign : signs) {
+      std::array<Vec3, 4> corners;
+      for (std::size_t i = 0; i < 4; ++i) corners[i] = to_map(alignment, sign.corners[i]);
+      true_signs.push_back({{"id", sign.id}, {"word", sign.word}, {"corners", short_corners(corners)}});
+    }
+  }
+  return {{"points", points},
+          {"keyframes", keyframes},
+          {"trajectory", trajectory},
+          {"truth", truth},
+          {"signs", true_signs}};
+}
+
+Json series_json(const System& system, const Sequence& sequence, const RunSummary& summary) {
+  Json times = Json::array(), points = Json::array(), texts = Json::array(), errors = Json::array(),
+       live_errors = Json::array(), costs = Json::array(), live_costs = Json::array();
+  std::string states;
+  const Similarity map_world = inverse(system.live_world());
+  const bool aligned = is_aligned(summary);
+  const bool live_aligned = aligned && textplane::is_ok(summary.live.status);
+  const auto truth = truth_of_frames(system, sequence);
+  const auto error = [](const Similarity& alignment, const Vec3& position, const StampedPose& pose) {
+    return short_number((alignment * position - pose.T_w_c.t).norm());
+  };
+  for (std::size_t i = 0; i < system.records().size(); ++i) {
+    const FrameRecord& record = system.records()[i];
+    const bool tracked = record.state == FrameState::tracked;
+    times.push_back(short_number(record.timestamp - system.records().front().timestamp));
+    states += tracked ? (record.live ? 't' : 'f') : record.state == FrameState::lost ? 'l' : 'w';
+    points.push_back(tracked ? record.points : 0);
+    texts.push_back(tracked ? record.texts : 0);
+    const std::vector<SeenPoint> seen = points_of(system, i);
+    const bool known = truth[i] != nullptr;
+    const SE3d T_w_c = tracked ? system.final_pose(record) : SE3d{};
+    errors.push_back(aligned && tracked && known ? error(summary.trajectory.alignment, T_w_c.t, *truth[i]) : Json());
+    live_errors.push_back(
+        live_aligned && record.live && known ? error(summary.live.alignment, record.T_w_c_live.t, *truth[i]) : Json());
+    costs.push_back(tracked ? short_number(reprojection(system.map(), seen, T_w_c.inverse())) : Json());
+    const SE3d T_w_c_live = map_world * record.T_w_c_live;
+    live_costs.push_back(record.live ? short_number(reprojection(system.map(), seen, T_w_c_live.inverse())) : Json());
+  }
+  return {{"time", times},   {"state", states},           {"points", points}, {"texts", texts},
+          {"error", errors}, {"error_live", live_errors}, {"cost", costs},    {"cost_live", live_costs}};
+}
+
+Json report_timing_json(const System& system) {
+  const auto stage = [&](const char* name, double FrameRecord::*member) {
+    Json values = Json::array();
+    std::vector<double> live;
+    for (const FrameRecord& record : system.records()) {
+      values.push_back(short_number(std::round(100 * record.*member) / 100));
+      if (record.live) live.push_back(record.*member);
+    }
+    return Json{{"name", name},
+                {"median", short_number(median(live))},
+                {"p95", short_number(percentile95(live))},
+                {"ms", values}};
+  };
+  return Json::array({stage("detection", &FrameRecord::detect_ms), stage("tracking", &FrameRecord::track_ms),
+                      stage("tracking: corners", &FrameRecord::klt_ms), stage("tracking: pose", &FrameRecord::pose_ms),
+                      stage("tracking: map points found again", &FrameRecord::reobserve_ms),
+                      stage("mapping", &FrameRecord::map_ms), stage("mapping: adjustment", &FrameRecord::adjust_ms)});
+}
+
+}  // namespace textslam

@@ -1,0 +1,60 @@
+// TextRefiner: the last word on the planes of texts, once the poses of the key frames are known.
+//
+// Each text is compared between key frames that show it, from several hosts, with all its pixels, each pair of views brought to
+// the same blur first (textplane/photometry/blur.hpp). What a host's own sampling makes of narrow strokes differs from host to
+// host, so their planes are averaged; how far they scatter goes into the covariance, and so does how far the views of a host
+// pull its plane apart (jackknife.hpp). In the end the map points of the surface that a text lies on have their say
+// (text_surface.hpp).
+#ifndef TEXTSLAM_TEXT_TEXT_REFINER_HPP
+#define TEXTSLAM_TEXT_TEXT_REFINER_HPP
+
+#include <vector>
+
+#include "textplane/photometry/blur.hpp"
+#include "textplane/solver/plane.hpp"
+#include "textslam/map/map.hpp"
+#include "textslam/common/parameters.hpp"
+
+namespace textslam {
+
+class TextRefiner {
+ public:
+  TextRefiner(Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
+
+  /// Theta and covariance of every mapped text; drops those whose normal stays unknown, the surface included. A text that too
+  /// few key frames show whole keeps what it has.
+  void refine();
+
+ private:
+  struct View {
+    int keyframe;
+    SE3d T_c_w;
+    Quad<double> quad;
+    double area;
+  };
+  struct Estimate {
+    Vec3 theta;  // in the text's host
+    Eigen::Matrix3d covariance;
+    double zncc;
+  };
+
+  std::vector<View> views_of(const TextObject& text) const;
+  bool estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out);
+  bool add_target(const textplane::TextPatch& patch, const Vec3& theta, const View& host, const View& view);
+  bool drop_unlike(const Vec3& theta);
+  Eigen::Matrix3d disagreement(const Vec3& theta);
+  void refine(TextObject& text);
+
+  Map& map_;
+  const Parameters& parameters_;
+  textplane::BlurFilter filter_;
+  textplane::PlaneWorkspace workspace_;
+  textplane::PhotometricWorkspace photometric_;
+  std::vector<textplane::PlaneTarget> targets_;
+  std::vector<textplane::TextPatch> patches_;             // as each target's blur shows the host
+  std::vector<textplane::Image<std::uint8_t>> filtered_;  // the targets, where the text is
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_TEXT_TEXT_REFINER_HPP

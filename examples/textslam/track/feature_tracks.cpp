@@ -1,0 +1,107 @@
+#include "textslam/track/feature_tracks.hpp"
+
+#include <algorithm>
+
+#include "textplane/features/fast.hpp"
+#include "textplane/features/klt.hpp"
+#include "textplane/features/select.hpp"
+
+namespace textslam {
+namespace {
+
+constexpr int kTextCell = 6;    // px between the corners of a text
+constexpr int kFineLevels = 2;  // pyramid levels that a good guess needs
+
+textplane::KltOptions klt_options(const Parameters& parameters) {
+  textplane::KltOptions options;
+  options.half_window = parameters.klt_half_window;
+  options.levels = parameters.pyramid_levels;
+  options.max_forward_backward = parameters.max_forward_backward;
+  options.min_zncc = parameters.min_track_zncc;
+  return options;
+}
+
+// Good guesses need the fine levels alone; what fails there is looked for from the coarsest on.
+std::vector<textplane::KltResult> follow(const Frame& from, const Frame& to, const std::vector<Vec2f>& start,
+                                         const std::vector<Vec2f>& guesses, textplane::KltOptions options) {
+  const textplane::PyramidView from_view = from.image->view(), to_view = to.image->view();
+  std::vector<textplane::KltResult> results(start.size());
+  if (guesses.empty()) {
+    textplane::track_klt(from_view, to_view, start.data(), nullptr, static_cast<int>(start.size()), options,
+                         results.data());
+    return results;
+  }
+  textplane::KltOptions fine = options;
+  fine.levels = std::min(kFineLevels, options.levels);
+  textplane::track_klt(from_view, to_view, start.data(), guesses.data(), static_cast<int>(start.size()), fine,
+                       results.data());
+  for (std::size_t i = 0; i < start.size(); ++i)
+    if (!textplane::is_ok(results[i].status))
+      textplane::track_klt(from_view, to_view, &start[i], &guesses[i], 1, options, &results[i]);
+  return results;
+}
+
+}  // namespace
+
+void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>& guesses, const Parameters& parameters,
+                    std::vector<Track>& tracks) {
+  if (tracks.empty()) return;
+  std::vector<Vec2f> start;
+  for (const Track& track : tracks) start.push_back(track.px);
+  const std::vector<textplane::KltResult> results = follow(from, to, start, guesses, klt_options(parameters));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (!textplane::is_ok(results[i].status)) continue;
+    if (kept != i) tracks[kept] = std::move(tracks[i]);
+    tracks[kept].px = results[i].px;
+    ++kept;
+  }
+  tracks.resize(kept);
+}
+
+void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double>>& quads, const Parameters& parameters,
+                 std::vector<Track>& tracks) {
+  const textplane::ImageView8 image = frame.image->level(0);
+  const int border = parameters.klt_half_window + 2;
+  std::vector<textplane::Corner> corners;
+  const int lowest = parameters.min_fast_threshold;
+  textplane::detect_fast(image, std::min(parameters.fast_threshold, lowest), true, corners);
+  textplane::keep_enough(&corners, std::max(parameters.fast_threshold, lowest), lowest, 4 * parameters.max_tracks,
+                         [](int threshold) { return threshold / 2; });
+  const auto inside = [&](const Vec2f& px) {
+    return px.x() >= static_cast<float>(border) && px.y() >= static_cast<float>(border) &&
+           px.x() < static_cast<float>(image.width() - border) && px.y() < static_cast<float>(image.height() - border);
+  };
+  const auto add = [&](const Vec2f& px) {
+    Track track;
+    track.px = px;
+    track.observations.push_back({keyframe, px.cast<double>()});
+    tracks.push_back(std::move(track));
+  };
+
+  // Text first, and more densely: its plane is solved for from these corners.
+  for (const Quad<double>& quad : quads) {
+    std::vector<Vec2f> occupied;
+    for (const Track& track : tracks) occupied.push_back(track.px);
+    std::vector<textplane::Corner> in_quad;
+    for (const textplane::Corner& corner : corners)
+      if (inside({corner.x, corner.y}) && textplane::contains(quad, Vec2(corner.x, corner.y)))
+        in_quad.push_back(corner);
+    textplane::select_spread(in_quad, image.width(), image.height(), kTextCell, parameters.text_corners, occupied,
+                             in_quad);
+    for (const textplane::Corner& corner : in_quad) add({corner.x, corner.y});
+  }
+
+  std::vector<Vec2f> occupied;
+  for (const Track& track : tracks) occupied.push_back(track.px);
+  corners.erase(std::remove_if(corners.begin(), corners.end(),
+                               [&](const textplane::Corner& c) {
+                                 return !inside({c.x, c.y});
+                               }),
+                corners.end());
+  textplane::select_spread(corners, image.width(), image.height(), parameters.corner_cell,
+                           parameters.max_tracks - static_cast<int>(tracks.size()), occupied, corners);
+  for (const textplane::Corner& corner : corners) add({corner.x, corner.y});
+}
+
+}  // namespace textslam

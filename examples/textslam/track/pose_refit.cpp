@@ -1,0 +1,38 @@
+#include "textslam/track/pose_refit.hpp"
+
+#include "textplane/solver/pose.hpp"
+
+namespace textslam {
+
+std::vector<SeenPoint> seen_points(const std::vector<Track>& tracks, std::size_t most) {
+  std::vector<SeenPoint> all;
+  for (const Track& track : tracks)
+    if (track.point >= 0 && track.inlier) all.push_back({track.point, track.px});
+  if (all.size() <= most) return all;
+  std::vector<SeenPoint> thinned;
+  for (std::size_t i = 0; i < most; ++i) thinned.push_back(all[i * all.size() / most]);
+  return thinned;
+}
+
+bool refit_pose(const Map& map, const Parameters& parameters, const std::vector<SeenPoint>& seen, SE3d* T_c_w) {
+  std::vector<textplane::PosePointTerm> points;
+  for (const SeenPoint& s : seen)
+    if (!map.point(s.point).bad)
+      points.push_back({map.point(s.point).p_w, s.px.cast<double>(), parameters.point_sigma});
+  const int count = static_cast<int>(points.size());
+  if (count < parameters.refit_min_points) return false;
+  textplane::PoseWorkspace workspace;
+  workspace.reserve(nullptr, 0, count);
+  const textplane::PoseOptions options;
+  std::vector<float> chi2(points.size());
+  const auto result = textplane::refine_pose(nullptr, 0, points.data(), count, textplane::PyramidView(), map.camera,
+                                             *T_c_w, options, workspace, nullptr, chi2.data());
+  if (!textplane::is_ok(result.status)) return false;
+  int inliers = 0;
+  for (const float c : chi2) inliers += c >= 0 && c <= 2 * parameters.outlier_chi2 ? 1 : 0;
+  if (inliers < parameters.refit_min_points) return false;
+  *T_c_w = textplane::renormalised(result.T_t_w);
+  return true;
+}
+
+}  // namespace textslam
