@@ -12,7 +12,8 @@ namespace textslam {
 
 std::uint8_t grey_at(ImageView8 image, double x, double y) {
   double value = 0;
-  textplane::sample_bilinear(image, std::clamp(x, 0.0, image.width() - 1.0), std::clamp(y, 0.0, image.height() - 1.0), &value);
+  textplane::sample_bilinear(image, std::clamp(x, 0.0, image.width() - 1.0), std::clamp(y, 0.0, image.height() - 1.0),
+                             &value);
   return static_cast<std::uint8_t>(std::lround(value));
 }
 

@@ -7,9 +7,9 @@
 #include "io/interrupt.hpp"
 #include "renderer/render_sequence.hpp"
 #include "textslam/detect/detector_options.hpp"
+#include "textslam/input/sequence_options.hpp"
 #include "textslam/report/progress.hpp"
 #include "textslam/run.hpp"
-#include "textslam/input/sequence_options.hpp"
 
 namespace {
 

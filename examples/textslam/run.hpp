@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "textslam/report/outputs.hpp"
 #include "textslam/common/parameters.hpp"
 #include "textslam/detect/text_detector.hpp"
+#include "textslam/report/outputs.hpp"
 
 namespace textslam {
 

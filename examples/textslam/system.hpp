@@ -19,14 +19,14 @@
 
 #include "io/evaluate.hpp"
 #include "textslam/adjust/adjuster.hpp"
-#include "textslam/init/initialiser.hpp"
-#include "textslam/map/local_map.hpp"
-#include "textslam/loop/loop_closure.hpp"
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
-#include "textslam/track/pose_refit.hpp"
 #include "textslam/detect/text_detector.hpp"
+#include "textslam/init/initialiser.hpp"
+#include "textslam/loop/loop_closure.hpp"
+#include "textslam/map/local_map.hpp"
+#include "textslam/map/map.hpp"
 #include "textslam/text/text_mapper.hpp"
+#include "textslam/track/pose_refit.hpp"
 #include "textslam/track/tracker.hpp"
 
 namespace textslam {

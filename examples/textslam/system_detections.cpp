@@ -1,8 +1,8 @@
 // System, the part that takes detections which come after their frame was tracked.
 #include <algorithm>
 
-#include "textslam/track/late_corners.hpp"
 #include "textslam/system.hpp"
+#include "textslam/track/late_corners.hpp"
 
 namespace textslam {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "textslam/adjust/adjustment.hpp"
 #include "textslam/loop/map_join.hpp"
-#include "textslam/track/recovery.hpp"
 #include "textslam/system.hpp"
+#include "textslam/track/recovery.hpp"
 
 namespace textslam {
 

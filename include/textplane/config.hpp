@@ -56,11 +56,12 @@
 #define TEXTPLANE_ABI_TARGET
 #endif
 
-#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target) v##major##_##minor##_##isa##_##math##_##align##target
+#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target) \
+  v##major##_##minor##_##isa##_##math##_##align##target
 #define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, target) \
   TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target)
-#define TEXTPLANE_ABI                                                                                               \
-  TEXTPLANE_ABI_JOIN(TEXTPLANE_VERSION_MAJOR, TEXTPLANE_VERSION_MINOR, TEXTPLANE_ABI_ISA, TEXTPLANE_ABI_MATH,      \
+#define TEXTPLANE_ABI                                                                                         \
+  TEXTPLANE_ABI_JOIN(TEXTPLANE_VERSION_MAJOR, TEXTPLANE_VERSION_MINOR, TEXTPLANE_ABI_ISA, TEXTPLANE_ABI_MATH, \
                      TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_TARGET)
 
 #define TEXTPLANE_BEGIN_NAMESPACE \

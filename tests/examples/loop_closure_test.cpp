@@ -8,8 +8,8 @@
 #include "textplane/geometry/plane.hpp"
 #include "textslam/loop/loop_alignment.hpp"
 #include "textslam/loop/loop_closure.hpp"
-#include "textslam/map/point_mapper.hpp"
 #include "textslam/loop/pose_graph.hpp"
+#include "textslam/map/point_mapper.hpp"
 
 namespace textslam {
 namespace loop_closure_test {

@@ -7,10 +7,10 @@
 
 #include "examples/io_support.hpp"
 #include "textplane/geometry/plane.hpp"
-#include "textslam/report/evaluate_text.hpp"
 #include "textslam/common/parameters.hpp"
-#include "textslam/map/point_mapper.hpp"
 #include "textslam/init/two_view.hpp"
+#include "textslam/map/point_mapper.hpp"
+#include "textslam/report/evaluate_text.hpp"
 
 namespace textslam {
 namespace textslam_pieces_test {
@@ -67,8 +67,7 @@ TEST(TwoViewTest, ExactMatchesGiveTheMotionWhateverItsDirection) {
     EXPECT_LT(view.rms, 0.01);
     ASSERT_FALSE(view.motions.empty());
     EXPECT_EQ(view.motions[0].T_b_a.t, view.T_b_a.t);
-    for (std::size_t i = 1; i < view.motions.size(); ++i)
-      EXPECT_GT(view.motions[i].cost, 2 * view.motions[0].cost);
+    for (std::size_t i = 1; i < view.motions.size(); ++i) EXPECT_GT(view.motions[i].cost, 2 * view.motions[0].cost);
   }
 }
 

@@ -48,7 +48,9 @@ TEXTPLANE_SIMD_ENTRY void conversions(const float* pa, const int* pb, int* ints,
   store(floats, to_float(loadi(pb)));
 }
 
-TEXTPLANE_SIMD_ENTRY void inverse_roots(const float* p, float* out) noexcept { store(out, inverse_root(hold(load(p)))); }
+TEXTPLANE_SIMD_ENTRY void inverse_roots(const float* p, float* out) noexcept {
+  store(out, inverse_root(hold(load(p))));
+}
 
 // Masks as bits; the last entries are counts and truth values.
 TEXTPLANE_SIMD_ENTRY void mask_operations(const float* pa, const float* pb, const int* pi, const int* pj,
@@ -109,7 +111,9 @@ TEXTPLANE_SIMD_ENTRY void load_bytes(const std::uint8_t* p, float* floats, int* 
   store(floats, load_u8(p));
   storei(ints, load_u8i(p));
 }
-TEXTPLANE_SIMD_ENTRY void partial_store_floats(float* p, const float* from, int n) noexcept { store_n(p, load(from), n); }
+TEXTPLANE_SIMD_ENTRY void partial_store_floats(float* p, const float* from, int n) noexcept {
+  store_n(p, load(from), n);
+}
 TEXTPLANE_SIMD_ENTRY void partial_store_ints(int* p, const int* from, int n) noexcept { storei_n(p, loadi(from), n); }
 TEXTPLANE_SIMD_ENTRY unsigned first_lanes(int n) noexcept { return bits(first_n(n)); }
 

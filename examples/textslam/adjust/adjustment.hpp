@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "textslam/map/map.hpp"
-#include "textslam/init/motion_rivals.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/init/motion_rivals.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "textslam/map/local_map.hpp"
 #include "textslam/loop/map_join.hpp"
+#include "textslam/map/local_map.hpp"
 
 namespace textslam {
 

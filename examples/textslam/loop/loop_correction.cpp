@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textslam/common/statistics.hpp"
 #include "textslam/loop/loop_alignment.hpp"
 #include "textslam/loop/loop_closure.hpp"
-#include "textslam/map/point_mapper.hpp"
 #include "textslam/loop/pose_graph.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/map/point_mapper.hpp"
 #include "textslam/text/text_merge.hpp"
 
 namespace textslam {

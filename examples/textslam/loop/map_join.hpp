@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "io/evaluate.hpp"
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/map/map.hpp"
 #include "textslam/track/recovery.hpp"
 
 namespace textslam {

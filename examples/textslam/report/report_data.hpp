@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/evaluate_signs.hpp"
-#include "textslam/report/outputs.hpp"
 #include "textslam/common/report_json.hpp"
+#include "textslam/report/outputs.hpp"
 
 namespace textslam {
 

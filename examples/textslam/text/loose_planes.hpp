@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 

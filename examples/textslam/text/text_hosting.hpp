@@ -9,8 +9,8 @@
 #ifndef TEXTSLAM_TEXT_TEXT_HOSTING_HPP
 #define TEXTSLAM_TEXT_TEXT_HOSTING_HPP
 
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 

@@ -4,8 +4,8 @@
 #ifndef TEXTSLAM_TEXT_TEXT_MERGE_HPP
 #define TEXTSLAM_TEXT_TEXT_MERGE_HPP
 
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "textplane/photometry/residual_types.hpp"
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 

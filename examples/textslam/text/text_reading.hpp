@@ -6,9 +6,9 @@
 #ifndef TEXTSLAM_TEXT_TEXT_READING_HPP
 #define TEXTSLAM_TEXT_TEXT_READING_HPP
 
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
 #include "textslam/detect/text_detector.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 

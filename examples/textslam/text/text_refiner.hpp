@@ -12,8 +12,8 @@
 
 #include "textplane/photometry/blur.hpp"
 #include "textplane/solver/plane.hpp"
-#include "textslam/map/map.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 

@@ -11,7 +11,7 @@
 namespace textslam {
 namespace {
 
-constexpr double kSamePose = 3;      // degrees between two poses by one text that count as one
+constexpr double kSamePose = 3;  // degrees between two poses by one text that count as one
 
 bool is_match(const std::string& a, const std::string& b, WordMatch match) {
   const bool read = is_read(a) && is_read(b), same = read && a == b;

@@ -13,9 +13,9 @@
 namespace textslam {
 namespace {
 
-constexpr double kPriorZncc = 0.4;      // below it two whole images say nothing about each other
-constexpr int kTemplateHalf = 5;        // px: half width of a re-observed patch
-constexpr double kMaxDrift = 1.5;       // px that a tracked corner may be moved back onto its host's patch
+constexpr double kPriorZncc = 0.4;  // below it two whole images say nothing about each other
+constexpr int kTemplateHalf = 5;    // px: half width of a re-observed patch
+constexpr double kMaxDrift = 1.5;   // px that a tracked corner may be moved back onto its host's patch
 
 // How a fronto-parallel patch at p_w of the host's view shows in the target: px displacement of the host per px of
 // target.

@@ -9,9 +9,9 @@
 
 #include <vector>
 
+#include "textslam/common/parameters.hpp"
 #include "textslam/map/local_map.hpp"
 #include "textslam/map/map.hpp"
-#include "textslam/common/parameters.hpp"
 
 namespace textslam {
 

@@ -24,7 +24,8 @@ Matrix3<S> hat(const Vector3<S>& w) noexcept {
 /// A rigid motion p -> R p + t. A plain aggregate without alignment demands: store it, copy it, put it in any container.
 template <class S>
 struct SE3 {
-  static_assert(!std::is_integral<S>::value, "textplane: a pose of integers; its scalar is float, double or a dual number");
+  static_assert(!std::is_integral<S>::value,
+                "textplane: a pose of integers; its scalar is float, double or a dual number");
 
   /// Rotation: source to destination frame.
   Matrix3<S> R = Matrix3<S>::Identity();

@@ -78,7 +78,8 @@ class TemplatePatch {
 
   void set_pixels(const PatchView& patch, std::size_t room) {
     float *u = numbers(floats_), *v = u + room, *gx = v + room, *gy = gx + room;
-    const float hx = middle(model_.bounds.x_low, model_.bounds.x_high), hy = middle(model_.bounds.y_low, model_.bounds.y_high);
+    const float hx = middle(model_.bounds.x_low, model_.bounds.x_high),
+                hy = middle(model_.bounds.y_low, model_.bounds.y_high);
     for (int i = 0; i < patch.n; ++i) {
       u[i] = patch.x[i] - hx;
       v[i] = patch.y[i] - hy;
@@ -188,8 +189,8 @@ bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, con
                          const TemplatePatch* prepared, NormalEquations<P>* out) noexcept {
   if (!kernels_take(in, options, workspace)) return false;
   const bool esm = policy == LinearisePolicy::esm;
-  const simd::EsmArgs args{kernel_args(in, theta, T_t_h, options, workspace, workspace.visible_flags(), nullptr), in.patch.gx,
-                           in.patch.gy, esm, workspace.more_scratch()};
+  const simd::EsmArgs args{kernel_args(in, theta, T_t_h, options, workspace, workspace.visible_flags(), nullptr),
+                           in.patch.gx, in.patch.gy, esm, workspace.more_scratch()};
   double block_H[81], block_b[9];
   double *H = P == 9 ? out->H.data() : block_H, *b = P == 9 ? out->b.data() : block_b;
   simd::ResidualInfo info;
@@ -208,8 +209,8 @@ bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, con
 // The policies with the host's gradients. (A function with one variable to return: it is made where the caller wants it.)
 template <int P>
 NormalEquations<P> linearise_by_host(LinearisePolicy policy, const PhotometricInput& in, const Vector3<double>& theta,
-                                     const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
-                                     const TemplatePatch* prepared) noexcept {
+                                     const SE3d& T_t_h, const PhotometricOptions& options,
+                                     PhotometricWorkspace& workspace, const TemplatePatch* prepared) noexcept {
   const bool known = policy == LinearisePolicy::template_jacobian || policy == LinearisePolicy::esm;
   NormalEquations<P> out{Unset()};
   if (!known || !in.patch.gx || !in.patch.gy ||

@@ -25,12 +25,12 @@ constexpr int kBatchLanes = 16;
 
 /// What is known of a group's objects before the pose, one object a lane. Lanes without an object have n = 0 and finite numbers.
 struct BatchGroup {
-  double theta[3][kBatchLanes];                ///< Planes in the host frames.
-  double ifx[kBatchLanes], ify[kBatchLanes];   ///< 1 / focal lengths of the hosts.
-  double mu[kBatchLanes], mv[kBatchLanes];     ///< Normalised host coordinates of the patch's centre, where u = v = 0.
-  double ru[kBatchLanes], rv[kBatchLanes];     ///< All |u| <= ru, |v| <= rv.
-  int n[kBatchLanes];                          ///< Pixels.
-  std::ptrdiff_t start;                        ///< Of the group's pixels in BatchArgs::pixels.
+  double theta[3][kBatchLanes];               ///< Planes in the host frames.
+  double ifx[kBatchLanes], ify[kBatchLanes];  ///< 1 / focal lengths of the hosts.
+  double mu[kBatchLanes], mv[kBatchLanes];    ///< Normalised host coordinates of the patch's centre, where u = v = 0.
+  double ru[kBatchLanes], rv[kBatchLanes];    ///< All |u| <= ru, |v| <= rv.
+  int n[kBatchLanes];                         ///< Pixels.
+  std::ptrdiff_t start;                       ///< Of the group's pixels in BatchArgs::pixels.
 };
 
 /// Entries of a result: H's upper triangle row by row (45, or 21), b (9, or 6), then these.
@@ -41,8 +41,8 @@ constexpr int batch_entries(int parameters) noexcept {
 
 struct BatchArgs {
   const BatchGroup* groups = nullptr;
-  int count = 0;                    ///< Objects, kBatchLanes a group.
-  const float* pixels = nullptr;    ///< Of a group from its start on: [pixel][u, v, intensity][lane].
+  int count = 0;                  ///< Objects, kBatchLanes a group.
+  const float* pixels = nullptr;  ///< Of a group from its start on: [pixel][u, v, intensity][lane].
   /// Pose of object i: R at pose + i * pose_step, column by column, t three numbers from there + t_offset on.
   const double* pose = nullptr;
   std::ptrdiff_t pose_step = 12, t_offset = 9;
@@ -52,9 +52,10 @@ struct BatchArgs {
   double delta = 0.5;
   double min_contrast = 0;
   int min_visible = 1;
-  float* scratch = nullptr;         ///< batch_scratch(largest n) floats.
-  float* out = nullptr;             ///< [group][entry][lane], batch_entries(P) entries; zero unless the status is ok, but `visible`.
-  Status* status = nullptr;         ///< One an object.
+  float* scratch = nullptr;  ///< batch_scratch(largest n) floats.
+  float* out =
+      nullptr;  ///< [group][entry][lane], batch_entries(P) entries; zero unless the status is ok, but `visible`.
+  Status* status = nullptr;  ///< One an object.
 };
 
 /// Floats of BatchArgs::out for `count` objects.
@@ -63,7 +64,9 @@ constexpr std::size_t batch_floats(int count, int parameters) noexcept {
   return static_cast<std::size_t>(groups) * kBatchLanes * static_cast<std::size_t>(batch_entries(parameters));
 }
 /// Floats of scratch memory for objects of at most n pixels.
-constexpr std::size_t batch_scratch(int n) noexcept { return static_cast<std::size_t>(n > 0 ? n : 0) * 12 * kBatchLanes; }
+constexpr std::size_t batch_scratch(int n) noexcept {
+  return static_cast<std::size_t>(n > 0 ? n : 0) * 12 * kBatchLanes;
+}
 
 }  // namespace simd
 
@@ -71,7 +74,7 @@ namespace detail {
 // A vector's worth of objects: constants of the warp, of rows and of the image's border, one a lane. `scale` is in rho and t.
 struct BatchFrame {
   float g[9][simd::kBatchLanes], rho[3][simd::kBatchLanes], t[3][simd::kBatchLanes];
-  float u0[simd::kBatchLanes], v0[simd::kBatchLanes];      // normalised target coordinates of the origin
+  float u0[simd::kBatchLanes], v0[simd::kBatchLanes];        // normalised target coordinates of the origin
   float hu[2][simd::kBatchLanes], hv[2][simd::kBatchLanes];  // host: mu = hu0 u + hu1
   float x_low[simd::kBatchLanes], x_high[simd::kBatchLanes], y_low[simd::kBatchLanes], y_high[simd::kBatchLanes];
   std::int32_t n[simd::kBatchLanes];
@@ -92,10 +95,9 @@ namespace simd {
 
 /// Costs alone (P = 0), normal equations of the pose (6), of pose and plane (9), for all objects.
 TEXTPLANE_KERNEL void batch_evaluate(const BatchArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(batch_evaluate(args))
-TEXTPLANE_KERNEL void batch_linearise_pose(const BatchArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(batch_linearise_pose(args))
-TEXTPLANE_KERNEL void batch_linearise_pose_plane(const BatchArgs& args) noexcept
+    TEXTPLANE_SIMD_BODY(batch_evaluate(args)) TEXTPLANE_KERNEL void batch_linearise_pose(const BatchArgs& args) noexcept
+    TEXTPLANE_SIMD_BODY(batch_linearise_pose(args)) TEXTPLANE_KERNEL
+    void batch_linearise_pose_plane(const BatchArgs& args) noexcept
     TEXTPLANE_SIMD_BODY(batch_linearise_pose_plane(args))
 
 }  // namespace simd

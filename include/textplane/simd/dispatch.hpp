@@ -125,24 +125,24 @@ TEXTPLANE_END_NAMESPACE
 #if defined(TEXTPLANE_TARGET)
 #define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::TEXTPLANE_TARGET::call;
 #elif TEXTPLANE_HAS_AVX512
-#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
-  switch (::textplane::simd::active_target()) {                                                     \
-    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;                 \
-    case ::textplane::simd::Target::avx2: return ::textplane::detail::avx2::call;                   \
-    case ::textplane::simd::Target::avx512: return ::textplane::detail::avx512::call;               \
-    default: return ::textplane::detail::scalar::call;                                              \
+#define TEXTPLANE_SIMD_DISPATCH(call)                                                 \
+  switch (::textplane::simd::active_target()) {                                       \
+    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;   \
+    case ::textplane::simd::Target::avx2: return ::textplane::detail::avx2::call;     \
+    case ::textplane::simd::Target::avx512: return ::textplane::detail::avx512::call; \
+    default: return ::textplane::detail::scalar::call;                                \
   }
 #elif TEXTPLANE_HAS_SSE41
-#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
-  switch (::textplane::simd::active_target()) {                                                     \
-    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;                 \
-    default: return ::textplane::detail::scalar::call;                                              \
+#define TEXTPLANE_SIMD_DISPATCH(call)                                               \
+  switch (::textplane::simd::active_target()) {                                     \
+    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call; \
+    default: return ::textplane::detail::scalar::call;                              \
   }
 #elif TEXTPLANE_HAS_NEON
-#define TEXTPLANE_SIMD_DISPATCH(call)                                                               \
-  switch (::textplane::simd::active_target()) {                                                     \
-    case ::textplane::simd::Target::neon: return ::textplane::detail::neon::call;                   \
-    default: return ::textplane::detail::scalar::call;                                              \
+#define TEXTPLANE_SIMD_DISPATCH(call)                                             \
+  switch (::textplane::simd::active_target()) {                                   \
+    case ::textplane::simd::Target::neon: return ::textplane::detail::neon::call; \
+    default: return ::textplane::detail::scalar::call;                            \
   }
 #else
 #define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::scalar::call;

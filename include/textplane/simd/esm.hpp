@@ -19,8 +19,8 @@ struct EsmArgs {
   ResidualArgs base;          ///< base.flags must be given.
   const float* gx = nullptr;  ///< n gradients of the host image at its pixels, intensity units a px.
   const float* gy = nullptr;
-  bool average = true;        ///< The mean of both sides (ESM); else the host's alone (template Jacobian).
-  float* scratch = nullptr;   ///< esm_scratch(n) floats besides those of base.
+  bool average = true;       ///< The mean of both sides (ESM); else the host's alone (template Jacobian).
+  float* scratch = nullptr;  ///< esm_scratch(n) floats besides those of base.
 };
 
 /// Floats of scratch memory for n pixels, besides residual_scratch(n).

@@ -84,10 +84,10 @@ enum : int {
 struct ResidualFrame {
   simd::Warp8 warp;
   SampleFrame sample;
-  TapWindows windows;  // used where its guess is likely
-  float rho[3];       // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
-  double inverse[9];  // H^-1, row-major
-  double q[3];        // theta^T H^-1
+  TapWindows windows;     // used where its guess is likely
+  float rho[3];           // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
+  double inverse[9];      // H^-1, row-major
+  double q[3];            // theta^T H^-1
   double c, d, ifx, ify;  // ifx, ify: 1 / focal lengths of the target
   bool inside;            // if true, every pixel of the patch is visible
 };
@@ -126,15 +126,14 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 TEXTPLANE_KERNEL void linearise_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                 double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_plane_sums(args, out, H, b))
-TEXTPLANE_KERNEL void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_pose_sums(args, out, H, b))
-TEXTPLANE_KERNEL void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                      double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_pose_plane_sums(args, out, H, b))
-TEXTPLANE_KERNEL void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept
+                                           double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_plane_sums(args, out, H, b)) TEXTPLANE_KERNEL
+    void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_pose_sums(args, out, H, b)) TEXTPLANE_KERNEL
+    void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                   double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_pose_plane_sums(args, out, H, b)) TEXTPLANE_KERNEL
+    void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept
     TEXTPLANE_SIMD_BODY(evaluate_cost(args, out))
 }  // namespace detail
 

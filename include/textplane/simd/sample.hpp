@@ -35,8 +35,8 @@ inline bool readable(const Image8& image) noexcept {
   const std::int64_t most = 0x7fffffff, rows = image.height;  // products of two numbers below `most`, no slow division
   return image.data != nullptr && image.width >= 2 && image.height >= 2 && image.stride >= image.width &&
          image.stride <= most && image.stride * rows <= most &&
-         (image.pairs == nullptr || (image.pair_stride >= image.width && image.pair_stride <= most &&
-                                     2 * (image.pair_stride * rows) <= most));
+         (image.pairs == nullptr ||
+          (image.pair_stride >= image.width && image.pair_stride <= most && 2 * (image.pair_stride * rows) <= most));
 }
 
 /// A homography between recentred coordinates, in float: with u = x - hx and v = y - hy the target pixel is
@@ -113,10 +113,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 TEXTPLANE_KERNEL void point_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept
-    TEXTPLANE_SIMD_BODY(point_bounds(x, y, n, out))
-TEXTPLANE_KERNEL void warp_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
-    TEXTPLANE_SIMD_BODY(warp_points(args, result))
-TEXTPLANE_KERNEL void sample_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
+    TEXTPLANE_SIMD_BODY(point_bounds(x, y, n, out)) TEXTPLANE_KERNEL
+    void warp_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
+    TEXTPLANE_SIMD_BODY(warp_points(args, result)) TEXTPLANE_KERNEL
+    void sample_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
     TEXTPLANE_SIMD_BODY(sample_points(args, result))
 }  // namespace detail
 

@@ -86,11 +86,11 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-TEXTPLANE_KERNEL void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
-                               simd::ResidualInfo* out, double* H, double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_template(m, args, values, out, H, b))
-TEXTPLANE_KERNEL void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
-                              simd::ResidualInfo* out) noexcept
+TEXTPLANE_KERNEL void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& args,
+                                         std::int16_t* values, simd::ResidualInfo* out, double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_template(m, args, values, out, H, b)) TEXTPLANE_KERNEL
+    void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
+                           simd::ResidualInfo* out) noexcept
     TEXTPLANE_SIMD_BODY(evaluate_template(m, args, values, out))
 }  // namespace detail
 
@@ -100,22 +100,23 @@ namespace simd {
 TEXTPLANE_KERNEL void template_sums(const TemplateArgs& args, TemplateSums& sums) noexcept
     TEXTPLANE_SIMD_BODY(template_sums(args, sums))
 
-/// V of every pixel, and the sums of the first column, of V and of V^2: what a correlation needs. The others are zero.
-TEXTPLANE_KERNEL void template_correlation(const TemplateArgs& args, TemplateSums& sums) noexcept
+    /// V of every pixel, and the sums of the first column, of V and of V^2: what a correlation needs. The others are zero.
+    TEXTPLANE_KERNEL void template_correlation(const TemplateArgs& args, TemplateSums& sums) noexcept
     TEXTPLANE_SIMD_BODY(template_correlation(args, sums))
 
-/// Template-Jacobian normal equations for (v, omega, theta), P = 9. Of `args` the host's pixels are not read (n must be the
-/// model's), masks neither: all pixels count, and where not all of them are visible the status is out_of_view, and another
-/// kernel must take the case. `values`: room for n int16, rounded up to blocks. Otherwise as linearise_pose_plane().
-inline ResidualInfo linearise_template(const TemplateModel& model, const ResidualArgs& args, std::int16_t* values, double* H,
-                                       double* b) noexcept {
+    /// Template-Jacobian normal equations for (v, omega, theta), P = 9. Of `args` the host's pixels are not read (n must be the
+    /// model's), masks neither: all pixels count, and where not all of them are visible the status is out_of_view, and another
+    /// kernel must take the case. `values`: room for n int16, rounded up to blocks. Otherwise as linearise_pose_plane().
+    inline ResidualInfo linearise_template(const TemplateModel& model, const ResidualArgs& args, std::int16_t* values,
+                                           double* H, double* b) noexcept {
   ResidualInfo out;
   detail::linearise_template(model, args, values, &out, H, b);
   return out;
 }
 
 /// Cost, E and counts alone, on the same terms. Without Huber this is the correlation: ZNCC = 1 - E / 2.
-inline ResidualInfo evaluate_template(const TemplateModel& model, const ResidualArgs& args, std::int16_t* values) noexcept {
+inline ResidualInfo evaluate_template(const TemplateModel& model, const ResidualArgs& args,
+                                      std::int16_t* values) noexcept {
   ResidualInfo out;
   detail::evaluate_template(model, args, values, &out);
   return out;

@@ -196,8 +196,10 @@ TEXTPLANE_SIMD_INLINE __m256 half_sum_at(const float* p) noexcept {
   return _mm256_add_ps(_mm256_loadu_ps(p), _mm256_loadu_ps(p + 8));
 }
 TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
-  const __m256 a = join_lanes(half_sum_at(p), half_sum_at(p + 16)), b = join_lanes(half_sum_at(p + 32), half_sum_at(p + 48));
-  const __m256 c = join_lanes(half_sum_at(p + 64), half_sum_at(p + 80)), d = join_lanes(half_sum_at(p + 96), half_sum_at(p + 112));
+  const __m256 a = join_lanes(half_sum_at(p), half_sum_at(p + 16)),
+               b = join_lanes(half_sum_at(p + 32), half_sum_at(p + 48));
+  const __m256 c = join_lanes(half_sum_at(p + 64), half_sum_at(p + 80)),
+               d = join_lanes(half_sum_at(p + 96), half_sum_at(p + 112));
   const __m256 q = join_pairs(a, b), r = join_pairs(c, d);
   return vd{_mm512_maskz_cvtps_pd(0xff, join_halves(q, r))};
 }

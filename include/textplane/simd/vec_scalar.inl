@@ -34,7 +34,9 @@ TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return
 TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept { return *p; }
 TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return static_cast<float>(*p); }
 TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept { return n > 0 ? *p : 0; }
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { return n > 0 ? static_cast<float>(*p) : 0.0f; }
+TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept {
+  return n > 0 ? static_cast<float>(*p) : 0.0f;
+}
 
 // --- float arithmetic: IEEE, each operation rounded once ---
 TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
@@ -44,7 +46,10 @@ TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
 #if defined(__clang__)
 __attribute__((no_sanitize("float-divide-by-zero")))
 #endif
-TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return a / b; }
+TEXTPLANE_SIMD_INLINE vf
+div(vf a, vf b) noexcept {
+  return a / b;
+}
 // a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
@@ -63,9 +68,7 @@ TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return a > b ? a : b; }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return TEXTPLANE_SIMD_SQRT(a); }
 // 1 / sqrt(a) within 3e-7 of itself, for positive numbers that are not subnormal.
-TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
-  return 1.0f / sqrt_(a);
-}
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept { return 1.0f / sqrt_(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return TEXTPLANE_SIMD_ABS(a); }
 TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return TEXTPLANE_SIMD_FLOOR(a); }
@@ -109,8 +112,8 @@ TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return !a; }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return m ? a : b; }
 TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return m ? a : b; }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return m ? a : 0.0f; }
-TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return n > 0; }                    // lanes below n; any n
-TEXTPLANE_SIMD_INLINE unsigned bits(vm m) noexcept { return m ? 1u : 0u; }            // bit i is lane i
+TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return n > 0; }          // lanes below n; any n
+TEXTPLANE_SIMD_INLINE unsigned bits(vm m) noexcept { return m ? 1u : 0u; }  // bit i is lane i
 TEXTPLANE_SIMD_INLINE int count(vm m) noexcept { return m ? 1 : 0; }
 TEXTPLANE_SIMD_INLINE bool any(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE bool all(vm m) noexcept { return m; }
@@ -137,7 +140,8 @@ TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept {
 
 // --- one double, one word ---
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return __builtin_sqrt(a); }
-TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t word) noexcept {  // the number of the lowest bit that is set; word != 0
+TEXTPLANE_SIMD_INLINE int lowest_bit(
+    std::uint64_t word) noexcept {  // the number of the lowest bit that is set; word != 0
   int bit = 0;
   for (; (word & 1u) == 0; word >>= 1) ++bit;
   return bit;

@@ -71,16 +71,13 @@ namespace simd {
 
 /// 8-bit source, float output. Returns how many output pixels lie inside the source; -1, and nothing is written, for a source
 /// below 2 x 2 or too large, or an H that is not finite.
-TEXTPLANE_KERNEL int warp_u8_f32(const WarpArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(warp_u8_f32(args))
+TEXTPLANE_KERNEL int warp_u8_f32(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_u8_f32(args))
 
-/// 8-bit source and output, rounded to the nearest integer. Returns as warp_u8_f32().
-TEXTPLANE_KERNEL int warp_u8_u8(const WarpArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(warp_u8_u8(args))
+    /// 8-bit source and output, rounded to the nearest integer. Returns as warp_u8_f32().
+    TEXTPLANE_KERNEL int warp_u8_u8(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_u8_u8(args))
 
-/// Float source and output. Pixels of the source that are not finite spread to what they touch. Returns as warp_u8_f32().
-TEXTPLANE_KERNEL int warp_f32_f32(const WarpArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(warp_f32_f32(args))
+    /// Float source and output. Pixels of the source that are not finite spread to what they touch. Returns as warp_u8_f32().
+    TEXTPLANE_KERNEL int warp_f32_f32(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_f32_f32(args))
 
 }  // namespace simd
 

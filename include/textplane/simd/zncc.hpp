@@ -26,7 +26,7 @@ struct ZnccArgs {
   std::ptrdiff_t pose_step = 12, t_offset = 9;
   int count = 0;
   std::int16_t* values = nullptr;  ///< Room for model.n, rounded up to blocks.
-  float* zncc = nullptr;           ///< `count` results: ZNCC, -1 without contrast or with too few pixels, or kZnccUnknown.
+  float* zncc = nullptr;  ///< `count` results: ZNCC, -1 without contrast or with too few pixels, or kZnccUnknown.
 };
 
 }  // namespace simd
@@ -42,8 +42,7 @@ namespace simd {
 
 /// ZNCC of every candidate. Within 0.05 / sigma of the double reference's, sigma the lesser standard deviation of the two sides
 /// in intensity units, and the same on every target where the float positions are.
-TEXTPLANE_KERNEL void zncc_candidates(const ZnccArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(zncc_candidates(args))
+TEXTPLANE_KERNEL void zncc_candidates(const ZnccArgs& args) noexcept TEXTPLANE_SIMD_BODY(zncc_candidates(args))
 
 }  // namespace simd
 

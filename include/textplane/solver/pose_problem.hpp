@@ -39,7 +39,7 @@ struct PosePointTerm {
   /// In the world.
   Vector3<double> p_w = Vector3<double>::Zero();
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
-  double sigma = 1;                              ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
+  double sigma = 1;  ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
 };
 
 /// Settings of refine_pose() and align_pose().

@@ -56,7 +56,8 @@ struct WindowPointObservation {
   /// Index into Window::points.
   int point = -1;
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
-  double sigma = 1;  ///< Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
+  double sigma =
+      1;  ///< Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
 
   /// Out: |e|^2 / sigma^2 at the final state, without the robust function, for observations that were left out too.
   /// The largest double where there is no projection.

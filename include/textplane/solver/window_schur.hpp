@@ -166,9 +166,7 @@ class BasicWindowSchur {
   bool landmark_deficient(int landmark) const noexcept { return at(landmark_deficient_, landmark) != 0; }
 
   /// Half the gradient of the cost, J^T W r.
-  Vector6<S> camera_gradient(int camera) const noexcept {
-    return six(camera_gradient_, camera);
-  }
+  Vector6<S> camera_gradient(int camera) const noexcept { return six(camera_gradient_, camera); }
   const Vector3<S>& landmark_gradient(int landmark) const noexcept { return at(landmark_gradient_, landmark); }
 
   const Matrix3<S>& information(int landmark) const noexcept { return at(landmark_, landmark); }

@@ -97,8 +97,8 @@ class BasicWindowTerms {
     if (s.scale_a >= 0) {
       const SE3<S>&a = at(x.T_w_c, s.scale_a), &b = at(x.T_w_c, s.scale_b);
       const Vector3<S> u = (b.t - a.t).normalized();
-      out.set_scale_row(at(s.camera_of_frame, s.scale_a), -transposed_product(a.R, u),
-                        at(s.camera_of_frame, s.scale_b), transposed_product(b.R, u));
+      out.set_scale_row(at(s.camera_of_frame, s.scale_a), -transposed_product(a.R, u), at(s.camera_of_frame, s.scale_b),
+                        transposed_product(b.R, u));
     }
     return cost;
   }

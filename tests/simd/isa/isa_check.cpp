@@ -45,19 +45,21 @@ constexpr const char* kNames[kLevels] = {"baseline", "sse41", "avx2", "avx512"};
 /// Instructions between SSE2 and AVX, by their names. tzcnt is missing: compilers write it for bsf on purpose.
 bool is_beyond_sse2(const std::string& name) {
   static const std::set<std::string> names = {
-      "addsubpd", "addsubps", "haddpd", "haddps", "hsubpd", "hsubps", "lddqu", "movddup", "movshdup", "movsldup", "pabsb",
-      "pabsd", "pabsw", "palignr", "phaddd", "phaddsw", "phaddw", "phsubd", "phsubsw", "phsubw", "pmaddubsw", "pmulhrsw",
-      "pshufb", "psignb", "psignd", "psignw", "blendpd", "blendps", "blendvpd", "blendvps", "dppd", "dpps", "extractps",
-      "insertps", "movntdqa", "mpsadbw", "packusdw", "pblendvb", "pblendw", "pcmpeqq", "pextrb", "pextrd", "pextrq",
-      "phminposuw", "pinsrb", "pinsrd", "pinsrq", "pmaxsb", "pmaxsd", "pmaxud", "pmaxuw", "pminsb", "pminsd", "pminud",
-      "pminuw", "pmuldq", "pmulld", "ptest", "roundpd", "roundps", "roundsd", "roundss", "pcmpgtq", "pcmpestri",
-      "pcmpestrm", "pcmpistri", "pcmpistrm", "crc32", "popcnt", "lzcnt", "movbe"};
+      "addsubpd",  "addsubps",  "haddpd",    "haddps",    "hsubpd",  "hsubps",    "lddqu",    "movddup",    "movshdup",
+      "movsldup",  "pabsb",     "pabsd",     "pabsw",     "palignr", "phaddd",    "phaddsw",  "phaddw",     "phsubd",
+      "phsubsw",   "phsubw",    "pmaddubsw", "pmulhrsw",  "pshufb",  "psignb",    "psignd",   "psignw",     "blendpd",
+      "blendps",   "blendvpd",  "blendvps",  "dppd",      "dpps",    "extractps", "insertps", "movntdqa",   "mpsadbw",
+      "packusdw",  "pblendvb",  "pblendw",   "pcmpeqq",   "pextrb",  "pextrd",    "pextrq",   "phminposuw", "pinsrb",
+      "pinsrd",    "pinsrq",    "pmaxsb",    "pmaxsd",    "pmaxud",  "pmaxuw",    "pminsb",   "pminsd",     "pminud",
+      "pminuw",    "pmuldq",    "pmulld",    "ptest",     "roundpd", "roundps",   "roundsd",  "roundss",    "pcmpgtq",
+      "pcmpestri", "pcmpestrm", "pcmpistri", "pcmpistrm", "crc32",   "popcnt",    "lzcnt",    "movbe"};
   return names.count(name) != 0 || name.rfind("pmovsx", 0) == 0 || name.rfind("pmovzx", 0) == 0;
 }
 
 /// Instructions of general registers with a VEX prefix (BMI).
 bool is_vex_integer(const std::string& name) {
-  static const std::set<std::string> names = {"andn", "bextr", "blsi", "blsmsk", "blsr", "bzhi", "mulx", "pdep", "pext", "rorx", "sarx", "shlx", "shrx"};
+  static const std::set<std::string> names = {"andn", "bextr", "blsi", "blsmsk", "blsr", "bzhi", "mulx",
+                                              "pdep", "pext",  "rorx", "sarx",   "shlx", "shrx"};
   return names.count(name) != 0;
 }
 
@@ -109,7 +111,8 @@ struct Function {
 std::map<std::string, Function> functions_of(const std::string& object, bool demangle) {
   std::map<std::string, Function> functions;
   Function* current = nullptr;
-  for (const std::string& line : lines_of(std::string("objdump -d --no-show-raw-insn ") + (demangle ? "-C " : "") + "'" + object + "'")) {
+  for (const std::string& line :
+       lines_of(std::string("objdump -d --no-show-raw-insn ") + (demangle ? "-C " : "") + "'" + object + "'")) {
     // 0000000000000010 <name>:
     if (line.size() > 2 && line.compare(line.size() - 2, 2, ">:") == 0 && line.find(" <") != std::string::npos) {
       const std::size_t begin = line.find(" <") + 2;
@@ -122,7 +125,8 @@ std::map<std::string, Function> functions_of(const std::string& object, bool dem
     std::istringstream words(line.substr(tab + 2));
     std::string name, operands;
     words >> name;
-    while (name == "lock" || name == "rep" || name == "repz" || name == "repnz" || name == "notrack" || name == "bnd" || name == "data16") {
+    while (name == "lock" || name == "rep" || name == "repz" || name == "repnz" || name == "notrack" || name == "bnd" ||
+           name == "data16") {
       if (!(words >> name)) break;
     }
     std::getline(words, operands);
@@ -159,7 +163,8 @@ int check_regions(const std::string& object, const std::vector<std::string>& hea
   std::set<std::string> present;
   for (const auto& [name, function] : functions) {
     const Level limit = allowed(name);
-    present.insert(std::string(kNames[limit]) + "::" + qualified_name(name).substr(qualified_name(name).rfind(':') + 1));
+    present.insert(std::string(kNames[limit]) +
+                   "::" + qualified_name(name).substr(qualified_name(name).rfind(':') + 1));
     if (function.holds(limit) && limit != kBaseline) ++kernels[limit];
     if (function.level <= limit) continue;
     ++findings;
@@ -175,7 +180,8 @@ int check_regions(const std::string& object, const std::vector<std::string>& hea
       for (const std::string& kernel : dispatched(header)) {
         if (present.count(std::string(kNames[level]) + "::" + kernel) != 0) continue;
         ++findings;
-        std::printf("%s dispatches to %s, of which the object holds no %s kernel\n", header.c_str(), kernel.c_str(), kNames[level]);
+        std::printf("%s dispatches to %s, of which the object holds no %s kernel\n", header.c_str(), kernel.c_str(),
+                    kNames[level]);
       }
     }
   }
@@ -204,10 +210,11 @@ int check_shared(const std::string& baseline, const std::string& wide) {
     const auto found = functions.find(name);
     if (found == functions.end() || !found->second.holds(kAvx2)) continue;
     ++findings;
-    std::printf("%s: both objects define it, and one copy holds %s\n", lines_of("c++filt '" + name + "'").front().c_str(),
-                found->second.widest.c_str());
+    std::printf("%s: both objects define it, and one copy holds %s\n",
+                lines_of("c++filt '" + name + "'").front().c_str(), found->second.widest.c_str());
   }
-  std::printf("%d weak functions shared, %d of them wide; %d wide functions in all\n", shared, findings, wide_functions);
+  std::printf("%d weak functions shared, %d of them wide; %d wide functions in all\n", shared, findings,
+              wide_functions);
   if (wide_functions == 0) {
     std::printf("no wide function: nothing was checked\n");
     return 1;

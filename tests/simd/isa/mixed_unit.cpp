@@ -15,12 +15,14 @@ bool TEXTPLANE_TEST_UNIT(const std::uint8_t* pixels, int width, int height, doub
 
   std::vector<tp::Corner> corners;
   if (tp::detect_fast(image, 20, true, corners) != tp::Status::ok) return false;
-  const tp::Vector2<float> from(static_cast<float>(width) / 2, static_cast<float>(height) / 2), guess = from + tp::Vector2<float>(1, -1);
+  const tp::Vector2<float> from(static_cast<float>(width) / 2, static_cast<float>(height) / 2),
+      guess = from + tp::Vector2<float>(1, -1);
   tp::KltResult tracked;
   tp::track_klt(pyramid, pyramid, &from, &guess, 1, tp::KltOptions(), &tracked);
 
   tp::Quad<double> quad;
-  quad.corner = {tp::Vector2<double>(40, 30), tp::Vector2<double>(120, 30), tp::Vector2<double>(120, 90), tp::Vector2<double>(40, 90)};
+  quad.corner = {tp::Vector2<double>(40, 30), tp::Vector2<double>(120, 30), tp::Vector2<double>(120, 90),
+                 tp::Vector2<double>(40, 90)};
   const auto patch = tp::make_patch(image, camera, quad);
   const tp::Vector3<double> theta(0.02, -0.01, 0.5);
   tp::SE3d start;

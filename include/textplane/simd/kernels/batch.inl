@@ -6,7 +6,8 @@ TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf*
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
     const vf i = hold(load(p + kBatchTarget * kLanes));
-    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
     s0 = add(s0, a);
     s1 = add(s1, b);
     s2 = add(s2, c);
@@ -37,7 +38,8 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
     const vf r = hold(load(p + kBatchHost * kLanes));
     s0 = madd(a, a, s0);
     s1 = madd(a, b, s1);
@@ -67,8 +69,10 @@ TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int paramete
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)), c = hold(load(p + (row + 2) * kLanes));
-    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)), z = hold(load(p + (column + 2) * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
+    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)),
+             z = hold(load(p + (column + 2) * kLanes));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);

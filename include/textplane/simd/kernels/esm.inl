@@ -37,8 +37,8 @@ TEXTPLANE_SIMD_INLINE void mix_gradients(float on_target, float on_host, const f
 }
 
 // Sums of rows with 1, n, r from those with 1, i, d.
-TEXTPLANE_SIMD_INLINE void residual_sums(const Residual& r, double root, const double* one, const double* i, const double* d,
-                                         double* with_n, double* with_r) noexcept {
+TEXTPLANE_SIMD_INLINE void residual_sums(const Residual& r, double root, const double* one, const double* i,
+                                         const double* d, double* with_n, double* with_r) noexcept {
   for (int k = 0; k < 8; ++k) {
     with_n[k] = (i[k] - r.i_mean * one[k]) / r.i_s;
     with_r[k] = (d[k] * r.on_d + i[k] * r.on_i + one[k] * r.shift) / root;
@@ -56,14 +56,13 @@ TEXTPLANE_SIMD_INLINE void project_esm(const double (*c)[8], EsmSums* k) noexcep
     for (int i = 0; i < 8; ++i) WC[p][i] = k->W[p][0] * c[0][i] + k->W[p][1] * c[1][i] + k->W[p][2] * c[2][i];
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j)
-      for (int p = 0; p < 3; ++p)
-        k->S[i][j] += c[p][i] * (WC[p][j] - k->X[p][j]) - k->X[p][i] * c[p][j];
+      for (int p = 0; p < 3; ++p) k->S[i][j] += c[p][i] * (WC[p][j] - k->X[p][j]) - k->X[p][i] * c[p][j];
   for (int i = 0; i < 8; ++i) k->X[2][i] -= WC[2][i];
 }
 
 TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFrame& f, const HostPixels& host,
-                                        const float* gx, const float* gy, const ResidualArrays& s, simd::ResidualInfo* info,
-                                        double* H, double* b) noexcept {
+                                        const float* gx, const float* gy, const ResidualArrays& s,
+                                        simd::ResidualInfo* info, double* H, double* b) noexcept {
   const simd::ResidualArgs& a = e.base;
   enum : int { kProducts = 27, kAll = 51 };
   const int n = host.n;
@@ -164,7 +163,8 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   return Status::ok;
 }
 
-TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualInfo* info, double* H, double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualInfo* info, double* H,
+                                        double* b) noexcept {
   const simd::ResidualArgs& a = e.base;
   simd::PointBounds bounds = a.bounds;
   if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);

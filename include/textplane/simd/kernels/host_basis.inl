@@ -1,7 +1,8 @@
 // From rows of a homography in host coordinates to the nine parameters, in double: see simd/esm.hpp and docs/equations.md.
 
 // The eight coefficients of the generator left^T right of a homography in pixels, `step` apart: set, and taken away.
-TEXTPLANE_SIMD_INLINE void set_generator(const double* left, const double* right, std::ptrdiff_t step, double* m) noexcept {
+TEXTPLANE_SIMD_INLINE void set_generator(const double* left, const double* right, std::ptrdiff_t step,
+                                         double* m) noexcept {
   const double corner = left[2] * right[2];
   m[0] = left[0] * right[2];
   m[step] = left[0] * right[0] - corner;
@@ -12,7 +13,8 @@ TEXTPLANE_SIMD_INLINE void set_generator(const double* left, const double* right
   m[6 * step] = -(left[2] * right[0]);
   m[7 * step] = -(left[2] * right[1]);
 }
-TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* right, std::ptrdiff_t step, double* m) noexcept {
+TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* right, std::ptrdiff_t step,
+                                          double* m) noexcept {
   const double corner = left[2] * right[2];
   m[0] -= left[0] * right[2];
   m[step] -= left[0] * right[0] - corner;

@@ -17,7 +17,8 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     if (pixels.n < 1 || pixels.n < a.min_visible) return;
     if (kTapWindows != 0 && pixels.n > kRowPixels) choose_windows(a, bounds, pixels, &f);
     if (parameters == 0)
-      info->status = pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
+      info->status =
+          pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
     else
       info->status = pixels.n <= kRowPixels ? linearise_small(parameters, a, f, pixels, s, info, H, b)
                                             : linearise_large(parameters, a, f, pixels, s, info, H, b);

@@ -154,7 +154,8 @@ TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (
 
 // No entry of H, b and the costs is a NaN or infinite. The diagonal tells of all of H: its sums bound those of other products,
 // and a change of parameters spreads what is not finite over all entries.
-TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H, const double* b) noexcept {
+TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H,
+                                      const double* b) noexcept {
   double sum = info.cost;
   for (int i = 0; i < parameters; ++i) sum += H[(parameters + 1) * i] + b[i];
   return finite_d(sum);

@@ -126,7 +126,8 @@ struct SideSums {
   double i, ii, h, hh;
 };
 TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept { return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0}; }
-TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference, CentredSums* s) noexcept {
+TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference,
+                                         CentredSums* s) noexcept {
   store(target, i);
   store(difference, sub(mul(kappa, h), i));
   s->i = add(s->i, i);
@@ -141,7 +142,8 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
   const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
   int k = 0;
   for (; k + kLanes <= n; k += kLanes)
-    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k, &s);
+    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k,
+                  &s);
   if (k < n) {
     const vm counted = first_n(n - k);
     centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
@@ -166,7 +168,8 @@ struct Residual {
 
 // A side with this sum of squares about its mean has the least contrast. What rounding leaves of a constant side is none. (Squares
 // are compared: roots take time.)
-TEXTPLANE_SIMD_INLINE bool has_contrast(const simd::ResidualArgs& a, double squares, double mean, double count) noexcept {
+TEXTPLANE_SIMD_INLINE bool has_contrast(const simd::ResidualArgs& a, double squares, double mean,
+                                        double count) noexcept {
   const double least = a.min_contrast > 0 ? a.min_contrast : 0, floor = 1e-6 * mean;
   return squares > count * (least * least) && squares > count * (floor * floor);
 }
@@ -294,7 +297,7 @@ TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, c
 
 // The cost of the host pixels, of which there are at least a.min_visible.
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
-                                            const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
+                                           const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
   SampleStrip strip;
   Offsets offsets;
   SideSums sides = no_sides();

@@ -49,7 +49,8 @@ TEXTPLANE_SIMD_ENTRY void make_row_constants(const simd::ResidualArgs& a, const 
 
 // Rows of v and omega.
 TEXTPLANE_SIMD_ENTRY void pose_rows(const RowConstants& k, const float* x, const float* y, const float* a,
-                                    const float* b, int n, std::ptrdiff_t step, float* TEXTPLANE_SIMD_RESTRICT row) noexcept {
+                                    const float* b, int n, std::ptrdiff_t step,
+                                    float* TEXTPLANE_SIMD_RESTRICT row) noexcept {
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = mul(load(a + i), set1(k.fx)), B = mul(load(b + i), set1(k.fy));
     const vf X = madd(u, set1(k.ifx), set1(k.mu)), Y = madd(v, set1(k.ify), set1(k.mv)), D = neg(madd(A, X, mul(B, Y)));
@@ -66,7 +67,8 @@ TEXTPLANE_SIMD_ENTRY void pose_rows(const RowConstants& k, const float* x, const
 
 // Rows of theta.
 TEXTPLANE_SIMD_ENTRY void plane_rows(const RowConstants& k, const float* x, const float* y, const float* a,
-                                     const float* b, int n, std::ptrdiff_t step, float* TEXTPLANE_SIMD_RESTRICT row) noexcept {
+                                     const float* b, int n, std::ptrdiff_t step,
+                                     float* TEXTPLANE_SIMD_RESTRICT row) noexcept {
   const float* r = k.ray;
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), t3 = set1(k.t3);

@@ -151,7 +151,8 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
      s8 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)), y = hold(load(q1 + k)), z = hold(load(q2 + k));
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)),
+             y = hold(load(q1 + k)), z = hold(load(q2 + k));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);

@@ -61,7 +61,8 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)), y = hold(load(q1 + i)), z = hold(load(q2 + i));
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)),
+             y = hold(load(q1 + i)), z = hold(load(q2 + i));
     s0 = madd(a, x, s0);
     s1 = madd(a, y, s1);
     s2 = madd(a, z, s2);
@@ -89,7 +90,8 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
   vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)), y = hold(load(q + i));
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)),
+             y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -114,7 +116,8 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
   vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes),
      t3 = so_far(fresh, acc2 + 3 * kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)), x = hold(load(p + i)), y = hold(load(q + i));
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)),
+             x = hold(load(p + i)), y = hold(load(q + i));
     s0 = madd(a, x, s0);
     s1 = madd(b, x, s1);
     s2 = madd(c, x, s2);
@@ -142,7 +145,8 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
   vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
   vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
-    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)), By = hold(load(by + i));
+    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)),
+             By = hold(load(by + i));
     s0 = madd(A, B, s0);
     s1 = madd(A, Bx, s1);
     s2 = madd(A, By, s2);
@@ -272,7 +276,8 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
   for (int i = 0; i < n; i += kLanes) {
     const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
-    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u), Cy = mul(C, v);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u),
+             Cy = mul(C, v);
     s0 = madd(Ax, Cx, s0);
     s1 = madd(Ax, Cy, s1);
     s2 = madd(Ay, Cy, s2);
@@ -350,8 +355,9 @@ TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float
   store(acc2 + 6 * kLanes, t6);
   store(acc2 + 7 * kLanes, t7);
 }
-TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
-                                            const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b,
+                                            const float* p, const float* q, int n, bool fresh, float* acc,
+                                            float* acc2) noexcept {
   products8(x, y, a, b, p, q, n, fresh, acc, acc2);
 }
 TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,

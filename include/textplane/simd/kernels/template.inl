@@ -103,8 +103,8 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
 }
 
 // The same by windows, and then of the groups that these do not hold.
-TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s,
-                                           const std::int16_t* rows, std::int16_t* values) noexcept {
+TEXTPLANE_SIMD_ENTRY void template_windows(const TapWindows& w, int n, const TemplateStrip& s, const std::int16_t* rows,
+                                           std::int16_t* values) noexcept {
   const TapWindowVectors v = spread(w);
   std::uint64_t groups = 0;  // bit 2 i + k: group i of the k-th 256 pixels
   for (int begin = 0; begin < n; begin += 256) {

@@ -99,7 +99,8 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
     weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes, acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                   acc + (kProducts + 8) * kLanes);
     add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, begin == 0, other);
   }

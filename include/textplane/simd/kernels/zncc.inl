@@ -13,8 +13,10 @@ TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
     simd::ResidualInfo info = simd::ResidualInfo();
     template_any(*z.model, a, z.values, false, &info, nullptr, nullptr);
     const double half = 0.5 * info.error;  // in [0, 2] but for rounding
-    z.zncc[i] = info.status == Status::ok            ? static_cast<float>(half < 0.0 ? 1.0 : half > 2.0 ? -1.0 : 1.0 - half)
+    z.zncc[i] = info.status == Status::ok ? static_cast<float>(half < 0.0   ? 1.0
+                                                               : half > 2.0 ? -1.0
+                                                                            : 1.0 - half)
                 : info.status == Status::no_contrast || info.status == Status::too_few ? -1.0F
-                                                     : simd::kZnccUnknown;
+                                                                                       : simd::kZnccUnknown;
   }
 }
