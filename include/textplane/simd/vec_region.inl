@@ -32,12 +32,12 @@ TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcep
 #include "textplane/simd/vec_sse41.inl"
 #elif TEXTPLANE_SIMD_REGION == 2
 #include "textplane/simd/taps_x86.inl"
-#include "textplane/simd/vec_avx2.inl"
 #include "textplane/simd/vec_x86.inl"
+#include "textplane/simd/vec_avx2.inl"
 #elif TEXTPLANE_SIMD_REGION == 3
 #include "textplane/simd/taps_x86.inl"
-#include "textplane/simd/vec_avx512.inl"
 #include "textplane/simd/vec_x86.inl"
+#include "textplane/simd/vec_avx512.inl"
 #elif TEXTPLANE_SIMD_REGION == 4
 #include "textplane/simd/taps_plain.inl"
 #include "textplane/simd/vec_neon.inl"

@@ -13,14 +13,14 @@ TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
 #if TEXTPLANE_SIMD_REGION == 0
 #include "textplane/simd/words_scalar.inl"
 #elif TEXTPLANE_SIMD_REGION == 1
+#include "textplane/simd/words_x86.inl"
 #include "textplane/simd/words_sse41.inl"
-#include "textplane/simd/words_x86.inl"
 #elif TEXTPLANE_SIMD_REGION == 2
+#include "textplane/simd/words_x86.inl"
 #include "textplane/simd/words_avx2.inl"
-#include "textplane/simd/words_x86.inl"
 #elif TEXTPLANE_SIMD_REGION == 3
-#include "textplane/simd/words_avx512.inl"
 #include "textplane/simd/words_x86.inl"
+#include "textplane/simd/words_avx512.inl"
 #elif TEXTPLANE_SIMD_REGION == 4
 #include "textplane/simd/words_neon.inl"
 #endif
