@@ -17,7 +17,8 @@ int main(int argc, char** argv) try {
   if (argc != 3 && !with_text) return std::fprintf(stderr, "usage: foreign_tracker SEQUENCE OUTPUT [--text]\n"), 2;
   const textslam::Sequence sequence = textslam::read_sequence(argv[1]);
   textslam::create_output_folder(argv[2]);
-  const auto& [pinhole, lens, width, height, fps] = sequence.camera;
+  const int width = sequence.camera.width, height = sequence.camera.height;
+  const textslam::Pinhole<double>& pinhole = sequence.camera.pinhole();
   cv::setRNGSeed(1);
   const foreign::Camera camera{pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, width, height};
   foreign::TextFeatures text{pinhole, {}, {}};  // text

@@ -1,10 +1,9 @@
 #include "io/camera_model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <utility>
+#include <vector>
 
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
@@ -94,40 +93,43 @@ class CameraReader {
 
 CameraModel read_camera(const std::string& path) {
   const CameraReader reader(path);
-  if (const Setting* type = reader.find("Camera.type")) {
-    if (type->value != "PinHole" && type->value != "Pinhole") reader.refuse("Camera.type", "should be PinHole");
+  const CameraType* type = &camera_types().front();
+  if (const Setting* name = reader.find("Camera.type")) {
+    type = find_camera_type(&CameraType::camera_yaml, name->value);
+    if (!type) reader.refuse("Camera.type", "should be " + known_camera_types(&CameraType::camera_yaml));
   }
   CameraModel camera;
   camera.width = reader.size("Camera.width");
   camera.height = reader.size("Camera.height");
   camera.fps = reader.positive("Camera.fps");
-  camera.pinhole.fx = reader.positive("Camera.fx");
-  camera.pinhole.fy = reader.positive("Camera.fy");
-  camera.pinhole.cx = reader.number("Camera.cx");
-  camera.pinhole.cy = reader.number("Camera.cy");
-  camera.lens.k1 = reader.number("Camera.k1");
-  camera.lens.k2 = reader.number("Camera.k2");
-  camera.lens.p1 = reader.number("Camera.p1");
-  camera.lens.p2 = reader.number("Camera.p2");
-  if (reader.find("Camera.k3")) camera.lens.k3 = reader.number("Camera.k3");
+  std::vector<double> parameters = {reader.positive("Camera.fx"), reader.positive("Camera.fy"),
+                                    reader.number("Camera.cx"), reader.number("Camera.cy")};
+  for (std::size_t i = 0; i < type->coefficients.size(); ++i) {
+    const std::string key = "Camera." + type->coefficients[i];
+    parameters.push_back(i < type->required || reader.find(key) ? reader.number(key) : 0);
+  }
+  camera.raw = type->make(parameters.data());
   return camera;
 }
 
 std::string format_camera(const CameraModel& camera) {
-  const std::array<std::pair<const char*, double>, 12> keys = {{{"width", camera.width},
-                                                                {"height", camera.height},
-                                                                {"fps", camera.fps},
-                                                                {"fx", camera.pinhole.fx},
-                                                                {"fy", camera.pinhole.fy},
-                                                                {"cx", camera.pinhole.cx},
-                                                                {"cy", camera.pinhole.cy},
-                                                                {"k1", camera.lens.k1},
-                                                                {"k2", camera.lens.k2},
-                                                                {"p1", camera.lens.p1},
-                                                                {"p2", camera.lens.p2},
-                                                                {"k3", camera.lens.k3}}};
+  const CameraType& type = camera_types()[camera.raw.index()];
   std::string out;
-  for (const auto& [key, value] : keys) out += std::string("Camera.") + key + ": " + shortest(value) + "\n";
+  const auto add = [&out](const std::string& key, const std::string& value) {
+    out += "Camera." + key + ": " + value + "\n";
+  };
+  if (camera.raw.index() != 0) add("type", type.camera_yaml.front());
+  add("width", std::to_string(camera.width));
+  add("height", std::to_string(camera.height));
+  add("fps", shortest(camera.fps));
+  std::vector<std::string> keys = {"fx", "fy", "cx", "cy"};
+  keys.insert(keys.end(), type.coefficients.begin(), type.coefficients.end());
+  std::visit(
+      [&](const auto& raw) {
+        const auto parameters = raw.parameters();
+        for (std::size_t i = 0; i < keys.size(); ++i) add(keys[i], shortest(parameters[static_cast<int>(i)]));
+      },
+      camera.raw);
   return out;
 }
 
@@ -135,9 +137,8 @@ CameraModel camera_from_fov(double fov, int width, int height) {
   CameraModel camera;
   camera.width = width;
   camera.height = height;
-  camera.pinhole.fx = camera.pinhole.fy = 0.5 * width / std::tan(fov * (M_PI / 360));
-  camera.pinhole.cx = 0.5 * (width - 1);
-  camera.pinhole.cy = 0.5 * (height - 1);
+  const double f = 0.5 * width / std::tan(fov * (M_PI / 360));
+  camera.raw = RadialTangential<double>{{f, f, 0.5 * (width - 1), 0.5 * (height - 1)}};
   return camera;
 }
 

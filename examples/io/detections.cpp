@@ -37,12 +37,9 @@ Quad<double> parse_quad(const TextLine& line, const std::string& path, std::stri
 std::string detection_text(std::string_view text) { return text.empty() ? kUnreadText : well_formed_utf8(text); }
 
 Quad<double> distorted(const Quad<double>& quad, const CameraModel& camera) {
-  if (camera.lens.is_zero()) return quad;
+  if (camera.is_pinhole()) return quad;
   Quad<double> raw;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector2<double> m = camera.pinhole.unproject(quad.corner[i]).head<2>();
-    raw.corner[i] = camera.pinhole.pixel(camera.lens.distort(m));
-  }
+  for (std::size_t i = 0; i < 4; ++i) raw.corner[i] = camera.project(camera.pinhole().unproject(quad.corner[i]));
   return raw;
 }
 

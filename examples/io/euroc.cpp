@@ -75,20 +75,33 @@ class SensorFile {
     for (std::size_t i = 0; i < node.size(); ++i) out.push_back(number(node[i], what));
     return out;
   }
-  // One of two names; false: the second.
-  bool is_first(const char* key, const std::string& first, const std::string& other, const std::string& second) const {
+  std::string name(const char* key) const {
     const YAML::Node node = at(key);
-    const std::string name = node.IsScalar() ? node.Scalar() : "";
-    if (name != first && name != other && name != second)
-      refuse(node, std::string(key) + " should be " + first + (second.empty() ? "" : " or " + second) + ", not " +
-                       shown(name));
-    return name != second;
+    return node.IsScalar() ? node.Scalar() : "";
+  }
+  [[noreturn]] void refuse_name(const char* key, const std::string& known) const {
+    refuse(at(key), std::string(key) + " should be " + known + ", not " + shown(name(key)));
   }
 
  private:
   std::string path_;
   YAML::Node root_;
 };
+
+// The camera of fx fy cx cy and the file's lens. "none" is the first type with all coefficients 0.
+RawCamera read_distortion(const SensorFile& file, std::vector<double> parameters) {
+  const std::string name = file.name("distortion_model");
+  const CameraType* type = name == "none" ? &camera_types().front() : find_camera_type(&CameraType::sensor_yaml, name);
+  if (!type) file.refuse_name("distortion_model", known_camera_types(&CameraType::sensor_yaml) + " or none");
+  const std::size_t most = type->coefficients.size();
+  if (name != "none") {
+    const char* const key = "distortion_coefficients";
+    const std::vector<double> k = file.numbers(file.at(key), key, type->required, most);
+    parameters.insert(parameters.end(), k.begin(), k.end());
+  }
+  parameters.resize(4 + most);
+  return type->make(parameters.data());
+}
 
 SE3d read_motion(const SensorFile& file, const YAML::Node& node) {
   if (!node.IsMap() || !node["data"]) file.refuse(node, "T_BS should have rows, cols and data");
@@ -126,9 +139,9 @@ EurocCamera read_euroc_camera(const std::string& path) {
     if (!(value > 0)) file.refuse(file.at(key), std::string(key) + " should be positive");
     return value;
   };
+  if (file.name("camera_model") != "pinhole") file.refuse_name("camera_model", "pinhole");
   EurocCamera camera;
   CameraModel& model = camera.model;
-  file.is_first("camera_model", "pinhole", "pinhole", "");
   const std::vector<double> size = file.numbers(file.at("resolution"), "resolution", 2, 2);
   for (const double side : size) {
     if (!(side >= 1 && side <= kMaxImageSide) || side != std::floor(side))
@@ -137,19 +150,9 @@ EurocCamera read_euroc_camera(const std::string& path) {
   }
   model.width = static_cast<int>(size[0]);
   model.height = static_cast<int>(size[1]);
-  const std::vector<double> f = file.numbers(file.at("intrinsics"), "intrinsics", 4, 4);
-  model.pinhole.fx = positive(f[0], "intrinsics");
-  model.pinhole.fy = positive(f[1], "intrinsics");
-  model.pinhole.cx = f[2];
-  model.pinhole.cy = f[3];
-  if (file.is_first("distortion_model", "radial-tangential", "radtan", "none")) {
-    const std::vector<double> k = file.numbers(file.at("distortion_coefficients"), "distortion_coefficients", 4, 5);
-    model.lens.k1 = k[0];
-    model.lens.k2 = k[1];
-    model.lens.p1 = k[2];
-    model.lens.p2 = k[3];
-    if (k.size() == 5) model.lens.k3 = k[4];
-  }
+  std::vector<double> parameters = file.numbers(file.at("intrinsics"), "intrinsics", 4, 4);
+  for (std::size_t i = 0; i < 2; ++i) positive(parameters[i], "intrinsics");
+  model.raw = read_distortion(file, std::move(parameters));
   if (file.has("rate_hz")) model.fps = positive(file.number(file.at("rate_hz"), "rate_hz"), "rate_hz");
   if (file.has("T_BS")) camera.T_b_c = read_motion(file, file.at("T_BS"));
   return camera;

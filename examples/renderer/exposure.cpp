@@ -22,9 +22,9 @@ std::vector<Vector2<double>> displacements(const Scene& scene, const CameraModel
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
       const Vector2<double> px((i + 0.5) / kColumns * camera.width - 0.5, (j + 0.5) / kRows * camera.height - 0.5);
-      Vector2<double> m;
-      if (!textplane::is_ok(camera.lens.undistort(camera.pinhole.unproject(px).head<2>(), &m))) continue;
-      const Vector3<double> direction = T_w_c.R * Vector3<double>(m[0], m[1], 1.0);
+      Vector3<double> m;
+      if (!textplane::is_ok(camera.unproject(px, &m))) continue;
+      const Vector3<double> direction = T_w_c.R * m;
       const Hit hit = scene.first_hit(T_w_c.t, direction);
       if (hit.surface < 0) continue;
       const Vector3<double> p = T_w_c.t + hit.distance * direction;

@@ -86,20 +86,18 @@ double shade(const Facet& f, const Vector3<double>& m, double rho, double step_x
 
 RayCaster::RayCaster(const CameraModel& camera, std::vector<Vector2<double>> offsets)
     : camera_(camera), offsets_(std::move(offsets)) {
-  if (camera_.lens.is_zero()) return;
+  if (camera_.is_pinhole()) return;
   for (const Vector2<double>& offset : offsets_) {
     std::vector<Vector2<double>> rays;
     rays.reserve(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height));
     for (int y = 0; y < camera_.height; ++y) {
       for (int x = 0; x < camera_.width; ++x) {
-        const Vector2<double> distorted =
-            camera_.pinhole.unproject(Vector2<double>(x + offset[0], y + offset[1])).head<2>();
-        Vector2<double> m;
-        if (!textplane::is_ok(camera_.lens.undistort(distorted, &m))) {
+        Vector3<double> m;
+        if (!textplane::is_ok(camera_.unproject(Vector2<double>(x + offset[0], y + offset[1]), &m))) {
           throw std::invalid_argument("the lens cannot be inverted at pixel " + std::to_string(x) + "," +
                                       std::to_string(y));
         }
-        rays.push_back(m);
+        rays.push_back(m.head<2>());
       }
     }
     rays_.push_back(std::move(rays));
@@ -112,13 +110,13 @@ Vector2<double> RayCaster::ray(int offset, int x, int y) const noexcept {
     return rays_[o]
                 [static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x)];
   }
-  return camera_.pinhole.unproject(Vector2<double>(x + offsets_[o][0], y + offsets_[o][1])).head<2>();
+  return camera_.pinhole().unproject(Vector2<double>(x + offsets_[o][0], y + offsets_[o][1])).head<2>();
 }
 
 void RayCaster::add(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight,
                     Image<double>& sum) const {
   const std::vector<Facet> facets = facets_in_view(scene, T_w_c);
-  const double step_x = footprint / camera_.pinhole.fx, step_y = footprint / camera_.pinhole.fy;
+  const double step_x = footprint / camera_.pinhole().fx, step_y = footprint / camera_.pinhole().fy;
   std::array<Vector2<double>, kTile * kTile> rays;
   std::vector<const Facet*> candidates;
   for (int y0 = 0; y0 < camera_.height; y0 += kTile) {
@@ -163,7 +161,7 @@ void RayCaster::add(const Scene& scene, const SE3d& T_w_c, int offset, double fo
 bool project(const CameraModel& camera, const SE3d& T_c_w, const Vector3<double>& p_w, Vector2<double>* px) noexcept {
   const Vector3<double> p = T_c_w * p_w;
   if (!(p[2] > 1e-6)) return false;
-  *px = camera.pinhole.pixel(camera.lens.distort(Vector2<double>(p[0] / p[2], p[1] / p[2])));
+  *px = camera.project(p);
   return true;
 }
 

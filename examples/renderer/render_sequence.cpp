@@ -41,8 +41,9 @@ std::string decimals(double value, int n) {
 CameraModel camera_of(const RenderOptions& options) {
   CameraModel camera;
   const double f = kFocal * options.width;
-  camera.pinhole = {f, f, 0.5 * (options.width - 1), 0.5 * (options.height - 1)};
-  camera.lens = options.lens;
+  RadialTangential<double> raw = options.lens;
+  raw.intrinsics = {f, f, 0.5 * (options.width - 1), 0.5 * (options.height - 1)};
+  camera.raw = raw;
   camera.width = options.width;
   camera.height = options.height;
   camera.fps = kFramesPerSecond;

@@ -26,7 +26,7 @@ struct RenderOptions {
   std::uint64_t seed = 1;
   int frames = 0;                 ///< at 30 a second; 0: as many as the kind goes for, default_frames() of kinds.hpp
   int width = 640, height = 480;  ///< px; the field of view stays that of 525 px focal length at a width of 640
-  RadialTangential<double> lens;  ///< none by default
+  RadialTangential<double> lens;  ///< coefficients alone are read; no distortion by default
   Conditions conditions;
   DetectorErrors detector;
   int threads = 2;  ///< the bytes written do not depend on it

@@ -53,7 +53,7 @@ Stage::Stage(const std::string& word, const Vector3<double>& turn) {
 
 Image<std::uint8_t> Stage::view(const SE3d& T_w_c, const SensorState& sensor) const {
   CameraModel model;
-  model.pinhole = camera_;
+  model.raw = RadialTangential<double>{camera_};
   model.width = kWidth;
   model.height = kHeight;
   const RayCaster caster(model, pixel_grid());

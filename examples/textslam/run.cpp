@@ -172,7 +172,7 @@ RunResult run(const RunOptions& options) {
 
   RunResult result;
   const int total = last - options.first + 1;
-  System system(sequence.camera.pinhole, sequence.camera.width, sequence.camera.height, options.parameters);
+  System system(sequence.camera.pinhole(), sequence.camera.width, sequence.camera.height, options.parameters);
   Clock clock(options.parameters.real_time);
   Detections detections(source, options);
   keep_going(result, [&] {

@@ -4,7 +4,8 @@
 
 #include "textplane/config.hpp"
 
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/cameras/radial_tangential.hpp"
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/se3.hpp"

@@ -1,10 +1,13 @@
-#include "textplane/core/camera.hpp"
+// What core/cameras/camera.hpp says of every model. A new model is a line in example().
+#include "textplane/core/cameras/camera.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "support/calculus.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/cameras/radial_tangential.hpp"
 
 namespace tp = textplane;
 using textplane_test::central_difference;
@@ -18,23 +21,111 @@ using textplane_test::values;
 template struct textplane::Pinhole<float>;
 template struct textplane::Pinhole<double>;
 template struct textplane::Pinhole<Dual<3>>;
-template struct textplane::RadialTangential<float>;
-template struct textplane::RadialTangential<double>;
-template struct textplane::RadialTangential<Dual<2>>;
 
 namespace camera_test {
 
-template <class S>
-class Camera : public testing::Test {};
-using Scalars = testing::Types<float, double, Dual<2>>;
-TYPED_TEST_SUITE(Camera, Scalars, );
-
 const tp::Pinhole<double> kPinhole(525.5, 519.25, 319.5, 241.75);
-// A webcam, a wide lens with strong tangential terms, a pincushion.
-const tp::RadialTangential<double> kLenses[] = {
-    {0.23, -0.82, -0.005, 0.002, 0.97}, {-0.28, 0.07, 0.01, -0.008, -0.005}, {0.12, 0.03, -0.002, 0.004, 0.01}, {}};
 
-TYPED_TEST(Camera, PixelAndRayInvertEachOther) {
+template <class Model>
+class CameraModel : public testing::Test {
+ protected:
+  static void example(tp::Pinhole<double>* camera) { *camera = kPinhole; }
+  static void example(tp::RadialTangential<double>* camera) {
+    *camera = {kPinhole, -0.28, 0.07, 0.001, -0.0008, -0.005};
+  }
+  CameraModel() { example(&camera); }
+
+  Model camera;
+  // Over the whole of a 640 x 480 image.
+  Eigen::Vector2d pixel(Random& random) const { return {random.uniform(0, 639), random.uniform(0, 479)}; }
+};
+using Models = testing::Types<tp::Pinhole<double>, tp::RadialTangential<double>>;
+TYPED_TEST_SUITE(CameraModel, Models, );
+
+TYPED_TEST(CameraModel, ParametersMakeTheSameCamera) {
+  const auto p = this->camera.parameters();
+  EXPECT_EQ(TypeParam::from_parameters(p).parameters(), p);
+  EXPECT_EQ(p.template head<4>(), this->camera.pinhole().parameters());
+  EXPECT_EQ(this->camera.template cast<float>().template cast<double>().parameters(),
+            p.template cast<float>().template cast<double>());
+}
+
+TYPED_TEST(CameraModel, ValidNeedsFiniteParametersAndPositiveFocalLengths) {
+  EXPECT_TRUE(this->camera.valid());
+  for (int i = 0; i < TypeParam::kParameters; ++i)
+    for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 0.0, -1.0}) {
+      auto p = this->camera.parameters();
+      p[i] = bad;
+      EXPECT_EQ(TypeParam::from_parameters(p).valid(), i >= 2 && std::isfinite(bad)) << i << " " << bad;
+    }
+}
+
+TYPED_TEST(CameraModel, UnprojectInvertsProject) {
+  Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector2d px = this->pixel(random);
+    Eigen::Vector3d m;
+    ASSERT_EQ(this->camera.unproject(px, &m), tp::Status::ok);
+    EXPECT_EQ(m[2], 1);
+    const Eigen::Vector3d p = random.uniform(0.1, 9) * m;
+    EXPECT_TRUE(this->camera.in_domain(p));
+    EXPECT_FALSE(this->camera.in_domain(-p));
+    EXPECT_LT((this->camera.project(p) - px).norm(), 1e-9);
+  }
+}
+
+TYPED_TEST(CameraModel, UnprojectRefusesNaN) {
+  const Eigen::Vector3d untouched(7, 8, 9);
+  Eigen::Vector3d m = untouched;
+  EXPECT_EQ(this->camera.unproject({std::nan(""), 0}, &m), tp::Status::non_finite);
+  EXPECT_EQ(m, untouched);
+}
+
+TYPED_TEST(CameraModel, ProjectJacobian) {
+  Random random(2);
+  for (int i = 0; i < 20; ++i) {
+    Eigen::Vector3d p;
+    ASSERT_EQ(this->camera.unproject(this->pixel(random), &p), tp::Status::ok);
+    p *= random.uniform(0.5, 5);
+    Eigen::Matrix<double, 2, 3> J;
+    EXPECT_EQ(this->camera.project(p, &J), this->camera.project(p));
+    const auto f = [&](const auto& x) {
+      using S = typename std::decay_t<decltype(x)>::Scalar;
+      return tp::Vector2<S>(this->camera.template cast<S>().project(x));
+    };
+    EXPECT_LT(relative_error(J, (central_difference<2, 3>(f, p))), 1e-9);
+    EXPECT_LT(relative_error(J, (dual_derivative<2, 3>(f, p))), 1e-14);
+  }
+}
+
+TYPED_TEST(CameraModel, LevelsShareTheirRays) {
+  Random random(6);
+  for (int level = 0; level < 5; ++level) {
+    const double scale = 1 << level;
+    const Eigen::Vector2d px = this->pixel(random), coarse = (px.array() + 0.5) / scale - 0.5;
+    Eigen::Vector3d fine_ray, coarse_ray;
+    ASSERT_EQ(this->camera.unproject(px, &fine_ray), tp::Status::ok);
+    ASSERT_EQ(this->camera.at_level(level).unproject(coarse, &coarse_ray), tp::Status::ok);
+    EXPECT_LT((coarse_ray - fine_ray).norm(), 1e-12);
+  }
+}
+
+TYPED_TEST(CameraModel, IsPinholeWhereItProjectsAsOne) {
+  Random random(7);
+  double worst = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d p = this->camera.pinhole().unproject(this->pixel(random));
+    worst = std::max(worst, (this->camera.project(p) - this->camera.pinhole().project(p)).norm());
+  }
+  EXPECT_EQ(this->camera.is_pinhole(), worst < 1e-12);
+}
+
+template <class S>
+class PinholeTest : public testing::Test {};
+using Scalars = testing::Types<float, double, Dual<2>>;
+TYPED_TEST_SUITE(PinholeTest, Scalars, );
+
+TYPED_TEST(PinholeTest, PixelAndRayInvertEachOther) {
   using S = TypeParam;
   const tp::Pinhole<S> camera = kPinhole.cast<S>();
   Random random(1);
@@ -47,22 +138,7 @@ TYPED_TEST(Camera, PixelAndRayInvertEachOther) {
   }
 }
 
-TEST(PinholeTest, ProjectJacobian) {
-  Random random(2);
-  for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector3d p(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(0.5, 5));
-    Eigen::Matrix<double, 2, 3> J;
-    kPinhole.project(p, &J);
-    const auto f = [](const auto& x) {
-      using S = typename std::decay_t<decltype(x)>::Scalar;
-      return tp::Vector2<S>(kPinhole.cast<S>().project(x));
-    };
-    EXPECT_LT(relative_error(J, (central_difference<2, 3>(f, p))), 1e-9);
-    EXPECT_LT(relative_error(J, (dual_derivative<2, 3>(f, p))), 1e-14);
-  }
-}
-
-TYPED_TEST(Camera, LevelsShareTheirRays) {
+TYPED_TEST(PinholeTest, LevelsShareTheirRays) {
   using S = TypeParam;
   const tp::Pinhole<S> camera = kPinhole.cast<S>();
   for (int level = 0; level < 5; ++level) {
@@ -72,101 +148,6 @@ TYPED_TEST(Camera, LevelsShareTheirRays) {
     EXPECT_LT((values(camera.at_level(level).unproject(coarse.cast<S>())) - fine_ray).norm(),
               tolerance<S>(1e-6, 1e-14));
   }
-}
-
-TEST(PinholeTest, ValidRejectsNonsense) {
-  EXPECT_TRUE(kPinhole.valid());
-  EXPECT_FALSE(tp::Pinhole<double>(0, 1, 0, 0).valid());
-  EXPECT_FALSE(tp::Pinhole<double>(1, -1, 0, 0).valid());
-  EXPECT_FALSE(tp::Pinhole<double>(std::nan(""), 1, 0, 0).valid());
-  EXPECT_FALSE(tp::Pinhole<double>(1, 1, 0, std::numeric_limits<double>::infinity()).valid());
-}
-
-TEST(RadialTangentialTest, DistortsAsWritten) {
-  // One point by hand: x = 0.3, y = -0.2, r^2 = 0.13.
-  const tp::RadialTangential<double> lens{0.1, -0.2, 0.01, -0.02, 0.3};
-  const double radial = 1 + 0.1 * 0.13 - 0.2 * 0.13 * 0.13 + 0.3 * 0.13 * 0.13 * 0.13;
-  const Eigen::Vector2d expected(0.3 * radial + 2 * 0.01 * 0.3 * -0.2 + -0.02 * (0.13 + 2 * 0.09),
-                                 -0.2 * radial + 0.01 * (0.13 + 2 * 0.04) + 2 * -0.02 * 0.3 * -0.2);
-  EXPECT_LT((lens.distort({0.3, -0.2}) - expected).norm(), 1e-16);
-}
-
-TEST(RadialTangentialTest, DistortJacobian) {
-  Random random(3);
-  for (const auto& lens : kLenses)
-    for (int i = 0; i < 20; ++i) {
-      const Eigen::Vector2d m = random.vector<2>(0.6);
-      Eigen::Matrix2d J;
-      lens.distort(m, &J);
-      const auto f = [&](const auto& x) {
-        using S = typename std::decay_t<decltype(x)>::Scalar;
-        return tp::Vector2<S>(lens.template cast<S>().distort(x));
-      };
-      EXPECT_LT(relative_error(J, (central_difference<2, 2>(f, m))), 1e-10);
-      EXPECT_LT(relative_error(J, (dual_derivative<2, 2>(f, m))), 1e-14);
-    }
-}
-
-TYPED_TEST(Camera, UndistortInvertsDistort) {
-  using S = TypeParam;
-  for (const auto& lens : kLenses)
-    for (double y = -0.45; y <= 0.45; y += 0.05)
-      for (double x = -0.5; x <= 0.5; x += 0.05) {
-        const tp::Vector2<S> m{S(x), S(y)};
-        tp::Vector2<S> back = tp::Vector2<S>::Zero();
-        ASSERT_EQ(lens.template cast<S>().undistort(lens.template cast<S>().distort(m), &back), tp::Status::ok);
-        EXPECT_LT((values(back) - values(m)).norm(), tolerance<S>(2e-6, 1e-14));
-      }
-}
-
-// The derivative of the inverse is the inverse of the derivative, at the fixed points of the lens too.
-TEST(RadialTangentialTest, UndistortCarriesDerivatives) {
-  Random random(4);
-  for (const auto& lens : kLenses)
-    for (int i = 0; i < 20; ++i) {
-      const Eigen::Vector2d m = i == 0 ? Eigen::Vector2d::Zero() : random.vector<2>(0.5);
-      Eigen::Matrix2d J;
-      const Eigen::Vector2d distorted = lens.distort(m, &J);
-      const auto f = [&](const auto& x) {
-        using S = typename std::decay_t<decltype(x)>::Scalar;
-        tp::Vector2<S> out = tp::Vector2<S>::Zero();
-        EXPECT_EQ(lens.template cast<S>().undistort(x, &out), tp::Status::ok);
-        return out;
-      };
-      EXPECT_LT(relative_error((dual_derivative<2, 2>(f, distorted)), Eigen::Matrix2d(J.inverse())), 1e-11);
-      EXPECT_LT(relative_error((central_difference<2, 2>(f, distorted, 1e-5)), Eigen::Matrix2d(J.inverse())), 1e-9);
-    }
-  // r^2 = 0.1 is a fixed point of radial = 1 + 0.1 r^2 - r^4.
-  const tp::RadialTangential<double> lens{0.1, -1, 0, 0, 0};
-  const Eigen::Vector2d m(std::sqrt(0.1), 0);
-  Eigen::Matrix2d J;
-  ASSERT_LT((lens.distort(m, &J) - m).norm(), 1e-16);
-  const auto f = [&](const auto& x) {
-    using S = typename std::decay_t<decltype(x)>::Scalar;
-    tp::Vector2<S> out = tp::Vector2<S>::Zero();
-    EXPECT_EQ(lens.cast<S>().undistort(x, &out), tp::Status::ok);
-    return out;
-  };
-  EXPECT_LT(relative_error((dual_derivative<2, 2>(f, m)), Eigen::Matrix2d(J.inverse())), 1e-13);
-}
-
-TEST(RadialTangentialTest, UndistortRefusesWhatHasNoInverse) {
-  const Eigen::Vector2d untouched(7, 8);
-  Eigen::Vector2d m = untouched;
-  // Barrel so strong that r (1 - r^2) never exceeds 0.385: no point lands on r = 0.6.
-  const tp::RadialTangential<double> folded{-1, 0, 0, 0, 0};
-  EXPECT_EQ(folded.undistort({0.6, 0}, &m), tp::Status::degenerate);
-  EXPECT_EQ(m, untouched);
-  EXPECT_EQ(folded.undistort({std::nan(""), 0}, &m), tp::Status::non_finite);
-  EXPECT_EQ(m, untouched);
-  const tp::RadialTangential<double> broken{std::nan(""), 0, 0, 0, 0};
-  EXPECT_FALSE(tp::is_ok(broken.undistort({0.1, 0}, &m)));
-  EXPECT_EQ(m, untouched);
-}
-
-TEST(RadialTangentialTest, IsZero) {
-  EXPECT_TRUE(kLenses[3].is_zero());
-  EXPECT_FALSE((tp::RadialTangential<double>{0, 0, 0, 0, 1e-9}).is_zero());
 }
 
 }  // namespace camera_test

@@ -10,7 +10,7 @@ class DetectionsTest : public testing::Test {
  protected:
   DetectionsTest() {
     sequence.folder = folder.path();
-    sequence.camera.pinhole = {500, 510, 320, 240};
+    sequence.camera.raw = RadialTangential<double>{{500, 510, 320, 240}};
     frame.stem = "12.5";
   }
   std::vector<Detection> read(const std::string& text) {
@@ -91,17 +91,16 @@ TEST_F(DetectionsTest, PublishedPair) {
 }
 
 TEST_F(DetectionsTest, PublishedPairIsMappedBackThroughTheLens) {
-  sequence.camera.lens = {-0.2, 0.05, 1e-3, -2e-3, 0.01};
+  sequence.camera.raw = RadialTangential<double>{{500, 510, 320, 240}, -0.2, 0.05, 1e-3, -2e-3, 0.01};
   folder.write("detections/12.5_dete.txt", "100,50,600,40,610,400,90,420\n");
   const auto d = read_detections(sequence, frame);
   ASSERT_EQ(d.size(), 1u);
   const double expected[8] = {100, 50, 600, 40, 610, 400, 90, 420};
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2<double> raw = d[0].quad.corner[i];
-    Vector2<double> m;
-    ASSERT_EQ(sequence.camera.lens.undistort(sequence.camera.pinhole.unproject(raw).head<2>(), &m),
-              textplane::Status::ok);
-    const Vector2<double> px = sequence.camera.pinhole.pixel(m);
+    Vector3<double> m;
+    ASSERT_EQ(sequence.camera.unproject(raw, &m), textplane::Status::ok);
+    const Vector2<double> px = sequence.camera.pinhole().project(m);
     EXPECT_NEAR(px[0], expected[2 * i], 1e-8);
     EXPECT_NEAR(px[1], expected[2 * i + 1], 1e-8);
     EXPECT_GT((raw - px).norm(), 1.0);

@@ -109,15 +109,15 @@ TEST_F(LayoutTest, CameraFromAnAngle) {
   const CameraModel& camera = sequence.camera;
   EXPECT_EQ(camera.width, 8);
   EXPECT_EQ(camera.height, 6);
-  EXPECT_NEAR(camera.pinhole.fx, 4, 1e-12);
-  EXPECT_NEAR(camera.pinhole.fy, 4, 1e-12);
-  EXPECT_EQ(camera.pinhole.cx, 3.5);
-  EXPECT_EQ(camera.pinhole.cy, 2.5);
-  EXPECT_TRUE(camera.lens.is_zero());
-  const auto left = camera.pinhole.unproject(Vector2<double>(-0.5, 2.5)),
-             right = camera.pinhole.unproject(Vector2<double>(7.5, 2.5));
+  EXPECT_NEAR(camera.pinhole().fx, 4, 1e-12);
+  EXPECT_NEAR(camera.pinhole().fy, 4, 1e-12);
+  EXPECT_EQ(camera.pinhole().cx, 3.5);
+  EXPECT_EQ(camera.pinhole().cy, 2.5);
+  EXPECT_TRUE(camera.is_pinhole());
+  const auto left = camera.pinhole().unproject(Vector2<double>(-0.5, 2.5)),
+             right = camera.pinhole().unproject(Vector2<double>(7.5, 2.5));
   EXPECT_NEAR(std::acos(left.normalized().dot(right.normalized())) * 180 / M_PI, 90, 1e-9);
-  EXPECT_NEAR(camera_from_fov(60, 640, 480).pinhole.fx, 320 * std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(camera_from_fov(60, 640, 480).pinhole().fx, 320 * std::sqrt(3.0), 1e-9);
 }
 
 TEST_F(LayoutTest, CalibrationGoesBeforeTheAngle) {
@@ -128,7 +128,7 @@ TEST_F(LayoutTest, CalibrationGoesBeforeTheAngle) {
   SequenceOptions options;
   options.camera = folder.write("my/camera.txt", format_camera(camera));
   Sequence sequence = read_sequence(folder.path(), options);
-  EXPECT_EQ(sequence.camera.pinhole.fx, camera.pinhole.fx);
+  EXPECT_EQ(sequence.camera.pinhole().fx, camera.pinhole().fx);
   EXPECT_EQ(sequence.approximate_fov, 0);
 
   folder.write("camera.yaml", format_camera(camera));
@@ -136,9 +136,9 @@ TEST_F(LayoutTest, CalibrationGoesBeforeTheAngle) {
   EXPECT_EQ(read_sequence(folder.path()).frames[1].timestamp, 0.1) << "as the calibration says";
   expect_bad("camera.yaml", 0, "calibrated here: leave out --fov", fov(80));
   options.camera = folder.write("my/sensor.yaml", kSensor);
-  EXPECT_EQ(read_sequence(folder.path(), options).camera.pinhole.fx, 458.654);
+  EXPECT_EQ(read_sequence(folder.path(), options).camera.pinhole().fx, 458.654);
   options.camera = folder.write("my/vi.yaml", kSensor);
-  EXPECT_EQ(read_sequence(folder.path(), options).camera.lens.k1, -0.28340811);
+  EXPECT_EQ(lens_of(read_sequence(folder.path(), options).camera).k1, -0.28340811);
   options.camera = folder.path("none.yaml");
   expect_bad("none.yaml", 0, "No such file", options);
 
@@ -191,15 +191,15 @@ TEST_F(LayoutTest, Euroc) {
     EXPECT_EQ(sequence.camera.width, 8);
     EXPECT_EQ(sequence.camera.height, 6);
     EXPECT_EQ(sequence.camera.fps, 20);
-    EXPECT_EQ(sequence.camera.pinhole.fx, 458.654);
-    EXPECT_EQ(sequence.camera.pinhole.fy, 457.296);
-    EXPECT_EQ(sequence.camera.pinhole.cx, 367.215);
-    EXPECT_EQ(sequence.camera.pinhole.cy, 248.375);
-    EXPECT_EQ(sequence.camera.lens.k1, -0.28340811);
-    EXPECT_EQ(sequence.camera.lens.k2, 0.07395907);
-    EXPECT_EQ(sequence.camera.lens.p1, 0.00019359);
-    EXPECT_EQ(sequence.camera.lens.p2, 1.76187114e-05);
-    EXPECT_EQ(sequence.camera.lens.k3, 0);
+    EXPECT_EQ(sequence.camera.pinhole().fx, 458.654);
+    EXPECT_EQ(sequence.camera.pinhole().fy, 457.296);
+    EXPECT_EQ(sequence.camera.pinhole().cx, 367.215);
+    EXPECT_EQ(sequence.camera.pinhole().cy, 248.375);
+    EXPECT_EQ(lens_of(sequence.camera).k1, -0.28340811);
+    EXPECT_EQ(lens_of(sequence.camera).k2, 0.07395907);
+    EXPECT_EQ(lens_of(sequence.camera).p1, 0.00019359);
+    EXPECT_EQ(lens_of(sequence.camera).p2, 1.76187114e-05);
+    EXPECT_EQ(lens_of(sequence.camera).k3, 0);
     // The body is turned by half a turn about x: (x, y, z) -> (x, -y, -z), and the camera sits at (0.5, -0.25, 0.125) in it.
     ASSERT_EQ(sequence.groundtruth.size(), 1u);
     EXPECT_EQ(sequence.groundtruth[0].timestamp, sequence.frames[0].timestamp);
@@ -259,7 +259,7 @@ TEST_F(LayoutTest, EurocCameraThatIsWrong) {
   expect_sensor(replaced(kSensor, "data: [", "date: ["), 5, "T_BS should have rows, cols and data");
   const std::string none =
       replaced(replaced(kSensor, "radial-tangential", "none"), "distortion_coefficients", "unused");
-  EXPECT_TRUE(read_euroc_camera(folder.write("sensor.yaml", none)).model.lens.is_zero());
+  EXPECT_TRUE(read_euroc_camera(folder.write("sensor.yaml", none)).model.is_pinhole());
 }
 
 TEST_F(LayoutTest, EurocTruthThatIsWrong) {
@@ -334,7 +334,7 @@ TEST_F(LayoutTest, Video) {
   folder.write("detections/000000.txt", "1,1,5,1,5,3,1,3,of another sequence\n");
   const Sequence sequence = read_sequence(video, fov(90));
   ASSERT_EQ(sequence.frames.size(), 5u);
-  EXPECT_NEAR(sequence.camera.pinhole.fx, 4, 1e-12);
+  EXPECT_NEAR(sequence.camera.pinhole().fx, 4, 1e-12);
   EXPECT_EQ(frame_name(sequence, 3), "a film.y4m#000003");
   EXPECT_FALSE(sequence.has_detections);
   EXPECT_TRUE(read_detections(sequence, sequence.frames[0]).empty());

@@ -54,15 +54,15 @@ TEST_F(SequenceTest, Reads) {
   EXPECT_EQ(sequence.camera.width, 8);
   EXPECT_EQ(sequence.camera.height, 6);
   EXPECT_EQ(sequence.camera.fps, 30.0);
-  EXPECT_EQ(sequence.camera.pinhole.fx, 527.36);
-  EXPECT_EQ(sequence.camera.pinhole.fy, 527.5);
-  EXPECT_EQ(sequence.camera.pinhole.cx, 319.5);
-  EXPECT_EQ(sequence.camera.pinhole.cy, 239.25);
-  EXPECT_EQ(sequence.camera.lens.k1, -0.025592);
-  EXPECT_EQ(sequence.camera.lens.k2, 0.01);
-  EXPECT_EQ(sequence.camera.lens.p1, 1e-3);
-  EXPECT_EQ(sequence.camera.lens.p2, -2e-4);
-  EXPECT_EQ(sequence.camera.lens.k3, 0.0);
+  EXPECT_EQ(sequence.camera.pinhole().fx, 527.36);
+  EXPECT_EQ(sequence.camera.pinhole().fy, 527.5);
+  EXPECT_EQ(sequence.camera.pinhole().cx, 319.5);
+  EXPECT_EQ(sequence.camera.pinhole().cy, 239.25);
+  EXPECT_EQ(lens_of(sequence.camera).k1, -0.025592);
+  EXPECT_EQ(lens_of(sequence.camera).k2, 0.01);
+  EXPECT_EQ(lens_of(sequence.camera).p1, 1e-3);
+  EXPECT_EQ(lens_of(sequence.camera).p2, -2e-4);
+  EXPECT_EQ(lens_of(sequence.camera).k3, 0.0);
   EXPECT_TRUE(sequence.groundtruth.empty());
   EXPECT_FALSE(sequence.has_detections);
   EXPECT_EQ(load_frame(sequence, 2)(7, 5), 100);
@@ -98,25 +98,19 @@ TEST_F(SequenceTest, CameraAsOrbSlamWritesIt) {
       "rows: 4\n"
       "   data: [1.0, 0.0,\n          0.0]\nORBextractor.nFeatures: 1000\n...\n");
   const CameraModel camera = read_camera(path);
-  EXPECT_EQ(camera.pinhole.fx, 384.25);
-  EXPECT_EQ(camera.lens.k3, 0.5);
+  EXPECT_EQ(camera.pinhole().fx, 384.25);
+  EXPECT_EQ(lens_of(camera).k3, 0.5);
   EXPECT_EQ(camera.width, 640);
 }
 
 TEST_F(SequenceTest, CameraSurvivesTheRoundTrip) {
   CameraModel camera = read_camera(folder.path("camera.yaml"));
-  camera.pinhole.fx = 1000.0 / 3.0;
-  camera.lens.k3 = -1.0 / 7.0;
+  RadialTangential<double> raw = lens_of(camera);
+  raw.intrinsics.fx = 1000.0 / 3.0;
+  raw.k3 = -1.0 / 7.0;
+  camera.raw = raw;
   const CameraModel again = read_camera(folder.write("again.yaml", format_camera(camera)));
-  EXPECT_EQ(again.pinhole.fx, camera.pinhole.fx);
-  EXPECT_EQ(again.pinhole.fy, camera.pinhole.fy);
-  EXPECT_EQ(again.pinhole.cx, camera.pinhole.cx);
-  EXPECT_EQ(again.pinhole.cy, camera.pinhole.cy);
-  EXPECT_EQ(again.lens.k1, camera.lens.k1);
-  EXPECT_EQ(again.lens.k2, camera.lens.k2);
-  EXPECT_EQ(again.lens.p1, camera.lens.p1);
-  EXPECT_EQ(again.lens.p2, camera.lens.p2);
-  EXPECT_EQ(again.lens.k3, camera.lens.k3);
+  EXPECT_EQ(lens_of(again).parameters(), raw.parameters());
   EXPECT_EQ(again.width, camera.width);
   EXPECT_EQ(again.height, camera.height);
   EXPECT_EQ(again.fps, camera.fps);

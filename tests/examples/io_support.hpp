@@ -10,6 +10,7 @@
 
 #include <stdlib.h>
 
+#include "io/camera_model.hpp"
 #include "io/input_error.hpp"
 
 namespace textslam {
@@ -41,6 +42,11 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// The camera as the model that today's files are of.
+inline const RadialTangential<double>& lens_of(const CameraModel& camera) {
+  return std::get<RadialTangential<double>>(camera.raw);
+}
 
 /// The text with the first `from`, which must be there, replaced.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -45,7 +45,7 @@ class LateDetections : public testing::Test {
     return read_detections(*sequence_, sequence_->frames[static_cast<std::size_t>(index)]);
   }
   static std::unique_ptr<System> system(const Parameters& parameters) {
-    return std::make_unique<System>(sequence_->camera.pinhole, sequence_->camera.width, sequence_->camera.height,
+    return std::make_unique<System>(sequence_->camera.pinhole(), sequence_->camera.width, sequence_->camera.height,
                                     parameters);
   }
 

@@ -43,7 +43,7 @@ TEST(LiveWorld, FitsThePosesGivenBefore) {
   options.height = 240;
   render_sequence(options);
   const Sequence sequence = read_sequence(options.output);
-  System system(sequence.camera.pinhole, sequence.camera.width, sequence.camera.height, Parameters());
+  System system(sequence.camera.pinhole(), sequence.camera.width, sequence.camera.height, Parameters());
 
   int keyframes = 0, better = 0;
   double most = 0;

@@ -91,7 +91,7 @@ TEST(RendererGeometry, EveryPixelShowsTheNearestSurfaceOnItsRay) {
     for (int y = 0; y < camera.height; ++y) {
       for (int x = 0; x < camera.width; ++x) {
         // Solve corner + s right + t down = eye + distance ray for each rectangle.
-        const Vector3<double> ray = T_w_c.R * camera.pinhole.unproject(Vector2<double>(x, y));
+        const Vector3<double> ray = T_w_c.R * camera.pinhole().unproject(Vector2<double>(x, y));
         double nearest = 1e9, expected = 0.0;
         for (std::size_t i = 0; i < rectangles.size(); ++i) {
           const Rectangle& r = rectangles[i];
@@ -166,7 +166,7 @@ TEST(RendererGeometry, ABlurredPictureBelongsToThePoseInTheMiddleOfTheExposure) 
     Scene scene;
     scene.add_unlit(wall, ramp(across));
     const Blur blur = blur_of(scene, camera, motion, middle, exposure);
-    const double expected = camera.pinhole.fx * std::hypot(0.9, 0.4) * exposure / 2.0;
+    const double expected = camera.pinhole().fx * std::hypot(0.9, 0.4) * exposure / 2.0;
     EXPECT_NEAR(blur.median, expected, 1e-9);
     EXPECT_NEAR(blur.max, expected, 1e-9);
     const Image<double> sharp = render(scene, camera, motion(middle));

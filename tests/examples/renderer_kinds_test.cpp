@@ -126,7 +126,7 @@ TEST(RendererKinds, RapidBlursByEightToTwentyPixelsWhereItIsFast) {
       const Sign& sign = shot.scene.signs()[static_cast<std::size_t>(view.sign)];
       const Vector3<double> a = opened * (0.5 * (sign.corner[0] + sign.corner[2]));
       const Vector3<double> b = closed * (0.5 * (sign.corner[0] + sign.corner[2]));
-      lengths.push_back((camera.pinhole.project(b) - camera.pinhole.project(a)).norm());
+      lengths.push_back((camera.pinhole().project(b) - camera.pinhole().project(a)).norm());
     }
     ASSERT_FALSE(lengths.empty()) << "frame " << i << " shows no sign";
     std::sort(lengths.begin(), lengths.end());

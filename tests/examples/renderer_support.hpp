@@ -9,13 +9,13 @@
 namespace textslam {
 
 /// The renderer's camera at the given width, 4:3.
-inline CameraModel test_camera(int width = 640, const RadialTangential<double>& lens = {}) {
+inline CameraModel test_camera(int width = 640, RadialTangential<double> lens = {}) {
   CameraModel camera;
   camera.width = width;
   camera.height = width * 3 / 4;
   const double f = 525.0 / 640.0 * width;
-  camera.pinhole = {f, f, 0.5 * (camera.width - 1), 0.5 * (camera.height - 1)};
-  camera.lens = lens;
+  lens.intrinsics = {f, f, 0.5 * (camera.width - 1), 0.5 * (camera.height - 1)};
+  camera.raw = lens;
   camera.fps = 30.0;
   return camera;
 }

@@ -82,8 +82,7 @@ void expect_quads_are_projected_signs(const RenderOptions& options) {
       for (std::size_t k = 0; k < 4; ++k) {
         const Vector3<double> p_w = vector(sign.at("corners").at(k)), p = T_c_w * p_w;
         EXPECT_NEAR(normal.dot(p_w - vector(sign.at("corners").at(0))), 0.0, 1e-12);
-        const Vector2<double> m = sequence.camera.lens.distort(Vector2<double>(p[0] / p[2], p[1] / p[2]));
-        const Vector2<double> px = sequence.camera.pinhole.pixel(m);
+        const Vector2<double> px = sequence.camera.project(p);
         worst = std::max(worst, (px - quad.corner[k]).cwiseAbs().maxCoeff());
         ++compared;
       }

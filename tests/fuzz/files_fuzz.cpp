@@ -47,7 +47,7 @@ void read_as(int what, const std::string& path) {
     case 1:
       for (const StampedPose& pose : read_tum(path)) TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(pose.T_w_c));
       break;
-    case 2: TEXTPLANE_FUZZ_REQUIRE(read_camera(path).pinhole.valid()); break;
+    case 2: TEXTPLANE_FUZZ_REQUIRE(read_camera(path).pinhole().valid()); break;
     case 3: read_text_map(path); break;
     case 4: read_json(path); break;
     case 5: {
@@ -55,7 +55,7 @@ void read_as(int what, const std::string& path) {
       TEXTPLANE_FUZZ_REQUIRE(image.width() > 0 && image.height() > 0);
       break;
     }
-    case 7: TEXTPLANE_FUZZ_REQUIRE(read_euroc_camera(path).model.pinhole.valid()); break;
+    case 7: TEXTPLANE_FUZZ_REQUIRE(read_euroc_camera(path).model.pinhole().valid()); break;
     case 8:
       for (const FrameRef& frame : read_euroc_frames(path, "images")) TEXTPLANE_FUZZ_REQUIRE(frame.line > 0);
       break;

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/geometry/quad.hpp"

@@ -10,8 +10,8 @@ MUTANTS = [
     ("core/numeric.hpp", "for (int k = 0; k < j; ++k) s -= l_(i, k)", "for (int k = 1; k < j; ++k) s -= l_(i, k)", ["core/numeric_test"]),
     ("core/numeric.hpp", "a(p, k) = c * apk - s * aqk;", "a(p, k) = c * apk + s * aqk;", ["core/numeric_test"]),
     ("core/numeric.hpp", "odd = a(k + 1, i) * b(k + 1, j) + odd;", "odd = a(k, i) * b(k, j) + odd;", ["core/numeric_test"]),
-    ("core/camera.hpp", "(cx + S(0.5)) * k - S(0.5), (cy", "cx * k, (cy", ["core/camera_test"]),
-    ("core/camera.hpp", "S(6) * p2 * x, cross", "S(2) * p2 * x, cross", ["core/camera_test"]),
+    ("core/cameras/pinhole.hpp", "(cx + S(0.5)) * k - S(0.5), (cy", "cx * k, (cy", ["core/camera_test"]),
+    ("core/cameras/radial_tangential.hpp", "S(6) * p2 * x, cross", "S(2) * p2 * x, cross", ["core/radial_tangential_test"]),
     # geometry
     ("geometry/plane.hpp", "S(r == c ? 1 : 0) - result[r] * T_t_h.t[c];", "S(r == c ? 1 : 0) + result[r] * T_t_h.t[c];", ["geometry/plane_test"]),
     ("geometry/plane.hpp", "const S k = S(1) + a.dot(T_t_h.t);", "const S k = S(1) - a.dot(T_t_h.t);", ["geometry/plane_test"]),

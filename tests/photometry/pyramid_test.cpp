@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 
 namespace tp = textplane;
 

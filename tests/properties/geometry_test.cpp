@@ -7,7 +7,7 @@
 #include "properties/properties.hpp"
 #include "support/calculus.hpp"
 #include "support/dense.hpp"
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"

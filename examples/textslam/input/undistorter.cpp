@@ -7,11 +7,10 @@
 namespace textslam {
 
 Undistorter::Undistorter(const CameraModel& camera) : camera_(camera) {
-  if (camera.lens.is_zero()) return;
+  if (camera.is_pinhole()) return;
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
-      const Vector3<double> m = camera.pinhole.unproject({x, y});
-      const Vector2<double> raw = camera.pinhole.pixel(camera.lens.distort({m.x(), m.y()}));
+      const Vector2<double> raw = camera.project(camera.pinhole().unproject({x, y}));
       map_x_.push_back(static_cast<float>(std::clamp(raw.x(), 0.0, camera.width - 1.0)));
       map_y_.push_back(static_cast<float>(std::clamp(raw.y(), 0.0, camera.height - 1.0)));
     }
@@ -35,10 +34,9 @@ std::vector<Detection> Undistorter::operator()(std::vector<Detection> raw) const
   for (Detection& detection : raw) {
     bool valid = true;
     for (Vector2<double>& corner : detection.quad.corner) {
-      const Vector3<double> distorted = camera_.pinhole.unproject(corner);
-      Vector2<double> m;
-      valid = valid && textplane::is_ok(camera_.lens.undistort({distorted.x(), distorted.y()}, &m));
-      if (valid) corner = camera_.pinhole.pixel(m);
+      Vector3<double> m;
+      valid = valid && textplane::is_ok(camera_.unproject(corner, &m));
+      if (valid) corner = camera_.pinhole().pixel(m.head<2>());
     }
     if (valid) out.push_back(std::move(detection));
   }

@@ -35,10 +35,10 @@ Json camera_json(const Sequence& sequence) {
   const CameraModel& camera = sequence.camera;
   Json out{{"width", camera.width},
            {"height", camera.height},
-           {"fx", short_number(camera.pinhole.fx)},
-           {"fy", short_number(camera.pinhole.fy)},
-           {"cx", short_number(camera.pinhole.cx)},
-           {"cy", short_number(camera.pinhole.cy)}};
+           {"fx", short_number(camera.pinhole().fx)},
+           {"fy", short_number(camera.pinhole().fy)},
+           {"cx", short_number(camera.pinhole().cx)},
+           {"cy", short_number(camera.pinhole().cy)}};
   if (sequence.approximate_fov > 0) out["approximate_fov_deg"] = short_number(sequence.approximate_fov);
   return out;
 }

@@ -40,7 +40,7 @@
 #include "ceres_pose.hpp"
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/solver/weighting.hpp"

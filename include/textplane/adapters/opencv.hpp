@@ -14,7 +14,7 @@
 #include <vector>
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/core/status.hpp"

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/core/status.hpp"

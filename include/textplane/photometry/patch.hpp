@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/geometry/quad.hpp"
 #include "textplane/photometry/pyramid.hpp"
 #include "textplane/photometry/sample.hpp"

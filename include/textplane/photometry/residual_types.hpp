@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/status.hpp"

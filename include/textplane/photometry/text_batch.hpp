@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "textplane/core/cache_line.hpp"
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/photometry/residual_types.hpp"
 #include "textplane/simd/batch.hpp"

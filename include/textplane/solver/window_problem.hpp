@@ -15,7 +15,7 @@
 #include <cmath>
 #include <vector>
 
-#include "textplane/core/camera.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/core/status.hpp"
 #include "textplane/photometry/patch.hpp"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include <textplane/core/camera.hpp>
+#include <textplane/core/cameras/pinhole.hpp>
 
 int main() {
   const textplane::Pinhole<double> camera(500, 500, 320, 240);

@@ -112,7 +112,7 @@ TEST_F(TextslamRun, TextMapIsConsistent) {
       const Vec3 p = T_h_w * vec3_of(text.at("corners").at(i));
       EXPECT_NEAR(theta.dot(p), 1.0, 1e-8);
       ASSERT_GT(p.z(), 0.0);
-      const Vector2<double> px = sequence.camera.pinhole.project(p);
+      const Vector2<double> px = sequence.camera.pinhole().project(p);
       EXPECT_TRUE(px.x() >= 0 && px.y() >= 0 && px.x() < sequence.camera.width && px.y() < sequence.camera.height);
       if (exact.empty()) continue;
       EXPECT_LT((px - Vector2<double>(exact[2 * i], exact[2 * i + 1])).norm(), 8.0) << "corner " << i;
