@@ -71,12 +71,15 @@
   }                             \
   }
 
-// Compiled once for a program, or where they are called: see simd/targets.hpp. TEXTPLANE_INSTANCE begins the lines, at the end of a
-// header, that name the functions which TEXTPLANE_EXTERN_KERNELS makes declarations.
-#if defined(TEXTPLANE_DEFINE_KERNELS) && !defined(TEXTPLANE_EXTERN_KERNELS)
-#define TEXTPLANE_EXTERN_KERNELS
-#endif
+// Deferred functions. A function of no template parameter of its own is compiled in every file that includes its header. A
+// deferred one, TEXTPLANE_DEFERRED before it, is compiled where it is called; callers do not see the parameter. A program with
+// compiled kernels (simd/targets.hpp) compiles it once: the header ends with a line TEXTPLANE_INSTANCE for it, inside
+// `#if defined(TEXTPLANE_EXTERN_KERNELS)`, which is its definition in the one file that defines the kernels and a declaration in
+// all others.
+#define TEXTPLANE_DEFERRED template <class = void>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
+#undef TEXTPLANE_EXTERN_KERNELS
+#define TEXTPLANE_EXTERN_KERNELS
 #define TEXTPLANE_INSTANCE template
 #else
 #define TEXTPLANE_INSTANCE extern template

@@ -38,7 +38,7 @@
 #include "textplane/features/align.hpp"
 #include "textplane/features/fast.hpp"
 #include "textplane/features/klt.hpp"
-#include "textplane/features/patch_template.hpp"
+#include "textplane/features/point_patch.hpp"
 #include "textplane/features/select.hpp"
 
 #include "textplane/solver/block_cholesky.hpp"

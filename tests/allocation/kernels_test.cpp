@@ -112,7 +112,7 @@ TEST(NoAllocation, ImagesAndFeatures) {
     int found = 0;
     const std::vector<tp::Vector2<float>> from{{60.5F, 70.2F}, {100, 80}};
     std::vector<tp::KltResult> tracks(2);
-    tp::PatchTemplate patch;
+    tp::PointPatch patch;
     tp::KltResult aligned;
     std::array<Status, 5> status{};
     {
@@ -123,8 +123,8 @@ TEST(NoAllocation, ImagesAndFeatures) {
       status = {pyramid.build(image.view(), 3), pairs.prepare(image.view()),
                 tp::warp_patch<std::uint8_t, std::uint8_t>(image.view(), H, out.view()).status,
                 tp::detect_fast(image.view(), 15, true, scratch.data(), corners.data(), 32000, &found),
-                tp::extract_template(image.view(), {80, 70}, Eigen::Matrix2f::Identity(), 10, &patch)};
-      aligned = tp::align_template(patch, image.view(), {80.4F, 70.3F});
+                tp::extract_point_patch(image.view(), {80, 70}, Eigen::Matrix2f::Identity(), 10, &patch)};
+      aligned = tp::align_point_patch(patch, image.view(), {80.4F, 70.3F});
       tp::track_klt(pyramid.view(), pyramid.view(), from.data(), nullptr, 2, {}, tracks.data());
     }
     for (const Status s : status) EXPECT_EQ(s, Status::ok);

@@ -21,14 +21,14 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 Image<std::uint8_t> textured() { return TexturedPlane(5).render(Matrix3d::Identity(), 320, 240, {}, 1); }
 
 // T~ and J~ = (1/s) (I - 1 1^T/N - T~ T~^T) grad T written out in double on sample_bilinear().
-TEST(PatchTemplate, IsTheNormalisedPatchWithItsProjectedGradient) {
+TEST(PointPatch, IsTheNormalisedPatchWithItsProjectedGradient) {
   const Image<std::uint8_t> image = textured();
   Eigen::Matrix2f A;
   A << 0.9F, 0.2F, -0.15F, 1.1F;
   const Vector2f centre(100.3F, 80.7F);
   for (const int half : {1, 4, 7, 8, 10}) {
-    PatchTemplate t;
-    ASSERT_EQ(extract_template(image.view(), centre, A, half, &t), Status::ok);
+    PointPatch t;
+    ASSERT_EQ(extract_point_patch(image.view(), centre, A, half, &t), Status::ok);
     const int side = 2 * half + 1, n = side * side;
     ASSERT_EQ(t.count(), n);
     const auto sample = [&](int i, int j) {
@@ -75,7 +75,7 @@ TEST(PatchTemplate, IsTheNormalisedPatchWithItsProjectedGradient) {
   }
 }
 
-TEST(PatchTemplate, RowSamplingEqualsPixelSamplingUpToTheBorders) {
+TEST(PointPatch, RowSamplingEqualsPixelSamplingUpToTheBorders) {
   const Image<std::uint8_t> image = textured();
   const ImageView8 small(image.data(), 41, 37, image.view().stride());
   std::vector<std::uint8_t> tight;  // no byte behind the last pixel
@@ -85,12 +85,12 @@ TEST(PatchTemplate, RowSamplingEqualsPixelSamplingUpToTheBorders) {
     const float h = static_cast<float>(half);
     for (const float x : {h + 1.0F, h + 1.25F, 20.0F, 20.6F, 39.0F - h - 0.3F, 39.0F - h})
       for (const float y : {h + 1.0F, h + 1.75F, 18.5F, 35.0F - h - 0.6F, 35.0F - h}) {
-        PatchTemplate a, b;
+        PointPatch a, b;
         a.left = a.top = half;
         a.columns = a.rows = 2 * half + 1;
-        ASSERT_EQ(detail::extract_upright_template(view, x, y, &a), Status::ok) << x << " " << y;
+        ASSERT_EQ(detail::extract_upright_patch(view, x, y, &a), Status::ok) << x << " " << y;
         ASSERT_LE(std::max(std::abs(a.dx), std::abs(a.dy)), 1.0F / 128);
-        ASSERT_EQ(extract_template(view, {x - a.dx, y - a.dy}, Eigen::Matrix2f::Identity(), half, &b), Status::ok);
+        ASSERT_EQ(extract_point_patch(view, {x - a.dx, y - a.dy}, Eigen::Matrix2f::Identity(), half, &b), Status::ok);
         // Two samples differ by at most 5/128 and 0.01: one rounds to 1/64 and down to 1/32, the other to 1/32.
         const double e = 5.0 / 128 + 0.01, root = std::sqrt(a.count());
         for (int j = 0; j < a.rows; ++j)
@@ -99,7 +99,7 @@ TEST(PatchTemplate, RowSamplingEqualsPixelSamplingUpToTheBorders) {
             ASSERT_NEAR(a.value(i, j), b.value(i, j), 1.05 * (2 + u * root) * e / b.s);
             ASSERT_NEAR(a.mean, b.mean, e);
           }
-        ASSERT_EQ(detail::extract_upright_template(view, 39.1F - h, y, &a), Status::out_of_view);
+        ASSERT_EQ(detail::extract_upright_patch(view, 39.1F - h, y, &a), Status::out_of_view);
       }
   }
 }
@@ -123,11 +123,11 @@ TEST(AlignTemplate, ReobservesAWarpedPatchToAFewHundredthsOfAPixel) {
     select_spread(corners, width, height, 24, 300, {}, spread);
     for (const Corner& c : spread) {
       const Vector2d truth = TexturedPlane::apply(to_target, {c.x, c.y});
-      PatchTemplate t;
-      if (extract_template(host.view(), {c.x, c.y}, A, 7, &t) != Status::ok) continue;
+      PointPatch t;
+      if (extract_point_patch(host.view(), {c.x, c.y}, A, 7, &t) != Status::ok) continue;
       if (truth[0] < 12 || truth[1] < 12 || truth[0] > width - 13 || truth[1] > height - 13) continue;
       const Vector2d start = truth + Vector2d(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
-      const KltResult r = align_template(t, target.view(), start.cast<float>());
+      const KltResult r = align_point_patch(t, target.view(), start.cast<float>());
       ++n;
       if (!is_ok(r.status)) continue;
       EXPECT_GT(r.zncc, 0.9);
@@ -149,36 +149,36 @@ TEST(AlignTemplate, ReobservesAWarpedPatchToAFewHundredthsOfAPixel) {
 
 TEST(AlignTemplate, FailuresAreStatusesWithoutNan) {
   const Image<std::uint8_t> image = textured();
-  PatchTemplate t, bad;
+  PointPatch t, bad;
   const Eigen::Matrix2f I = Eigen::Matrix2f::Identity();
-  ASSERT_EQ(extract_template(image.view(), {100, 100}, I, 7, &t), Status::ok);
-  EXPECT_EQ(extract_template(image.view(), {3, 100}, I, 7, &bad), Status::out_of_view);
-  EXPECT_EQ(align_template(bad, image.view(), {50, 50}).status, Status::out_of_view);
-  EXPECT_EQ(extract_template(image.view(), {kNan, 100}, I, 7, &bad), Status::non_finite);
-  EXPECT_EQ(extract_template(image.view(), {1e30F, 100}, I, 7, &bad), Status::out_of_view);
-  EXPECT_EQ(extract_template(image.view(), {100, 100}, Eigen::Matrix2f::Zero(), 7, &bad), Status::degenerate);
-  EXPECT_EQ(extract_template(image.view(), {100, 100}, kNan * I, 7, &bad), Status::non_finite);
-  EXPECT_EQ(extract_template(image.view(), {100, 100}, I, 11, &bad), Status::invalid_argument);
-  EXPECT_EQ(extract_template(ImageView8(), {100, 100}, I, 7, &bad), Status::invalid_argument);
+  ASSERT_EQ(extract_point_patch(image.view(), {100, 100}, I, 7, &t), Status::ok);
+  EXPECT_EQ(extract_point_patch(image.view(), {3, 100}, I, 7, &bad), Status::out_of_view);
+  EXPECT_EQ(align_point_patch(bad, image.view(), {50, 50}).status, Status::out_of_view);
+  EXPECT_EQ(extract_point_patch(image.view(), {kNan, 100}, I, 7, &bad), Status::non_finite);
+  EXPECT_EQ(extract_point_patch(image.view(), {1e30F, 100}, I, 7, &bad), Status::out_of_view);
+  EXPECT_EQ(extract_point_patch(image.view(), {100, 100}, Eigen::Matrix2f::Zero(), 7, &bad), Status::degenerate);
+  EXPECT_EQ(extract_point_patch(image.view(), {100, 100}, kNan * I, 7, &bad), Status::non_finite);
+  EXPECT_EQ(extract_point_patch(image.view(), {100, 100}, I, 11, &bad), Status::invalid_argument);
+  EXPECT_EQ(extract_point_patch(ImageView8(), {100, 100}, I, 7, &bad), Status::invalid_argument);
 
-  EXPECT_EQ(align_template(t, image.view(), {kNan, 50}).status, Status::non_finite);
-  EXPECT_EQ(align_template(t, image.view(), {kNan, 50}).px, Vector2f(0, 0));
-  EXPECT_EQ(align_template(t, image.view(), {2, 50}).status, Status::out_of_view);
-  EXPECT_EQ(align_template(t, image.view(), {1e30F, -1e30F}).status, Status::out_of_view);
-  EXPECT_EQ(align_template(t, ImageView8(), {50, 50}).status, Status::invalid_argument);
-  EXPECT_EQ(align_template(PatchTemplate(), image.view(), {50, 50}).status, Status::invalid_argument);
+  EXPECT_EQ(align_point_patch(t, image.view(), {kNan, 50}).status, Status::non_finite);
+  EXPECT_EQ(align_point_patch(t, image.view(), {kNan, 50}).px, Vector2f(0, 0));
+  EXPECT_EQ(align_point_patch(t, image.view(), {2, 50}).status, Status::out_of_view);
+  EXPECT_EQ(align_point_patch(t, image.view(), {1e30F, -1e30F}).status, Status::out_of_view);
+  EXPECT_EQ(align_point_patch(t, ImageView8(), {50, 50}).status, Status::invalid_argument);
+  EXPECT_EQ(align_point_patch(PointPatch(), image.view(), {50, 50}).status, Status::invalid_argument);
   const Image<std::uint8_t> flat(100, 100, 90);
-  EXPECT_EQ(align_template(t, flat.view(), {50, 50}).status, Status::no_contrast);
-  EXPECT_EQ(extract_template(flat.view(), {50, 50}, I, 7, &bad), Status::no_contrast);
+  EXPECT_EQ(align_point_patch(t, flat.view(), {50, 50}).status, Status::no_contrast);
+  EXPECT_EQ(extract_point_patch(flat.view(), {50, 50}, I, 7, &bad), Status::no_contrast);
 
   Image<std::uint8_t> edge(100, 100, 50);
   for (int y = 0; y < 100; ++y)
     for (int x = 50; x < 100; ++x) edge(x, y) = 200;
-  ASSERT_EQ(extract_template(edge.view(), {50, 50}, I, 7, &bad), Status::ok);
-  EXPECT_EQ(align_template(bad, edge.view(), {50, 50}).status, Status::rank_deficient);
+  ASSERT_EQ(extract_point_patch(edge.view(), {50, 50}, I, 7, &bad), Status::ok);
+  EXPECT_EQ(align_point_patch(bad, edge.view(), {50, 50}).status, Status::rank_deficient);
 
   const KltResult wrong =
-      align_template(t, TexturedPlane(77).render(Matrix3d::Identity(), 100, 100, {}, 1).view(), {50, 50});
+      align_point_patch(t, TexturedPlane(77).render(Matrix3d::Identity(), 100, 100, {}, 1).view(), {50, 50});
   EXPECT_FALSE(is_ok(wrong.status));
   EXPECT_TRUE(is_finite(wrong.zncc) && all_finite(wrong.px));
 }

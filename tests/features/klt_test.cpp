@@ -83,8 +83,8 @@ TEST(Klt, IsBlindToGainAndBias) {
     EXPECT_NEAR((plain[i].px - lit[i].px).norm(), 0, 1.0 / 320);
     // Samples are off by -3/128 to 1/128 grey level. Less their mean, that turns the normalised patch by at most 1/64 of its
     // contrast, half of that in the brighter image; what a turn d does to a correlation z is at most sqrt(1 - z^2) d + d^2 / 2.
-    PatchTemplate seen;
-    ASSERT_EQ(extract_template(second.view(), plain[i].px, Eigen::Matrix2f::Identity(), 9, &seen), Status::ok);
+    PointPatch seen;
+    ASSERT_EQ(extract_point_patch(second.view(), plain[i].px, Eigen::Matrix2f::Identity(), 9, &seen), Status::ok);
     const double turn = 1.05 * 1.5 / 64 / seen.contrast(), z = plain[i].zncc;
     EXPECT_NEAR(z, lit[i].zncc, std::sqrt(1 - z * z) * turn + turn * turn / 2);
   }
@@ -166,8 +166,8 @@ TEST(Klt, EveryFailureHasAStatusAndNoNan) {
   EXPECT_EQ(track(image, image, one, {}, &far_guess)[0].status, Status::out_of_view);
   EXPECT_EQ(track(image, image, one, {}, &nan_guess)[0].status, Status::non_finite);
   for (const auto& change : std::vector<void (*)(KltOptions&)>{
-           [](KltOptions& o) { o.levels = 0; }, [](KltOptions& o) { o.half_window = 0; },
-           [](KltOptions& o) { o.half_window = 11; }, [](KltOptions& o) { o.max_iterations = 0; },
+           [](KltOptions& o) { o.levels = 0; }, [](KltOptions& o) { o.radius = 0; },
+           [](KltOptions& o) { o.radius = 11; }, [](KltOptions& o) { o.max_iterations = 0; },
            [](KltOptions& o) { o.epsilon = 0; }, [](KltOptions& o) { o.min_zncc = kNan; }}) {
     KltOptions options;
     change(options);
@@ -193,7 +193,7 @@ TEST(Klt, NeverGivesNanOnNoise) {
       points.push_back(
           {static_cast<float>(random.uniform(-5, width + 5)), static_cast<float>(random.uniform(-5, height + 5))});
     KltOptions options;
-    options.half_window = random.integer(1, 10);
+    options.radius = random.integer(1, 10);
     options.min_zncc = -1;
     options.min_eigenvalue = -1;
     options.min_contrast = 0;

@@ -73,7 +73,7 @@ void warps(const FuzzImage& image, Input& in) {
 void tracks(const FuzzImage& a, const FuzzImage& b, Input& in) {
   const tp::Pyramid from(a.view(), 3), to(b.view(), 3);
   tp::KltOptions options;
-  options.half_window = in.integer(0, 12);
+  options.radius = in.integer(0, 12);
   options.levels = in.integer(0, 4);
   options.min_zncc = static_cast<float>(in.number(-1, 1));
   options.max_forward_backward = static_cast<float>(in.number(0, 2));

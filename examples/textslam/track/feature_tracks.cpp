@@ -14,7 +14,7 @@ constexpr int kFineLevels = 2;  // pyramid levels that a good guess needs
 
 textplane::KltOptions klt_options(const Parameters& parameters) {
   textplane::KltOptions options;
-  options.half_window = parameters.klt_half_window;
+  options.radius = parameters.klt_half_window;
   options.levels = parameters.pyramid_levels;
   options.max_forward_backward = parameters.max_forward_backward;
   options.min_zncc = parameters.min_track_zncc;

@@ -58,18 +58,18 @@ bool find_patch(const Frame& host, const Vec2& host_px, const Eigen::Matrix2f& A
   const int shift = std::sqrt(std::abs(A.determinant())) > 1.4F ? 1 : 0;
   textplane::KltOptions options;
   options.min_zncc = min_zncc;
-  textplane::PatchTemplate patch;
+  textplane::PointPatch patch;
   for (int level = coarsest; level >= 0; --level) {
     const int host_level = std::min(level + shift, host.image->levels() - 1);
     const float scale = std::ldexp(1.0F, level - host_level);
-    const auto status = textplane::extract_template(
+    const auto status = textplane::extract_point_patch(
         host.image->level(host_level), to_level(host_px.cast<float>(), host_level), scale * A, kTemplateHalf, &patch);
     if (!textplane::is_ok(status)) {
       if (level > 0) continue;
       return false;
     }
     options.min_zncc = level > 0 ? 0.5F : min_zncc;
-    const auto result = textplane::align_template(patch, frame.image->level(level), to_level(*px, level), options);
+    const auto result = textplane::align_point_patch(patch, frame.image->level(level), to_level(*px, level), options);
     if (textplane::is_ok(result.status)) {
       *px = from_level(result.px, level);
     } else if (level == 0) {

@@ -1,24 +1,24 @@
-// Aligning a normalised template to an image by translation: inverse compositional, invariant to gain and bias.
+// Aligns a PointPatch to an image by translation: inverse compositional, invariant to gain and bias.
 //
-// Baker and Matthews, "Lucas-Kanade 20 years on", IJCV 2004, on zero-mean unit-norm intensities (patch_template.hpp):
-// the Hessian and the Jacobian belong to the template, an iteration costs one pass over the target's samples.
+// Baker and Matthews, "Lucas-Kanade 20 years on", IJCV 2004, on zero-mean unit-norm intensities (point_patch.hpp).
+// Hessian and Jacobian belong to the patch, so an iteration is one pass over the samples of the target.
 #ifndef TEXTPLANE_FEATURES_ALIGN_HPP
 #define TEXTPLANE_FEATURES_ALIGN_HPP
 
 #include <cmath>
 #include <cstdint>
 
-#include "textplane/features/patch_template.hpp"
+#include "textplane/features/point_patch.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Parameters of track_klt() and align_template(). Pixels are those of the level worked on, unless said otherwise.
+/// Parameters of track_klt() and align_point_patch(). Pixels are those of the current level unless said otherwise.
 struct KltOptions {
-  int half_window = 9;        ///< Patch of 2 half_window + 1 pixels a side, in [1, kMaxPatchHalf]. track_klt() only.
+  int radius = 9;             ///< A patch has 2 radius + 1 pixels a side; in [1, kMaxPatchRadius]. track_klt() only.
   int levels = 4;             ///< Pyramid levels used, at most those that exist. track_klt() only.
   int max_iterations = 20;    ///< On every level.
   float epsilon = 0.01F;      ///< px: a step shorter than this ends a level.
-  float min_contrast = 1.5F;  ///< Intensity: smallest standard deviation of a patch, in template and target.
+  float min_contrast = 1.5F;  ///< Intensity: smallest standard deviation of the patch and of its image in the target.
   float min_eigenvalue = 0.003F;      ///< 1/px^2: smallest eigenvalue of J~^T J~ (a straight edge has 0).
   float min_zncc = 0.8F;              ///< Smallest correlation of a successful track.
   float max_forward_backward = 1.0F;  ///< px of level 0; 0 or less: no backward pass. track_klt() only.
@@ -26,11 +26,10 @@ struct KltOptions {
 
 /// A tracked or aligned point. Never holds a NaN.
 struct KltResult {
-  Vector2<float> px = {0, 0};  ///< Level-0 px for track_klt(); the guess where no estimate exists.
-  float zncc = 0;      ///< Correlation of the patch on the finest level, at px to within the last step; 0 if unknown.
-  float fb_error = 0;  ///< Forward-backward error, px; 0 where no backward pass was run.
-  /// Why it ended.
-  Status status = Status::invalid_argument;
+  Vector2<float> px = {0, 0};                ///< Level-0 px for track_klt(); the guess where no estimate exists.
+  float zncc = 0;                            ///< Correlation on the finest level, before the last step; 0 if unknown.
+  float fb_error = 0;                        ///< Forward-backward error, px; 0 where no backward pass was run.
+  Status status = Status::invalid_argument;  ///< Why it ended.
 };
 
 namespace detail {
@@ -40,24 +39,23 @@ struct Alignment {
   Status status = Status::invalid_argument;
 };
 
-// What a template finds at a position (x, y) of its point: the correlation, and b = sum J~ I~, of which the step is
-// -(J~^T J~)^-1 b. Taken at (at_x, at_y), the nearest position on the grid of 1/64 px. out_of_view or no_contrast
-// without one.
+// The correlation of a patch with the image at (at_x, at_y), the position nearest to (x, y) on the grid of 1/64 px, and
+// b = sum J~ I~: the step is -(J~^T J~)^-1 b. Status: ok, out_of_view or no_contrast.
 struct Correlation {
   float at_x = 0, at_y = 0;
   float zncc = 0, bx = 0, by = 0;
   Status status = Status::out_of_view;
 };
 
-inline Correlation correlate(const PatchTemplate& t, const ImageView8& image, float x, float y,
+inline Correlation correlate(const PointPatch& t, const ImageView8& image, float x, float y,
                              float min_contrast) noexcept {
   Correlation c;
   const float left = x - t.dx - static_cast<float>(t.left), top = y - t.dy - static_cast<float>(t.top);
-  PlacedWindow placed;
-  if (!place_window(image, left, top, t.columns, t.rows, &placed)) return c;
+  PlacedPatch placed;
+  if (!place_patch(image, left, top, t.columns, t.rows, &placed)) return c;
   c.at_x = x + placed.moved_x;
   c.at_y = y + placed.moved_y;
-  const simd::KltSums sums = simd::klt_sums(placed.window, t.patch);
+  const simd::KltSums sums = simd::klt_sums(placed.samples, t.patch);
   constexpr double kScale = simd::kKltScale;
   const double n = t.count();
   const double vv = sums.vv - sums.v * sums.v / n;  // kScale^2 ||I - mean||^2
@@ -73,9 +71,9 @@ inline Correlation correlate(const PatchTemplate& t, const ImageView8& image, fl
   return c;
 }
 
-// Iterates from (x, y); the template is valid. out_of_view and no_contrast where there is no patch to start from (x, y
-// stay) or, out_of_view, where the last step led out of the image (x, y: the best inside); rank_deficient.
-inline Alignment align_translation(const PatchTemplate& t, const ImageView8& image, float x, float y,
+// Iterates from (x, y) with a patch whose status is ok. out_of_view or no_contrast where the start has no correlation (x, y
+// stay); out_of_view where the last step left the image (x, y: the best inside); rank_deficient.
+inline Alignment align_translation(const PointPatch& t, const ImageView8& image, float x, float y,
                                    const KltOptions& options) noexcept {
   Alignment result{x, y, 0, Status::iteration_limit};
   const float determinant = t.hxx * t.hyy - t.hxy * t.hxy;
@@ -91,8 +89,8 @@ inline Alignment align_translation(const PatchTemplate& t, const ImageView8& ima
       result.status = c.status;
       return result;
     }
-    // A long step that made matters worse, or left the image, is halved; short ones are left to the fixed point, which
-    // interpolation may put a few hundredths of a pixel from the largest correlation.
+    // A long step that lowers the correlation or leaves the image is halved. Short steps run on to the fixed point:
+    // interpolation may put it a few hundredths of a pixel off the largest correlation.
     const bool worse = c.zncc < result.zncc && step_x * step_x + step_y * step_y > 0.0625F;
     if (iteration > 0 && (!is_ok(c.status) || worse)) {
       step_x *= 0.5F;
@@ -110,8 +108,8 @@ inline Alignment align_translation(const PatchTemplate& t, const ImageView8& ima
       step_x *= scale;
       step_y *= scale;
     }
-    // Done where the step is short, rounds to none, or where the one before was short and led no further up: between a
-    // few neighbours on the grid the iteration may go round for ever.
+    // Done where the step is short or rounds to zero, and where the step before was short and did not raise the
+    // correlation: otherwise the iteration may cycle among a few neighbours on the grid.
     constexpr float kCell = 1.0F / simd::kKltSubpixels;
     const float longer = std::abs(step_x) > std::abs(step_y) ? std::abs(step_x) : std::abs(step_y);
     const bool done = length2 < options.epsilon * options.epsilon || longer <= 0.5F * kCell ||
@@ -132,13 +130,13 @@ inline bool valid_options(const KltOptions& options) noexcept {
 
 }  // namespace detail
 
-/// Refines the position of template `t` in `target` from `start` (px of that image), a translation of 2 parameters that
-/// minimises || T~ - I~ ||^2 over zero-mean unit-norm patches. On Status::converged or iteration_limit px is the
+/// Refines the position of patch `t` in `target` from `start` (px of that image) by a translation of 2 parameters that
+/// minimises || T~ - I~ ||^2 over zero-mean unit-norm intensities. On Status::converged or iteration_limit px is the
 /// estimate and zncc its correlation. Otherwise: out_of_view (px = start), no_contrast and rank_deficient (too little
 /// texture, px = start), diverged (zncc < min_zncc; px and zncc as found), non_finite (px = 0), invalid_argument, or
-/// the status of a failed template. No allocation; any number of threads.
-inline KltResult align_template(const PatchTemplate& t, const ImageView8& target, const Vector2<float>& start,
-                                const KltOptions& options = {}) noexcept {
+/// the status of a patch that was not extracted. No allocation; any number of threads.
+inline KltResult align_point_patch(const PointPatch& t, const ImageView8& target, const Vector2<float>& start,
+                                   const KltOptions& options = {}) noexcept {
   KltResult result;
   if (!all_finite(start)) {
     result.status = Status::non_finite;

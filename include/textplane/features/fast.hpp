@@ -1,4 +1,4 @@
-// FAST-9/16 corners, the definition and order of OpenCV's TYPE_9_16: same positions, same responses, same order.
+// FAST-9/16 corners: the positions, responses and order of OpenCV's TYPE_9_16.
 //
 // A pixel p is a corner where at least 9 consecutive pixels of the circle of 16 around it (radius 3) are all brighter
 // than I(p) + threshold or all darker than I(p) - threshold. Rosten and Drummond, "Machine learning for high-speed
@@ -18,13 +18,12 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A corner at pixel (x, y) of the image it was found in. `score` is an integer in [threshold, 254]; 0 where the
-/// detector was asked not to suppress (as in OpenCV, which does not compute it then; see fast_score()).
+/// A corner at pixel (x, y). `score`: the largest threshold (intensity) at which it is a corner, an integer in
+/// [threshold, 254]; 0 without non-maximum suppression, as in OpenCV (see fast_score()).
 struct Corner {
-  float x = 0;  ///< px of the image.
-  float y = 0;  ///< Likewise.
-  /// The largest threshold, in intensity, at which it is still a corner.
-  float score = 0;
+  float x = 0;      ///< px of the image.
+  float y = 0;      ///< Likewise.
+  float score = 0;  ///< Intensity.
 };
 
 namespace detail {
@@ -40,10 +39,10 @@ struct FastCircle {
   }
 };
 
-// Largest over the 16 arcs of 9 pixels of the smallest difference along the arc, for brighter and for darker arcs, less
-// one: the largest threshold (the comparison is strict) that leaves the pixel a corner. At least -1.
+// The largest threshold at which the pixel is a corner: the smallest difference along an arc of 9 pixels, maximised over the
+// 16 arcs, brighter and darker, less one because the comparison is strict. At least -1.
 inline int fast_score(const std::uint8_t* p, const FastCircle& circle) noexcept {
-  int low[24], high[24];  // running minimum and maximum of the differences, arcs doubled in length at every pass
+  int low[24], high[24];  // minimum and maximum of the differences along arcs, whose length doubles in every pass
   for (int k = 0; k < 16; ++k) low[k] = high[k] = *p - p[circle.offset[k]];
   for (int k = 16; k < 24; ++k) low[k] = high[k] = low[k - 16];
   int first_low[16], first_high[16];
@@ -73,7 +72,7 @@ inline int fast_score(const std::uint8_t* p, const FastCircle& circle) noexcept 
 // Calls emit(x, y, score) for every corner in raster order. `scratch`: fast_scratch_size() bytes where `suppress`.
 template <class Emit>
 void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8_t* scratch, Emit emit) {
-  constexpr int kPart = 512;  // pixels of a row judged at a time
+  constexpr int kPart = 512;  // pixels of a row in one call
   const int width = image.width(), height = image.height();
   if (width < 7 || height < 7) return;
   threshold = threshold < 0 ? 0 : (threshold > 255 ? 255 : threshold);
@@ -94,15 +93,15 @@ void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8
   std::uint8_t* above = scratch;
   std::uint8_t* middle = scratch + pitch;
   std::uint8_t* below = scratch + 2 * pitch;
-  bool judged = false, next = false;  // rows y - 1 and y have scores
-  for (int y = 3; y <= height - 3; ++y, judged = next) {
-    // `below` is row y; the row judged is y - 1.
+  bool scored = false, next = false;  // rows y - 1 and y have scores
+  for (int y = 3; y <= height - 3; ++y, scored = next) {
+    // `below` is row y; `middle`, row y - 1, is suppressed.
     if (y < height - 3) {
       next = simd::fast_row({image.row(y), image.stride(), width, threshold, 1, below});
     } else {
       std::memset(below, 0, pitch);
     }
-    for (int x = 3; judged && x < width - 3; x += kPart) {
+    for (int x = 3; scored && x < width - 3; x += kPart) {
       const int last = width - 3 - x < kPart ? width - 3 : x + kPart;
       const int count = simd::fast_maxima({above, middle, below, x, last, true, found});
       for (int i = 0; i < count; ++i) emit(found[i], y - 1, middle[found[i]]);
@@ -116,23 +115,23 @@ void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8
 
 }  // namespace detail
 
-/// FAST score of pixel (x, y), at least 3 px from every border: the largest threshold at which it is a corner, -1 where
-/// it is none at any. No allocation.
+/// FAST score of pixel (x, y): the largest threshold at which it is a corner, -1 where it is none at any threshold or lies
+/// less than 3 px from a border. No allocation.
 inline int fast_score(const ImageView8& image, int x, int y) noexcept {
   if (!image.valid() || x < 3 || y < 3 || x >= image.width() - 3 || y >= image.height() - 3) return -1;
   return detail::fast_score(image.row(y) + x, detail::FastCircle(image.stride()));
 }
 
-/// Bytes of scratch that detect_fast() on caller buffers needs for an image of this width.
+/// Bytes of scratch that detect_fast() needs for an image of this width.
 constexpr std::size_t fast_scratch_size(int width) noexcept {
   return width > 0 ? 3 * (static_cast<std::size_t>(width) + simd::kFastRowPadding) : 0;
 }
 
-/// FAST-9/16 corners of `image` in raster order, on the caller's memory. `threshold`: intensity, clamped to [0, 255].
+/// FAST-9/16 corners of `image` in raster order, in the caller's memory. `threshold`: intensity, clamped to [0, 255].
 /// `suppress`: keep a corner only where its score exceeds those of its eight neighbours. Corners lie at least 3 px from
 /// every border. `scratch`: fast_scratch_size(width) bytes, may be null without `suppress`. Writes at most `capacity`
-/// corners to `out`; `*found` is the number there are, which may be larger. Status::invalid_argument (and *found = 0)
-/// for a broken view or a missing buffer. No allocation; any number of threads.
+/// corners to `out`; `*found` is the number of all corners, which may be larger. Status::invalid_argument (and *found = 0)
+/// for an invalid view or a missing buffer. No allocation; any number of threads.
 inline Status detect_fast(const ImageView8& image, int threshold, bool suppress, std::uint8_t* scratch, Corner* out,
                           int capacity, int* found) noexcept {
   *found = 0;
@@ -158,9 +157,8 @@ inline Status detect_fast(const ImageView8& image, int threshold, bool suppress,
   return Status::ok;
 }
 
-/// Keeps the corners that count at the highest threshold that finds `enough` of them: `first`, then what lower() makes of the
-/// one before, but none below `lowest`, at which all count. A corner's score is the largest threshold that finds it, suppressed
-/// or not, so corners detected once at the lowest threshold serve all.
+/// Keeps the corners that the highest threshold with `enough` corners finds. Thresholds are `first`, lower(first) and so on
+/// down to `lowest`, which keeps all. Detect once at `lowest`: a score is the largest threshold that finds the corner.
 template <class Lower>
 void keep_enough(std::vector<Corner>* corners, int first, int lowest, int enough, const Lower& lower) {
   for (int threshold = first;; threshold = std::max(lower(threshold), lowest)) {

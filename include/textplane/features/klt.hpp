@@ -1,5 +1,4 @@
-// KLT: sparse tracking from one image pyramid to the next, coarse to fine, invariant to gain and bias, checked
-// backwards.
+// KLT: sparse tracking from one image pyramid to another, coarse to fine, invariant to gain and bias, with a backward check.
 //
 // Lucas and Kanade 1981 and Tomasi and Kanade 1991 with the normalised inverse-compositional step of align.hpp on every
 // level; pyramid levels as in docs/conventions.md: level l pixel = (x + 0.5) / 2^l - 0.5.
@@ -16,13 +15,13 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 
-// Extents of a coarse level's patch: cut where a border of either image is nearer than half_window, so that points near
-// it keep their coarse levels. `at` and `start` are the point and its estimate in px of the level.
+// Size of a patch on a coarse level: cut at the borders of both images, so that points near a border keep their coarse
+// levels. `at` and `start` are the point and its estimate in px of the level.
 inline void cut_extents(const Vector2<float>& at, const Vector2<float>& start, const ImageView8& from,
-                        const ImageView8& to, int half, PatchTemplate* t) noexcept {
-  const auto room = [half](float a, float b) {
-    const float least = a - 1.0F < b ? a - 1.0F : b;  // the gradients of the template need one pixel more
-    return least < static_cast<float>(half) ? (least > 0.0F ? static_cast<int>(least) : 0) : half;
+                        const ImageView8& to, int radius, PointPatch* t) noexcept {
+  const auto room = [radius](float a, float b) {
+    const float least = a - 1.0F < b ? a - 1.0F : b;  // the gradients of the patch need one pixel more
+    return least < static_cast<float>(radius) ? (least > 0.0F ? static_cast<int>(least) : 0) : radius;
   };
   t->left = room(at[0], start[0]);
   t->top = room(at[1], start[1]);
@@ -33,9 +32,9 @@ inline void cut_extents(const Vector2<float>& at, const Vector2<float>& start, c
   t->rows = t->top + 1 + beyond(from.height(), at[1], to.height(), start[1]);
 }
 
-// Where the descent on a coarse level missed: aligns anew from the best correlation on a grid round the start, and
-// returns that or `missed`, whichever correlates better.
-inline Alignment search(const PatchTemplate& t, const ImageView8& image, const Vector2<float>& start,
+// The second try on a coarse level: aligns from the best correlation on a grid round the start. Returns that alignment or
+// `missed`, the one with the larger correlation.
+inline Alignment search(const PointPatch& t, const ImageView8& image, const Vector2<float>& start,
                         const Alignment& missed, const KltOptions& options) noexcept {
   constexpr int kRadius = 3;
   constexpr float kSpacing = 1.5F;
@@ -54,15 +53,15 @@ inline Alignment search(const PatchTemplate& t, const ImageView8& image, const V
   return is_ok(found.status) && found.zncc > missed.zncc ? found : missed;
 }
 
-// One direction: the patch round `source` (level 0 of `from`) is looked for in `to`, starting at `guess`. A coarse
-// level that does not work out is skipped, the finest must succeed.
-template <class = void>  // instantiated where it is called: including the header costs little
+// One direction: finds the patch round `source` (level 0 of `from`) in `to`, starting at `guess`. A coarse level that
+// fails is skipped; the finest must succeed.
+TEXTPLANE_DEFERRED
 Alignment track_one(const PyramidView& from, const PyramidView& to, const Vector2<float>& source,
                     const Vector2<float>& guess, int levels, const KltOptions& options) noexcept {
   constexpr int kMinSide = 7;             // of a cut patch, px
-  constexpr float kMinCoarseZncc = 0.3F;  // below it a coarse estimate is no better than none
-  constexpr float kCoarseEpsilon = 0.1F;  // px of its level: the next one finds what is left
-  PatchTemplate t;
+  constexpr float kMinCoarseZncc = 0.3F;  // below it a coarse estimate does not help
+  constexpr float kCoarseEpsilon = 0.1F;  // px of its level: the next level does the rest
+  PointPatch t;
   KltOptions coarse = options;
   coarse.epsilon = coarse.epsilon > kCoarseEpsilon ? coarse.epsilon : kCoarseEpsilon;
   Alignment found{guess[0], guess[1], 0, Status::out_of_view};
@@ -72,13 +71,13 @@ Alignment track_one(const PyramidView& from, const PyramidView& to, const Vector
     const Vector2<float> at = point_to_level(source, level);
     const Vector2<float> start = point_to_level(Vector2<float>(found.x, found.y), level);
     if (level == 0) {
-      t.left = t.top = options.half_window;
-      t.columns = t.rows = 2 * options.half_window + 1;
+      t.left = t.top = options.radius;
+      t.columns = t.rows = 2 * options.radius + 1;
     } else {
-      cut_extents(at, start, from_image, to_image, options.half_window, &t);
+      cut_extents(at, start, from_image, to_image, options.radius, &t);
       if (t.columns < kMinSide || t.rows < kMinSide) continue;
     }
-    Alignment a{start[0], start[1], 0, extract_upright_template(from_image, at[0], at[1], &t)};
+    Alignment a{start[0], start[1], 0, extract_upright_patch(from_image, at[0], at[1], &t)};
     if (is_ok(a.status) && t.contrast() < options.min_contrast) a.status = Status::no_contrast;
     if (is_ok(a.status)) a = align_translation(t, to_image, start[0], start[1], level > 0 ? coarse : options);
     bool usable = is_ok(a.status);
@@ -106,24 +105,23 @@ inline bool valid_levels(const PyramidView& pyramid, int levels) noexcept {
 
 }  // namespace detail
 
-/// Tracks n points from one image to another: out[i] is where the patch round from_px[i] is seen in `to`. `from_px`,
-/// and `guess` if not null (predicted positions in `to`): px of level 0. Without a guess the search starts at from_px.
-/// Points are independent of each other: split the range to use several threads. No allocation.
+/// Tracks n points from one image to another: out[i] is where the patch round from_px[i] is seen in `to`. `from_px` and
+/// `guess` (predicted positions in `to`, or null: from_px) are in px of level 0. Points are independent of each other:
+/// split the range to use several threads. No allocation.
 ///
-/// The patch, with one more ring of pixels for its gradients, must lie inside the image at level 0; on coarser levels
-/// it is cut at the borders, and a level where less than 7 px a side remain or that does not align is skipped.
-/// out[i].status: converged or iteration_limit for a track that passed every check; out_of_view, no_contrast,
-/// rank_deficient (texture in one direction only) as they arise at level 0; diverged where the correlation is below
-/// min_zncc or the point tracked back is more than max_forward_backward px off (px, zncc and fb_error tell); non_finite
-/// (px = 0); invalid_argument for broken pyramids or options. On failures but `diverged`, px is the guess or the
-/// estimate of the coarser levels.
-template <class = void>  // instantiated where it is called: including the header costs little
+/// The patch, with one more ring of pixels for its gradients, must lie inside the image at level 0. On coarser levels it is
+/// cut at the borders; a level is skipped where fewer than 7 px a side remain or where it does not align.
+/// out[i].status: converged or iteration_limit for a track that passed every check; out_of_view, no_contrast or
+/// rank_deficient (texture in one direction only) at level 0; diverged where the correlation is below min_zncc or the point
+/// tracked back is more than max_forward_backward px off (see zncc and fb_error); non_finite (px = 0); invalid_argument for
+/// broken pyramids or options. On every failure but `diverged`, px is the guess or the estimate of the coarser levels.
+TEXTPLANE_DEFERRED
 void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<float>* from_px,
                const Vector2<float>* guess, int n, const KltOptions& options, KltResult* out) noexcept {
   int levels = options.levels < from.levels ? options.levels : from.levels;
   if (to.levels < levels) levels = to.levels;
-  const bool valid = levels >= 1 && levels <= kMaxPyramidLevels && options.half_window >= 1 &&
-                     options.half_window <= kMaxPatchHalf && detail::valid_options(options) &&
+  const bool valid = levels >= 1 && levels <= kMaxPyramidLevels && options.radius >= 1 &&
+                     options.radius <= kMaxPatchRadius && detail::valid_options(options) &&
                      detail::valid_levels(from, levels) && detail::valid_levels(to, levels);
   for (int i = 0; i < n; ++i) {
     KltResult& result = out[i];
@@ -145,7 +143,7 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
       continue;
     }
     if (!(options.max_forward_backward > 0.0F)) continue;
-    // The way back starts as far from its goal as the way forth did, so that it is a test of its own.
+    // The backward pass starts as far from its goal as the forward pass did: otherwise it would test little.
     const Vector2<float> back_start(result.px[0] - (start[0] - source[0]), result.px[1] - (start[1] - source[1]));
     const detail::Alignment backward = detail::track_one(to, from, result.px, back_start, levels, options);
     const float dx = backward.x - source[0], dy = backward.y - source[1];

@@ -1,7 +1,7 @@
 // Selection: which pixels represent a text object, and which corners of an image are worth tracking.
 //
 // Section IV-A of the paper: text is represented by FAST points inside its quad, at least 15 of them. Here they are
-// spread over the quad and topped up with the pixels of strongest gradient, so that a sum over them sees the whole
+// distributed evenly over the quad, and pixels of strong gradient fill the gaps, so that a sum over them constrains the whole
 // plane.
 #ifndef TEXTPLANE_FEATURES_SELECT_HPP
 #define TEXTPLANE_FEATURES_SELECT_HPP
@@ -20,13 +20,12 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Parameters of select_pixels() and make_patch().
 struct SelectOptions {
-  int min_pixels = 15;      ///< The paper's minimum; fewer is Status::too_few.
-  int max_pixels = 300;     ///< On each level.
-  int levels = 3;           ///< Pyramid levels of a patch.
-  int fast_threshold = 20;  ///< Intensity; lowered stepwise until half of max_pixels are corners.
-  /// Intensity; where the lowering ends.
-  int lowest_fast_threshold = 5;
-  float min_gradient = 4.0F;  ///< Intensity per px: central difference that a topping-up pixel must reach.
+  int min_pixels = 15;            ///< The paper's minimum; fewer is Status::too_few.
+  int max_pixels = 300;           ///< On each level.
+  int levels = 3;                 ///< Pyramid levels of a patch.
+  int fast_threshold = 20;        ///< Intensity; lowered stepwise until half of max_pixels are corners.
+  int lowest_fast_threshold = 5;  ///< Intensity: it is not lowered further.
+  float min_gradient = 4.0F;      ///< Intensity per px: smallest central difference of a pixel that fills a gap.
 };
 
 namespace detail {
@@ -50,8 +49,8 @@ struct CellGrid {
   }
 };
 
-// Strongest first; equal scores in raster order, so that the outcome does not depend on the sort.
-template <class = void>  // instantiated where it is called: including the header costs little
+// Strongest first; equal scores in raster order, so that the result does not depend on the sort.
+TEXTPLANE_DEFERRED
 void sort_by_score(std::vector<Corner>* corners) {
   std::sort(corners->begin(), corners->end(), [](const Corner& a, const Corner& b) {
     if (a.score != b.score) return a.score > b.score;
@@ -59,13 +58,14 @@ void sort_by_score(std::vector<Corner>* corners) {
   });
 }
 
-// Integer pixel rectangle [x0, x1) x [y0, y1) round a polygon that lies inside the image.
+// Integer pixel rectangle [x0, x1) x [y0, y1).
 struct PixelBox {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const noexcept { return x0 >= x1 || y0 >= y1; }
 };
 
-template <class = void>  // instantiated where it is called: including the header costs little
+// Round a polygon that lies inside the image.
+TEXTPLANE_DEFERRED
 PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
   if (polygon.empty()) return {};
   Bounds<double> b{polygon[0], polygon[0]};
@@ -79,11 +79,11 @@ PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
           static_cast<int>(std::floor(b.max[0])) + 1, static_cast<int>(std::floor(b.max[1])) + 1};
 }
 
-// Corners inside the region at the highest threshold that gives `enough` of them, or at the lowest.
-template <class = void>  // instantiated where it is called: including the header costs little
+// Corners inside the region, at the highest threshold that gives `enough` of them, or at the lowest.
+TEXTPLANE_DEFERRED
 std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
                                       const SelectOptions& options, int enough) {
-  // The detector leaves out 3 px at each border of what it is given.
+  // The detector skips 3 px at each border of its image.
   const int x0 = std::max(box.x0 - 3, 0), y0 = std::max(box.y0 - 3, 0);
   const int x1 = std::min(box.x1 + 3, image.width()), y1 = std::min(box.y1 + 3, image.height());
   const ImageView8 part(image.row(y0) + x0, x1 - x0, y1 - y0, image.stride());
@@ -98,8 +98,8 @@ std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolyg
   return inside;
 }
 
-// Takes corners in rounds, at most one more from each cell a round, strongest first.
-template <class = void>  // instantiated where it is called: including the header costs little
+// Takes corners in rounds, at most one from each cell in a round, strongest first.
+TEXTPLANE_DEFERRED
 void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, int max_pixels, std::vector<Corner>* out) {
   sort_by_score(&corners);
   std::vector<int> taken(grid.size(), 0);
@@ -120,9 +120,9 @@ void take_in_rounds(std::vector<Corner>& corners, const CellGrid& grid, int max_
 }
 
 // The pixel of largest gradient of every cell without a pixel in `out`, strongest cells first.
-template <class = void>  // instantiated where it is called: including the header costs little
-void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
-                        const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
+TEXTPLANE_DEFERRED
+void fill_by_gradient(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
+                      const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
   std::vector<Corner> best(grid.size());
   for (const Corner& p : *out) best[grid.index(p.x, p.y)].score = -1.0F;
   const int x0 = std::max(box.x0, 1), y0 = std::max(box.y0, 1);
@@ -151,12 +151,12 @@ void top_up_by_gradient(const ImageView8& image, const ConvexPolygon<double>& re
 
 }  // namespace detail
 
-/// Representative pixels of a quad in an image: FAST corners inside it, spread over a grid of about max_pixels cells,
-/// then the pixels of strongest gradient of the cells of a finer grid that are still empty, until max_pixels. `quad`:
-/// px of `image`; its convex hull is meant, and what of it lies outside the image is left out. `out`: integer
-/// positions, replaced, each pixel once. Deterministic. Status::too_few where fewer than min_pixels qualify (out then
-/// holds those), degenerate for a quad without area, non_finite, invalid_argument. Allocates.
-template <class = void>  // instantiated where it is called: including the header costs little
+/// Representative pixels of a quad in an image: FAST corners inside it, distributed over a grid of about max_pixels cells,
+/// then the pixel of strongest gradient of every cell of a finer grid that is still empty, at most max_pixels in all. `quad`:
+/// px of `image`; the part of its convex hull inside the image counts. `out`: integer positions, replaced, each pixel
+/// once. Deterministic. Status::too_few where fewer than min_pixels qualify (`out` then holds those), degenerate for a quad
+/// without area, non_finite, invalid_argument. Allocates.
+TEXTPLANE_DEFERRED
 Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
                      std::vector<Vector2<float>>& out) {
   out.clear();
@@ -177,17 +177,17 @@ Status select_pixels(const ImageView8& image, const Quad<double>& quad, const Se
   std::vector<Corner> corners = detail::corners_in_region(image, region, box, options, (options.max_pixels + 1) / 2);
   std::vector<Corner> chosen;
   detail::take_in_rounds(corners, grid(coarse), options.max_pixels, &chosen);
-  detail::top_up_by_gradient(image, region, box, grid(fine), options, &chosen);
+  detail::fill_by_gradient(image, region, box, grid(fine), options, &chosen);
   // Made at its full size: the function that grows a vector of a shared type is itself shared (see config.hpp).
   out = std::vector<Vector2<float>>(chosen.size());
   for (std::size_t i = 0; i < chosen.size(); ++i) out[i] = {chosen[i].x, chosen[i].y};
   return static_cast<int>(out.size()) < options.min_pixels ? Status::too_few : Status::ok;
 }
 
-/// Of the corners of a width x height image the strongest of every square cell of `cell` px in which no point of
-/// `occupied` lies, strongest first (equal scores in raster order), at most `max_corners`. Corners and occupied points
-/// outside the image are ignored. `out` is replaced and left empty for non-positive sizes. Allocates.
-template <class = void>  // instantiated where it is called: including the header costs little
+/// The strongest corner of every square cell of `cell` px of a width x height image that holds no point of `occupied`,
+/// strongest first (equal scores in raster order), at most `max_corners`. Corners and occupied points outside the image are
+/// ignored. `out` is replaced; it is empty for sizes that are not positive. Allocates.
+TEXTPLANE_DEFERRED
 void select_spread(const std::vector<Corner>& corners, int width, int height, int cell, int max_corners,
                    const std::vector<Vector2<float>>& occupied, std::vector<Corner>& out) {
   std::vector<Corner> best;  // `out` may be `corners`
@@ -211,10 +211,9 @@ void select_spread(const std::vector<Corner>& corners, int width, int height, in
 }
 
 /// The patch of a text object: pixels selected on each of options.levels levels of its host image (fewer where the
-/// pyramid has fewer), with their intensities. `quad`: px of level 0, `camera`: the host's. Status as
-/// patch_from_pixels(), and that of select_pixels() where the finest level fails: a patch without level 0 is not used.
-/// Allocates.
-template <class = void>  // instantiated where it is called: including the header costs little
+/// pyramid has fewer), with their intensities. `quad`: px of level 0; `camera`: the host's. Status of patch_from_pixels(), or
+/// of select_pixels() where the finest level fails: a patch without level 0 is of no use. Allocates.
+TEXTPLANE_DEFERRED
 TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {
   const int levels = std::min({options.levels, host.levels, kMaxPyramidLevels});
@@ -231,7 +230,7 @@ TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, con
 }
 
 /// The same from an image, of which a pyramid is built.
-template <class = void>  // instantiated where it is called: including the header costs little
+TEXTPLANE_DEFERRED
 TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {
   const Pyramid pyramid(host, std::min(std::max(options.levels, 1), kMaxPyramidLevels));
