@@ -3,16 +3,19 @@
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
   add_test(NAME headers.manners COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/manners_test.py ${PROJECT_SOURCE_DIR})
+  textplane_label(headers.manners first_look sanitizers)
 endif()
 if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
   add_test(NAME headers.compile_failures COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_CXX_COMPILER}
     "-DFLAGS=-DTEXTPLANE_EXTERN_KERNELS -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cpp
     -P ${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cmake)
+  textplane_label(headers.compile_failures sanitizers)
   # As robots are built: without exceptions and run-time types, from the image to pose and plane.
   add_test(NAME headers.no_exceptions COMMAND ${CMAKE_COMMAND} -DMODE=variants -DVARIANTS=no_exceptions -DCOMPILER=${CMAKE_CXX_COMPILER}
     "-DFLAGS=-O0 -Wall -Wextra -Werror -fno-exceptions -fno-rtti -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
     -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
+  textplane_label(headers.no_exceptions sanitizers)
   # With its target fixed a unit holds the kernels of that one alone.
   find_program(TEXTPLANE_NM nm)
   set(targets scalar)
@@ -25,9 +28,10 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     add_test(NAME headers.fixed_target COMMAND ${CMAKE_COMMAND} -DMODE=fixed "-DTARGETS=${targets}" -DNM=${TEXTPLANE_NM} -DCOMPILER=${CMAKE_CXX_COMPILER}
       "-DFLAGS=-O0 -Wall -Wextra -Werror -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
       -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_fixed_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
+    textplane_label(headers.fixed_target first_look sanitizers)
   endif()
 endif()
-if(NOT TEXTPLANE_TEST_INCLUDE_ALONE)
+if(NOT TEXTPLANE_TEST_INCLUDE_ALONE OR NOT all_tiers)
   return()
 endif()
 set(needs_ceres_pose Ceres::ceres)

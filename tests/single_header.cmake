@@ -4,7 +4,9 @@ option(TEXTPLANE_TEST_SINGLE_HEADER "Run all tests on single_include/textplane.h
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
   add_test(NAME single_header.current COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/single_include/amalgamate.py --check)
+  textplane_label(single_header.current first_look sanitizers)
   add_test(NAME single_header.script COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/single_header_test.py ${PROJECT_SOURCE_DIR})
+  textplane_label(single_header.script first_look sanitizers)
 endif()
 
 # Headers that forward to it, found before those of include/. Adapters are no part of it, and a test that brings a kernel of its own

@@ -1,0 +1,111 @@
+# Tests of the example programs and of what they are made of. Their names begin with `examples.`.
+
+# The adjustment and the detector beside tracking, with the files that they need and no more: ThreadSanitizer takes a minute
+# for each.
+if(TEXTPLANE_TEST_TIER STREQUAL "threads")
+  set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread map/map map/point_mapper
+    text/text_plane text/text_words track/feature_tracks track/rotation_prior track/tracker)
+  list(TRANSFORM alone REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/examples/textslam/\\1.cpp")
+  add_executable(adjuster_alone_test textslam/adjust/adjuster_test.cpp textslam/detect/detection_thread_test.cpp ${alone})
+  target_include_directories(adjuster_alone_test PRIVATE ${PROJECT_SOURCE_DIR}/examples)
+  target_link_libraries(adjuster_alone_test PRIVATE textplane_test_support GTest::gtest_main)
+  target_compile_options(adjuster_alone_test PRIVATE ${TEXTPLANE_TEST_FLAGS})
+  target_precompile_headers(adjuster_alone_test REUSE_FROM textplane_test_support)
+  textplane_discover_tests(adjuster_alone_test threads TIERS threads)
+endif()
+
+if(NOT TEXTPLANE_BUILD_EXAMPLES)
+  return()
+endif()
+
+# Sanitizers see a room and a corridor: the renderer's other kinds differ in numbers. They skip whole runs and statistics.
+textplane_add_tests(io LIBRARIES textplane_io TIERS first_look sanitizers)
+textplane_add_tests(renderer LIBRARIES textplane_renderer TIERS first_look sanitizers EXCEPT
+  sanitizers "RendererGeometry\\.EveryPixelShowsTheNearestSurfaceOnItsRay|RendererTruth\\.SignsPosesAndCamera"
+  sanitizers "Kinds/EveryKind\\.RendersFramesThatATrackerCanUse/(lights|notext|rapid|room_still|sparse)")
+textplane_add_tests(planar LIBRARIES textplane_textslam TIERS first_look sanitizers)
+textplane_add_tests(textslam LIBRARIES textplane_textslam TIERS first_look sanitizers EXCEPT
+  sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms|LateDetections\\." first_look "LateDetections\\.")
+
+# Tests that start a program, one executable a file: its tests share one rendered sequence, so they are one test for ctest, too.
+# textplane_add_program_test(NAME [TIER...])
+function(textplane_add_program_test name)
+  textplane_in_tier(wanted ${ARGN})
+  if(NOT wanted)
+    return()
+  endif()
+  add_executable(${name} programs/${name}.cpp)
+  target_link_libraries(${name} PRIVATE textplane_textslam GTest::gtest GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0>)  # they start programs and read what those write
+  target_compile_definitions(${name} PRIVATE TEXTSLAM_PROGRAM="$<TARGET_FILE:textslam>"
+    TEXTSLAM_EVAL_PROGRAM="$<TARGET_FILE:textslam-eval>" TEXTSLAM_MAP_PROGRAM="$<TARGET_FILE:textslam-map>")
+  add_dependencies(${name} textslam textslam-eval textslam-map)
+  add_test(NAME examples.${name} COMMAND ${name})
+  set_tests_properties(examples.${name} PROPERTIES TIMEOUT 1200 COST 20)  # ctest begins with what costs most
+  textplane_label(examples.${name} programs ${ARGN})
+endfunction()
+textplane_add_program_test(textslam_eval_test first_look sanitizers)
+textplane_add_program_test(textslam_input_test first_look sanitizers)
+textplane_add_program_test(textslam_loop_test)
+textplane_add_program_test(textslam_outputs_test first_look)
+textplane_add_program_test(textslam_recovery_test)
+textplane_add_program_test(textslam_report_test)
+textplane_add_program_test(textslam_run_test first_look)
+
+# The numbered examples: each runs, and a number that it prints is checked.
+function(textplane_test_example name text bound)
+  if(TARGET ${name})
+    add_test(NAME examples.${name} COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${name}> "-DTEXT=${text}" -D${bound}
+      -P ${CMAKE_CURRENT_SOURCE_DIR}/programs/numbered.cmake)
+    textplane_label(examples.${name} programs)
+  endif()
+endfunction()
+textplane_test_example(01_warp_a_sign "zncc" ABOVE=0.99)
+textplane_test_example(02_theta_from_three_corners "normal off by" BELOW=1)
+textplane_test_example(03_align_one_patch "aligned: corners off by" BELOW=0.05)
+textplane_test_example(04_refine_theta "refined: normal off by" BELOW=0.6)
+textplane_test_example(05_track_a_plane "worst of 30 frames: corners off by" BELOW=0.15)
+textplane_test_example(06_relight "worst: corners off by" BELOW=0.3)
+textplane_test_example(07_ceres_bundle_adjustment "after: positions off by" BELOW=6)
+textplane_test_example(08_many_candidates "refined: corners off by" BELOW=0.1)
+
+set(own ${CMAKE_CURRENT_BINARY_DIR}/own_detector)
+add_test(NAME examples.own_detector_sequence COMMAND textslam --render room --frames 60 --render-only --output ${own})
+set_tests_properties(examples.own_detector_sequence PROPERTIES FIXTURES_SETUP own_detector)
+textplane_label(examples.own_detector_sequence programs)
+add_test(NAME examples.own_detector COMMAND ${CMAKE_COMMAND} "-DPROGRAM=$<TARGET_FILE:own_detector>;${own}/sequence;${own}/run"
+  "-DTEXT=texts mapped:" -DABOVE=0 -P ${CMAKE_CURRENT_SOURCE_DIR}/programs/numbered.cmake)
+set_tests_properties(examples.own_detector PROPERTIES FIXTURES_REQUIRED own_detector)
+textplane_label(examples.own_detector programs)
+if(TARGET foreign_tracker)
+  set(foreign ${CMAKE_CURRENT_BINARY_DIR}/foreign)
+  add_test(NAME examples.foreign_sequence COMMAND textslam --render rapid --frames 90 --render-only --output ${foreign})
+  set_tests_properties(examples.foreign_sequence PROPERTIES FIXTURES_SETUP foreign)
+  textplane_label(examples.foreign_sequence programs)
+  add_test(NAME examples.foreign_tracker COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:foreign_tracker> -DSEQUENCE=${foreign}/sequence
+    -DOUTPUT=${foreign}/run -DFOLDER=${PROJECT_SOURCE_DIR}/examples/foreign_tracker -P ${CMAKE_CURRENT_SOURCE_DIR}/programs/foreign_tracker.cmake)
+  set_tests_properties(examples.foreign_tracker PROPERTIES FIXTURES_REQUIRED foreign TIMEOUT 1200)
+  textplane_label(examples.foreign_tracker programs)
+endif()
+
+# The script of the experiments, with a stand-in for textslam; readers of other libraries on textslam's outputs; and the report in a
+# browser, where there is one: the pages that textslam_report_test made.
+find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
+if(NOT Python3_FOUND)
+  return()
+endif()
+set(programs ${CMAKE_CURRENT_SOURCE_DIR}/programs)
+add_test(NAME examples.experiments COMMAND ${Python3_EXECUTABLE} ${programs}/experiments_test.py ${PROJECT_SOURCE_DIR})
+textplane_label(examples.experiments programs)
+add_test(NAME examples.foreign_readers COMMAND ${Python3_EXECUTABLE} ${programs}/foreign_readers_test.py $<TARGET_FILE:textslam>)
+set_tests_properties(examples.foreign_readers PROPERTIES SKIP_RETURN_CODE 77)
+textplane_label(examples.foreign_readers programs first_look)
+if(TARGET textslam_report_test)
+  set(reports ${CMAKE_CURRENT_BINARY_DIR}/reports)
+  target_compile_definitions(textslam_report_test PRIVATE TEXTSLAM_REPORTS="${reports}")
+  set_tests_properties(examples.textslam_report_test PROPERTIES FIXTURES_SETUP reports)
+  add_test(NAME examples.report_browser COMMAND ${Python3_EXECUTABLE} ${programs}/report_browser_test.py ${reports})
+  set_tests_properties(examples.report_browser PROPERTIES FIXTURES_REQUIRED reports SKIP_RETURN_CODE 77 TIMEOUT 1200)
+  textplane_label(examples.report_browser programs)
+endif()

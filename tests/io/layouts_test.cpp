@@ -1,0 +1,352 @@
+// What a sequence can be besides a folder with a list: EuRoC's layout, a folder of images, a video; cameras from an angle;
+// ICDAR's names of detections. And what is wrong with each, in one line.
+#include <cmath>
+
+#include "io/detections.hpp"
+#include "io/euroc.hpp"
+#include "io/image_file.hpp"
+#include "io/io_support.hpp"
+#include "io/sequence.hpp"
+
+namespace textslam {
+namespace io_layouts_test {
+
+const char* const kSensor =
+    "# General sensor definitions.\n"
+    "sensor_type: camera\n"
+    "comment: VI-Sensor cam0\n"
+    "T_BS:\n"
+    "  cols: 4\n"
+    "  rows: 4\n"
+    "  data: [0.0, -1.0, 0.0, 0.5,\n"
+    "         1.0, 0.0, 0.0, -0.25,\n"
+    "         0.0, 0.0, 1.0, 0.125,\n"
+    "         0.0, 0.0, 0.0, 1.0]\n"
+    "rate_hz: 20\n"
+    "resolution: [8, 6]\n"
+    "camera_model: pinhole\n"
+    "intrinsics: [458.654, 457.296, 367.215, 248.375] #fu, fv, cu, cv\n"
+    "distortion_model: radial-tangential\n"
+    "distortion_coefficients: [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05]\n";
+
+class LayoutTest : public testing::Test {
+ protected:
+  std::string image(const std::string& name, std::uint8_t value = 100, int width = 8, int height = 6) {
+    return folder.write(name, encode_png(Image<std::uint8_t>(width, height, value).view()));
+  }
+  void make_euroc() {
+    folder.write("mav0/cam0/sensor.yaml", kSensor);
+    folder.write("mav0/cam0/data.csv",
+                 "#timestamp [ns],filename\r\n1403636579763555584,1403636579763555584.png\r\n"
+                 "1403636579813555456,1403636579813555456.png\r\n");
+    image("mav0/cam0/data/1403636579763555584.png", 1);
+    image("mav0/cam0/data/1403636579813555456.png", 2);
+  }
+  // An error in reading the folder, at this file and line.
+  void expect_bad(const std::string& file, int line, const std::string& part, const SequenceOptions& options = {}) {
+    expect_input_error([&] { read_sequence(folder.path(), options); }, file.empty() ? folder.path() : folder.path(file),
+                       line, part);
+  }
+  static SequenceOptions fov(double degrees) {
+    SequenceOptions options;
+    options.fov = degrees;
+    return options;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST(NaturalOrder, IsThatOfPersons) {
+  // 01.png and 1.png have the same value: the bytes decide.
+  const std::vector<std::string> ordered = {"",
+                                            "01.png",
+                                            "1.png",
+                                            "2.png",
+                                            "09.png",
+                                            "10.png",
+                                            "a",
+                                            "a1b2",
+                                            "a1b10",
+                                            "a01b11",
+                                            "a2",
+                                            "a18446744073709551616",
+                                            "a18446744073709551617",
+                                            "b"};
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    for (std::size_t k = 0; k < ordered.size(); ++k)
+      EXPECT_EQ(natural_less(ordered[i], ordered[k]), i < k) << ordered[i] << " " << ordered[k];
+  }
+}
+
+TEST_F(LayoutTest, FolderOfImagesInNaturalOrder) {
+  image("img_10.png", 10);
+  image("img_9.png", 9);
+  image("img_100.PNG", 100);
+  folder.write("img_8.pgm", "P5 8 6 255\n" + std::string(48, '\x08'));
+  folder.write(".img_0.png", "");
+  folder.write("notes.txt", "");
+  std::filesystem::create_directory(folder.path("img_1.png"));
+  const Sequence sequence = read_sequence(folder.path(), fov(90));
+  ASSERT_EQ(sequence.frames.size(), 4u);
+  const int values[] = {8, 9, 10, 100};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(load_frame(sequence, i)(7, 5), values[i]);
+    EXPECT_EQ(sequence.frames[i].stem, "img_" + std::to_string(values[i]));
+    EXPECT_EQ(sequence.frames[i].timestamp, static_cast<double>(i) / 30);
+  }
+  EXPECT_EQ(frame_name(sequence, 3), "img_100.PNG");
+
+  SequenceOptions options = fov(90);
+  options.fps = 12.5;
+  EXPECT_EQ(read_sequence(folder.path(), options).frames[3].timestamp, 3 / 12.5);
+}
+
+// By hand: half the image's width, 4 px, is seen under half the angle; the outermost edges lie half a pixel outside the centres.
+TEST_F(LayoutTest, CameraFromAnAngle) {
+  image("a.png");
+  const Sequence sequence = read_sequence(folder.path(), fov(90));
+  EXPECT_EQ(sequence.approximate_fov, 90);
+  const CameraModel& camera = sequence.camera;
+  EXPECT_EQ(camera.width, 8);
+  EXPECT_EQ(camera.height, 6);
+  EXPECT_NEAR(camera.pinhole().fx, 4, 1e-12);
+  EXPECT_NEAR(camera.pinhole().fy, 4, 1e-12);
+  EXPECT_EQ(camera.pinhole().cx, 3.5);
+  EXPECT_EQ(camera.pinhole().cy, 2.5);
+  EXPECT_TRUE(camera.is_pinhole());
+  const auto left = camera.pinhole().unproject(Vector2<double>(-0.5, 2.5)),
+             right = camera.pinhole().unproject(Vector2<double>(7.5, 2.5));
+  EXPECT_NEAR(std::acos(left.normalized().dot(right.normalized())) * 180 / M_PI, 90, 1e-9);
+  EXPECT_NEAR(camera_from_fov(60, 640, 480).pinhole().fx, 320 * std::sqrt(3.0), 1e-9);
+}
+
+TEST_F(LayoutTest, CalibrationGoesBeforeTheAngle) {
+  image("a.png");
+  expect_bad("", 0, "there is no calibration: give --camera FILE, or --fov DEGREES");
+  CameraModel camera = camera_from_fov(80, 8, 6);
+  camera.fps = 10;
+  SequenceOptions options;
+  options.camera = folder.write("my/camera.txt", format_camera(camera));
+  Sequence sequence = read_sequence(folder.path(), options);
+  EXPECT_EQ(sequence.camera.pinhole().fx, camera.pinhole().fx);
+  EXPECT_EQ(sequence.approximate_fov, 0);
+
+  folder.write("camera.yaml", format_camera(camera));
+  image("b.png");
+  EXPECT_EQ(read_sequence(folder.path()).frames[1].timestamp, 0.1) << "as the calibration says";
+  expect_bad("camera.yaml", 0, "calibrated here: leave out --fov", fov(80));
+  options.camera = folder.write("my/sensor.yaml", kSensor);
+  EXPECT_EQ(read_sequence(folder.path(), options).camera.pinhole().fx, 458.654);
+  options.camera = folder.write("my/vi.yaml", kSensor);
+  EXPECT_EQ(lens_of(read_sequence(folder.path(), options).camera).k1, -0.28340811);
+  options.camera = folder.path("none.yaml");
+  expect_bad("none.yaml", 0, "No such file", options);
+
+  options = {};
+  options.needs_camera = false;
+  std::filesystem::remove(folder.path("camera.yaml"));
+  EXPECT_EQ(load_image(read_sequence(folder.path(), options), 1).width(), 8);
+}
+
+TEST_F(LayoutTest, FolderOfImagesThatIsWrong) {
+  expect_bad("", 0, "neither images.txt nor rgb.txt, no mav0/cam0, and no images", fov(60));
+  folder.write("a.txt", "");
+  expect_bad("", 0, "no images", fov(60));
+  image("a.png");
+  image("b.png", 1, 6, 8);
+  folder.write("c.png", "GIF89a");
+  const Sequence sequence = read_sequence(folder.path(), fov(60));
+  EXPECT_NO_THROW(load_frame(sequence, 0));
+  expect_input_error([&] { load_frame(sequence, 1); }, folder.path("b.png"), 0,
+                     "the image is 6 x 8 px, the first one is 8 x 6");
+  expect_input_error([&] { load_frame(sequence, 2); }, folder.path("c.png"), 0, "not a JPEG, PNG");
+  std::filesystem::remove(folder.path("b.png"));
+  expect_input_error([&] { load_frame(sequence, 1); }, folder.path("b.png"), 0, "No such file");
+  folder.write("a.png", "");
+  expect_bad("a.png", 0, "empty", fov(60));
+}
+
+TEST_F(LayoutTest, ListWithoutCalibration) {
+  image("images/a.png");
+  folder.write("rgb.txt", "0.5 images/a.png\n");
+  expect_bad("camera.yaml", 0, "No such file: give --camera FILE, or --fov DEGREES");
+  EXPECT_EQ(read_sequence(folder.path(), fov(60)).frames[0].timestamp, 0.5);
+  SequenceOptions options = fov(60);
+  options.fps = 30;
+  expect_bad("rgb.txt", 0, "its frames have times: leave out --fps", options);
+}
+
+TEST_F(LayoutTest, Euroc) {
+  make_euroc();
+  folder.write("mav0/state_groundtruth_estimate0/data.csv",
+               "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v\r\n"
+               "1403636579763555584,4.5,-1.5,0.75,0,1,0,0,9\r\n");
+  for (const char* name : {"", "mav0"}) {
+    const Sequence sequence = read_sequence(folder.path(name));
+    ASSERT_EQ(sequence.frames.size(), 2u);
+    EXPECT_EQ(sequence.frames[0].timestamp, 1403636579.763555584);
+    EXPECT_EQ(sequence.frames[1].line, 3);
+    EXPECT_EQ(sequence.frames[1].stem, "1403636579813555456");
+    EXPECT_EQ(load_frame(sequence, 1)(0, 0), 2);
+    EXPECT_EQ(sequence.camera.width, 8);
+    EXPECT_EQ(sequence.camera.height, 6);
+    EXPECT_EQ(sequence.camera.fps, 20);
+    EXPECT_EQ(sequence.camera.pinhole().fx, 458.654);
+    EXPECT_EQ(sequence.camera.pinhole().fy, 457.296);
+    EXPECT_EQ(sequence.camera.pinhole().cx, 367.215);
+    EXPECT_EQ(sequence.camera.pinhole().cy, 248.375);
+    EXPECT_EQ(lens_of(sequence.camera).k1, -0.28340811);
+    EXPECT_EQ(lens_of(sequence.camera).k2, 0.07395907);
+    EXPECT_EQ(lens_of(sequence.camera).p1, 0.00019359);
+    EXPECT_EQ(lens_of(sequence.camera).p2, 1.76187114e-05);
+    EXPECT_EQ(lens_of(sequence.camera).k3, 0);
+    // The body is turned by half a turn about x: (x, y, z) -> (x, -y, -z), and the camera sits at (0.5, -0.25, 0.125) in it.
+    ASSERT_EQ(sequence.groundtruth.size(), 1u);
+    EXPECT_EQ(sequence.groundtruth[0].timestamp, sequence.frames[0].timestamp);
+    const SE3d& T_w_c = sequence.groundtruth[0].T_w_c;
+    EXPECT_LT((T_w_c.t - Vector3<double>(5, -1.25, 0.625)).norm(), 1e-12) << T_w_c.t;
+    // The camera's x axis is the body's y: the world's -y.
+    EXPECT_LT((T_w_c.R.col(0) - Vector3<double>(0, -1, 0)).norm(), 1e-12) << T_w_c.R;
+  }
+}
+
+TEST_F(LayoutTest, EurocListThatIsWrong) {
+  make_euroc();
+  const std::string list = "mav0/cam0/data.csv";
+  const auto expect_list = [&](const std::string& text, int line, const std::string& part) {
+    folder.write(list, text);
+    expect_bad(list, line, part);
+  };
+  expect_list("#t\n1000,a.png\n1.5e3,b.png\n", 3, "a whole number of nanoseconds, not '1.5e3'");
+  expect_list("#t\n1000,a.png\n1000,b.png\n", 3, "times must increase: '1000'");
+  expect_list("99999999999999999999,a.png\n", 1, "a whole number of nanoseconds");
+  expect_list("1000\n", 1, "expected 'timestamp,file name'");
+  expect_list("1000,\n", 1, "expected 'timestamp,file name'");
+  expect_list("1000,a.png,b.png\n", 1, "expected 'timestamp,file name'");
+  expect_list("#t\n", 0, "names no image");
+  folder.write(list, "1000,a.png\n2000,1403636579813555456.png\n");
+  const Sequence sequence = read_sequence(folder.path());
+  expect_input_error([&] { load_frame(sequence, 0); }, folder.path(list), 1, "No such file");
+  EXPECT_NO_THROW(load_frame(sequence, 1));
+  image("mav0/cam0/data/a.png", 1, 9, 6);
+  expect_input_error([&] { load_frame(sequence, 0); }, folder.path(list), 1, "is 9 x 6 px, sensor.yaml says 8 x 6");
+  std::filesystem::remove(folder.path(list));
+  expect_bad(list, 0, "No such file");
+}
+
+TEST_F(LayoutTest, EurocCameraThatIsWrong) {
+  const auto expect_sensor = [&](const std::string& text, int line, const std::string& part) {
+    const std::string path = folder.write("sensor.yaml", text);
+    expect_input_error([&] { read_euroc_camera(path); }, path, line, part);
+  };
+  expect_sensor("", 0, "expected 'key: value' lines");
+  expect_sensor("a: [1, 2\nb: 3\n", 2, "this is no YAML");
+  expect_sensor("a: \"\\\x01\"\n", 1, "this is no YAML: 'unknown escape character: ?'");
+  expect_sensor(replaced(kSensor, "resolution: [8, 6]\n", ""), 0, "the key resolution is missing");
+  expect_sensor(replaced(kSensor, "[8, 6]", "[8, 6.5]"), 12, "whole numbers of at most 16384");
+  expect_sensor(replaced(kSensor, "[8, 6]", "8"), 12, "resolution should be 2 numbers in brackets");
+  expect_sensor(replaced(kSensor, "458.654", "-458.654"), 14, "intrinsics should be positive");
+  expect_sensor(replaced(kSensor, "458.654", "nan"), 14, "intrinsics should be a finite number, not 'nan'");
+  expect_sensor(replaced(kSensor, "458.654", "[1]"), 14, "intrinsics should be a number");
+  expect_sensor(replaced(kSensor, ", 248.375", ""), 14, "intrinsics should be 4 numbers");
+  expect_sensor(replaced(kSensor, "pinhole", "omni"), 13, "camera_model should be pinhole, not 'omni'");
+  expect_sensor(replaced(kSensor, "radial-tangential", "equidistant"), 15,
+                "should be radial-tangential or none, not 'equidistant'");
+  expect_sensor(replaced(kSensor, "-0.28340811, ", ""), 16, "distortion_coefficients should be 4 to 5 numbers");
+  expect_sensor(replaced(kSensor, "rate_hz: 20", "rate_hz: 0"), 11, "rate_hz should be positive");
+  expect_sensor(replaced(kSensor, "0.0, 0.0, 1.0, 0.125", "0.0, 0.0, 2.0, 0.125"), 7, "a rotation and a translation");
+  expect_sensor(replaced(kSensor, "0.0, 0.0, 1.0, 0.125", "0.0, 0.0, -1.0, 0.125"), 7, "a rotation and a translation");
+  expect_sensor(replaced(kSensor, "data: [", "date: ["), 5, "T_BS should have rows, cols and data");
+  const std::string none =
+      replaced(replaced(kSensor, "radial-tangential", "none"), "distortion_coefficients", "unused");
+  EXPECT_TRUE(read_euroc_camera(folder.write("sensor.yaml", none)).model.is_pinhole());
+}
+
+TEST_F(LayoutTest, EurocTruthThatIsWrong) {
+  make_euroc();
+  const std::string truth = "mav0/state_groundtruth_estimate0/data.csv";
+  folder.write(truth, "#t\n1000,0,0,0,1,0,0\n");
+  expect_bad(truth, 2, "a pose has 8 columns");
+  folder.write(truth, "1000,0,0,0,1,0,0,0\n1000,0,0,0,1,0,0,0\n");
+  expect_bad(truth, 2, "times must increase");
+  folder.write(truth, "1000,0,0,0,1,1,0,0\n");
+  expect_bad(truth, 1, "unit length");
+  folder.write(truth, "1000,0,zero,0,1,0,0,0\n");
+  expect_bad(truth, 1, "y should be a finite number, not 'zero'");
+  // Without a sensor.yaml the camera has no place in the body.
+  std::filesystem::remove(folder.path("mav0/cam0/sensor.yaml"));
+  EXPECT_TRUE(read_sequence(folder.path(), fov(60)).groundtruth.empty());
+  expect_bad("mav0/cam0/sensor.yaml", 0, "No such file: give --camera FILE");
+}
+
+TEST_F(LayoutTest, DetectionsByTheNamesOfIcdar) {
+  const std::string box = "1,1,5,1,5,3,1,3,";
+  image("img_1.png");
+  image("img_2.png");
+  image("img_3.png");
+  folder.write("gt_img_1.txt", "\xEF\xBB\xBF" + box + "EXIT\r\n" + box + "###\r\n");
+  folder.write("res_img_2.txt", "1,1,5,1,5,3,1,3\r\n" + box + "###\n");
+  folder.write("img_3.txt", "0 0.5 0.5 0.1 0.1\n");  // another program's labels
+  Sequence sequence = read_sequence(folder.path(), fov(60));
+  EXPECT_TRUE(sequence.has_detections);
+  std::vector<Detection> found = read_detections(sequence, sequence.frames[0]);
+  ASSERT_EQ(found.size(), 1u) << "### of the truth is to be ignored";
+  EXPECT_EQ(found[0].text, "EXIT");
+  EXPECT_EQ(read_detections(sequence, sequence.frames[1]).size(), 2u);
+  EXPECT_TRUE(read_detections(sequence, sequence.frames[2]).empty());
+
+  // A folder of them goes before what lies beside the images, and a chosen one before everything.
+  folder.write("detections/gt_img_2.txt", box + "OPEN\n");
+  folder.write("mine/img_2.txt", box + "MINE\n" + box + "###\n");
+  folder.write("mine/img_3_dete.txt", "1,1,5,1,5,3,1,3\n");
+  EXPECT_EQ(read_detections(sequence, sequence.frames[1]).at(0).text, "OPEN");
+  SequenceOptions options = fov(60);
+  options.detections = folder.path("mine");
+  sequence = read_sequence(folder.path(), options);
+  EXPECT_TRUE(read_detections(sequence, sequence.frames[0]).empty());
+  EXPECT_EQ(read_detections(sequence, sequence.frames[1]).size(), 2u);
+  EXPECT_EQ(read_detections(sequence, sequence.frames[2]).size(), 1u);
+  folder.write("mine/img_2.txt", box + "A\n1,1,5,1\n");
+  expect_input_error([&] { read_detections(sequence, sequence.frames[1]); }, folder.path("mine/img_2.txt"), 2,
+                     "8 numbers");
+  options.detections = folder.path("none");
+  expect_input_error([&] { read_sequence(folder.path(), options); }, options.detections, 0, "no such folder");
+}
+
+// An image named gt_1.png, and files for it as for any other.
+TEST_F(LayoutTest, NamesThatLookLikeIcdars) {
+  image("gt_1.png");
+  folder.write("detections/gt_1.txt", "1,1,5,1,5,3,1,3,###\n");
+  const Sequence sequence = read_sequence(folder.path(), fov(60));
+  EXPECT_EQ(read_detections(sequence, sequence.frames[0]).size(), 1u);
+}
+
+TEST_F(LayoutTest, Video) {
+  // Uncompressed: 5 frames of 8 x 6 at 25 a second, each of one grey.
+  std::string bytes = "YUV4MPEG2 W8 H6 F25:1 Ip A1:1 Cmono\n";
+  for (int i = 0; i < 5; ++i) bytes += "FRAME\n" + std::string(48, static_cast<char>(40 + 10 * i));
+  const std::string video = folder.write("a film.y4m", bytes);
+  if (!has_video()) {
+    expect_input_error([&] { read_sequence(video, fov(60)); }, video, 0, "configure with -DTEXTSLAM_VIDEO=ON");
+    return;
+  }
+  expect_input_error([&] { read_sequence(video); }, video, 0, "there is no calibration: give --camera FILE, or --fov");
+  folder.write("detections/000000.txt", "1,1,5,1,5,3,1,3,of another sequence\n");
+  const Sequence sequence = read_sequence(video, fov(90));
+  ASSERT_EQ(sequence.frames.size(), 5u);
+  EXPECT_NEAR(sequence.camera.pinhole().fx, 4, 1e-12);
+  EXPECT_EQ(frame_name(sequence, 3), "a film.y4m#000003");
+  EXPECT_FALSE(sequence.has_detections);
+  EXPECT_TRUE(read_detections(sequence, sequence.frames[0]).empty());
+  for (const std::size_t i : std::vector<std::size_t>{0, 1, 4, 3, 0, 2, 2, 4, 1}) {
+    EXPECT_EQ(load_frame(sequence, i)(7, 5), 40 + 10 * i);
+    EXPECT_DOUBLE_EQ(sequence.frames[i].timestamp, static_cast<double>(i) / 25);
+  }
+  for (const char* text : {"", "no film", "YUV4MPEG2 W8 H6 F25:1 Ip A1:1 Cmono\n"}) {
+    const std::string bad = folder.write("bad.y4m", text);
+    expect_input_error([&] { read_sequence(bad, fov(60)); }, bad, 0, "video");
+  }
+}
+
+}  // namespace io_layouts_test
+}  // namespace textslam

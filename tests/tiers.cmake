@@ -1,0 +1,41 @@
+# Tiers: the sets of tests that scripts/test runs. A test names its tiers where it is declared; they and its room, the first word
+# of its name, are its labels for ctest: `ctest -L '^first_look$'`. A test without a tier runs where all tests do.
+#   first_look  scripts/test, minutes
+#   sanitizers  AddressSanitizer and UndefinedBehaviorSanitizer
+#   threads     ThreadSanitizer
+#   library     other standards, -O0 and coverage: the library alone
+#   fast_math   -ffast-math
+set(TEXTPLANE_TEST_TIER "" CACHE STRING "Build the tests of one tier alone: first_look, sanitizers, threads, library or fast_math")
+
+# textplane_in_tier(RESULT TIER...): whether tests of these tiers are built.
+function(textplane_in_tier result)
+  set(${result} OFF PARENT_SCOPE)
+  if(NOT TEXTPLANE_TEST_TIER OR TEXTPLANE_TEST_TIER IN_LIST ARGN)
+    set(${result} ON PARENT_SCOPE)
+  endif()
+endfunction()
+
+# textplane_label(TEST TIER...): the labels of a test of add_test().
+function(textplane_label test)
+  string(REGEX MATCH "^[^.]*" room ${test})
+  set_property(TEST ${test} APPEND PROPERTY LABELS ${room} ${ARGN})
+endfunction()
+
+# textplane_discover_tests(PROGRAM ROOM [LABELS LABEL...] [TIERS TIER...] [EXCEPT TIER REGEX...]): the tests of a program of
+# GoogleTest. Those whose names match a REGEX of EXCEPT are not of that TIER. ctest sets the labels: GoogleTest's module takes no
+# lists as properties.
+function(textplane_discover_tests program room)
+  cmake_parse_arguments(tests "" "" "LABELS;TIERS;EXCEPT" ${ARGN})
+  gtest_discover_tests(${program} TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  list(JOIN tests_TIERS " " tiers)
+  list(JOIN tests_LABELS " " labels)
+  set(labels "${room} ${labels} ${tiers}")
+  set(exceptions)
+  while(tests_EXCEPT)
+    list(POP_FRONT tests_EXCEPT tier regex)
+    string(APPEND exceptions "  if(test MATCHES [[${regex}]])\n    list(REMOVE_ITEM labels ${tier})\n  endif()\n")
+  endwhile()
+  set(file ${CMAKE_CURRENT_BINARY_DIR}/${program}_labels.cmake)
+  configure_file(labels.cmake.in ${file} @ONLY)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${file})
+endfunction()
