@@ -1,4 +1,4 @@
-"""docs/experiments.md from finished runs. Everything in it but the section on time is the same for the same programs."""
+"""docs/experiments.md from finished runs. The same programs give the same page, except its section on time."""
 from figures import (
     ANGLE_BINS,
     LARGEST_ATE,
@@ -23,14 +23,14 @@ WITH_PLANES = ("text", "loose")
 
 
 def table(head, rows, names=1):
-    """Markdown; the first `names` columns are words, the others numbers."""
+    """Markdown; the first `names` columns are names, the others numbers."""
     align = ["---"] * names + ["---:"] * (len(head) - names)
     lines = ["| " + " | ".join(cells) + " |" for cells in [head, align, *rows]]
     return "\n".join(lines) + "\n"
 
 
 def by_kind(cases):
-    """[(name, its cases)] of the rendered kinds and the real sequence, in their order."""
+    """[(name, cases)] of the rendered kinds and the real sequence, in order."""
     kinds = {}
     for case in cases:
         if case.group in ("kinds", "sequence"):
@@ -39,7 +39,7 @@ def by_kind(cases):
 
 
 class Report:
-    """results(case, mode) gives the result of a run, or None where it has not been run."""
+    """results(case, mode) is the result of a run, or None if it has not run."""
 
     def __init__(self, cases, results, setting):
         self.cases, self.results, self.setting = cases, results, setting
@@ -48,8 +48,8 @@ class Report:
         return [result for result in (self.results(case, mode) for case in cases) if result]
 
     def signs(self, cases, mode):
-        """(mapped, visible, false texts) of the cases that were run; visible is None where they show no signs. Any mode tells what
-        is visible, so that a run without a trajectory counts with all of it."""
+        """(mapped, visible, false texts) of the finished cases; visible is None where they show no signs. It comes from
+        any mode, so that the signs of a run without a trajectory count too."""
         mapped = visible = strays = 0
         for case in cases:
             run = self.results(case, mode)
@@ -69,19 +69,24 @@ class Report:
     def head(self):
         setting = self.setting
         length = f"{setting['frames']} frames" if setting["frames"] else "each kind's own length"
+        seeds, starts = (", ".join(map(str, numbers)) for numbers in (setting["seeds"], STARTS))
+        coverage, largest = f"{100 * LEAST_COVERAGE:.0f} %", f"{100 * LARGEST_ATE:.0f} %"
         return f"""# Experiments
 
-Written by `examples/experiments/run`; do not edit. The modes of `textslam` on rendered sequences of {length}
-(640x480, exact truth), seeds {", ".join(map(str, setting["seeds"]))}, and on a real one where its folder was given, from its frames {", ".join(map(str, STARTS))} on:
+Written by `examples/experiments/run`. `textslam` runs in three modes on rendered sequences of
+{length} (640x480, exact truth), with the seeds {seeds}. If the folder of a real sequence is
+given, it also runs on that, from the frames {starts} on.
 
 - `text`: points and text planes in one cost, the paper's method;
 - `points`: points alone;
-- `loose`: as `points`, text planes by three-point RANSAC on the map points in a text's quad, the paper's comparison.
+- `loose`: as `points`; three-point RANSAC fits a plane to the map points in a text's quad, the paper's comparison.
 
-ATE is the absolute trajectory error (the paper's APE), rmse after Sim(3) alignment; RPE the relative one over 0.1 m of path, rmse.
-`live` is ATE of the poses as known when their frames were processed. A run counts as failed where the program does not end well,
-fewer than {100 * LEAST_COVERAGE:.0f} % of the frames have a pose, or ATE is above {100 * LARGEST_ATE:.0f} % of the path; it gives no error to any mean, its
-signs count as not mapped, and it is listed at the end.
+ATE is the absolute trajectory error (the paper's APE): rms after Sim(3) alignment. RPE is the relative error over
+0.1 m of path, rms. `live` is the ATE of the poses as known when their frames were processed.
+
+A run has failed if the program does not end well, if fewer than {coverage} of the frames have a pose, or if ATE is
+above {largest} of the path. A failed run counts in no mean, its signs count as not mapped, and the end of the page
+lists it.
 """
 
     def accuracy(self):
@@ -91,11 +96,12 @@ signs count as not mapped, and it is listed at the end.
                 rows += self.accuracy_row(kind, mode, self.runs(cases, mode))
         if not rows:
             return ""
-        head = ["sequence", "mode", "ATE, mm", "mean", "% of path", "live", "RPE, mm", "RPE, deg", "frames with a pose", "failed"]
+        head = ["sequence", "mode", "ATE, mm", "mean", "% of path", "live", "RPE, mm", "RPE, deg", "frames with a pose",
+                "failed"]
         return "## Trajectories (the paper's Table I)\n\n" + table(head, rows, 2)
 
     def live(self):
-        """ATE of each run's final and live poses, mode `text`."""
+        """ATE of the final and the live poses of each run in mode `text`."""
         rows = []
         for kind, cases in by_kind(self.cases):
             for case in cases:
@@ -103,11 +109,12 @@ signs count as not mapped, and it is listed at the end.
                 final = trajectory_value(run, "ate_rmse") if run else None
                 live = trajectory_value(run, "ate_rmse", live=True) if run else None
                 if final and live:
-                    which = f"from frame {case.arguments[-1] if case.arguments else 0}" if case.seed is None else f"seed {case.seed}"
+                    start = case.arguments[-1] if case.arguments else 0
+                    which = f"from frame {start}" if case.seed is None else f"seed {case.seed}"
                     rows.append([f"`{kind}`", which, millimetres(final), millimetres(live), written(live / final, 2)])
         if not rows:
             return ""
-        return ("## Live poses\n\nEach run of mode `text`, ATE in mm.\n\n"
+        return ("## Live poses\n\nATE of each run of mode `text`, in mm.\n\n"
                 + table(["sequence", "", "final", "live", "live / final"], rows, 2))
 
     @staticmethod
@@ -141,8 +148,10 @@ signs count as not mapped, and it is listed at the end.
                 if self.signs(cases, mode)[1] is not None]
         if not rows:
             return ""
-        head = ["sequence", "mode", "angle median, deg", "p90", "largest", "centre median, mm", "p90", "signs mapped", "false texts"]
-        return "## Planes (the paper's Table II)\n\nErrors of the normals and centres of all mapped signs.\n\n" + table(head, rows, 2)
+        head = ["sequence", "mode", "angle median, deg", "p90", "largest", "centre median, mm", "p90", "signs mapped",
+                "false texts"]
+        title = "## Planes (the paper's Table II)\n\nErrors of the normals and centres of all mapped signs.\n\n"
+        return title + table(head, rows, 2)
 
     def plane_row(self, name, cases, mode):
         runs = self.runs(cases, mode)
@@ -150,7 +159,8 @@ signs count as not mapped, and it is listed at the end.
         mapped, visible, strays = self.signs(cases, mode)
         return [
             name, mode, written(quantile(errors, 0.5), 2), written(quantile(errors, 0.9), 2),
-            written(max(errors, default=None), 2), millimetres(quantile(offsets, 0.5), 1), millimetres(quantile(offsets, 0.9), 1),
+            written(max(errors, default=None), 2), millimetres(quantile(offsets, 0.5), 1),
+            millimetres(quantile(offsets, 0.9), 1),
             f"{mapped} of {visible}", str(strays),
         ]
 
@@ -168,7 +178,7 @@ signs count as not mapped, and it is listed at the end.
                 row += [str(counts[mode][i]), f"{100 * share:.0f} % " + "█" * round(20 * share)]
             rows.append(row)
         head = ["angle error, deg"] + [cell for mode in WITH_PLANES for cell in (mode, "share")]
-        return "## How the angle errors are spread\n\n" + table(head, rows)
+        return "## Distribution of the angle errors\n\n" + table(head, rows)
 
     def time(self):
         rows = []
@@ -184,9 +194,9 @@ signs count as not mapped, and it is listed at the end.
             return ""
         jobs = self.setting["jobs"]
         alone = "one run at a time" if jobs == 1 else f"{jobs} runs at a time, which slows each"
-        return (f"## Time\n\n{self.setting['cpu']}, one thread a run, {alone}. Frames a second: tracking, mapping and local adjustment. CPU: "
-                "the whole program, with\nreading images, filling in, and the adjustment at the end.\n\n"
-                + table(["sequence", "mode", "frames a second", "CPU ms a frame"], rows, 2))
+        return (f"## Time\n\n{self.setting['cpu']}, one thread a run, {alone}. \"Frames a second\" counts tracking,\n"
+                "mapping and local adjustment. \"CPU\" is the whole program, with reading images, filling in and the last\n"
+                "adjustment.\n\n" + table(["sequence", "mode", "frames a second", "CPU ms a frame"], rows, 2))
 
     def sweep_cases(self, name):
         cases = [case for case in self.cases if case.group == name]
@@ -214,8 +224,8 @@ signs count as not mapped, and it is listed at the end.
         head = [unit] + [f"ATE {mode}, mm" for mode in MODES]
         for mode in WITH_PLANES:
             head += [f"signs mapped, {mode}", "angle median, deg", "p90"]
-        return (f"## Sweep: {unit}\n\n`{SWEEP_KIND}`, seed {SWEEP_SEED}, `{SWEEPS[name][0]}`.\n\n![{unit}](images/{picture})\n\n"
-                + table(head, rows))
+        title = f"## Sweep: {unit}\n\n`{SWEEP_KIND}`, seed {SWEEP_SEED}, `{SWEEPS[name][0]}`."
+        return f"{title}\n\n![{unit}](images/{picture})\n\n" + table(head, rows)
 
     def failures(self):
         lines = []
