@@ -1,6 +1,7 @@
 // report_format BENCH.json... --root REPOSITORY [--cpu NAME] [--repetitions N] [--convergence FILE] [--textslam TIMING.json]
 //
-// Writes docs/benchmarks.json, docs/benchmarks.md and docs/images/growth_*.svg.
+// Writes docs/benchmarks.json, docs/benchmarks.md, docs/images/growth_*.svg, and the block of README.md between
+// `<!-- speed: begin -->` and `<!-- speed: end -->`.
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -35,7 +36,7 @@ std::string error_text(const std::map<std::string, double>& e) {
 
 struct Report {
   Json document;
-  std::string table;
+  std::string table, speed;
 };
 
 Report compare(const Results& all, const std::string& best) {
@@ -45,6 +46,9 @@ Report compare(const Results& all, const std::string& best) {
       "| versus | N | target | aim | reached: minima | medians | | ours, ns: min, median | peer, ns: min, median | "
       "error of ours | error of the peer |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  report.speed =
+      "| versus | N | target | times as fast | ns an item | error of ours | error of the peer |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Comparison& c : comparisons()) {
     const std::string target = std::string(c.target) == "best" ? best : c.target;
     const auto ours = all.find(std::string(c.ours) + "/" + target + "/" + c.size), peer = all.find(c.peer);
@@ -78,6 +82,10 @@ Report compare(const Results& all, const std::string& best) {
                     (c.aim > 0 ? ratio >= c.aim ? "met" : "**not met**" : "") + " | " + short_number(a.min()) + ", " +
                     short_number(a.median()) + " | " + short_number(b.min()) + ", " + short_number(b.median()) + " | " +
                     error_text(a.errors) + " | " + error_text(b.errors) + " |\n";
+    if (c.aim > 0)
+      report.speed += std::string("| ") + c.versus + " | " + c.size + " | " + target + " | " + short_number(ratio) +
+                      " | " + short_number(a.min()) + " | " + error_text(a.errors) + " | " + error_text(b.errors) +
+                      " |\n";
   }
   return report;
 }
@@ -218,6 +226,8 @@ int run(int argc, char** argv) {
 
   write(docs + "benchmarks.md", md);
   write(docs + "benchmarks.json", out.dump(1) + "\n");
+  replace_block(root + "/README.md", "speed",
+                machine + "; more in [docs/benchmarks.md](docs/benchmarks.md).\n\n" + report.speed);
   std::cout << report.table;
   return 0;
 }
