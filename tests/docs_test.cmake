@@ -1,4 +1,4 @@
-# Fails where README.md or a page of docs/ names a header or a test file that does not exist, or links to a missing file,
+# Fails where README.md or a page of docs/ names a header or a test that does not exist, or links to a missing file,
 # and where no page of the lists in README.md and docs/README.md links to a page of docs/.
 # Run as: cmake -DROOT=<repository> -P docs_test.cmake
 cmake_minimum_required(VERSION 3.21)
@@ -14,6 +14,15 @@ foreach(page IN LISTS pages)
     math(EXPR checked "${checked} + 1")
     if(NOT EXISTS ${ROOT}/include/textplane/${name} AND NOT EXISTS ${ROOT}/tests/${name} AND NOT EXISTS ${ROOT}/${name})
       message(SEND_ERROR "${page} names ${name}, which does not exist")
+    endif()
+  endforeach()
+  string(REGEX MATCHALL "[`][a-z0-9_]+_test[`]" names "${text}")
+  foreach(name IN LISTS names)
+    string(REPLACE "`" "" name ${name})
+    math(EXPR checked "${checked} + 1")
+    file(GLOB_RECURSE found ${ROOT}/tests/${name}.cpp)
+    if(NOT found)
+      message(SEND_ERROR "${page} names the test ${name}, which does not exist")
     endif()
   endforeach()
   # An unbalanced bracket would keep a list of matches in one piece.
