@@ -1,5 +1,5 @@
-// real_images: tracking and alignment on real photographs, ours beside OpenCV's ECC, KLT with RANSAC and plain SSD; writes the tables of
-// docs/real_images.md. The data are not part of the repository: folders in the layout of the published sets.
+// real_images: tracking and alignment on real photographs, beside OpenCV's ECC, KLT with RANSAC and plain SSD. Writes
+// docs/real_images.md. The data are folders in the layout of the published sets; they are not part of the repository.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
