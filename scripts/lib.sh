@@ -16,7 +16,8 @@ packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-de
   nlohmann-json3-dev libyaml-cpp-dev fonts-dejavu-core fonts-dejavu-extra"
 packages_test="$packages_demo libgtest-dev"
 packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
-  libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen"
+  libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
+  pandoc libjs-katex fonts-katex clang-format"
 packages_all="$packages_ci python3-sympy libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib g++-11-s390x-linux-gnu"
 
 say() { printf '\n== %s\n' "$*"; }

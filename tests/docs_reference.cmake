@@ -1,4 +1,4 @@
-# Every public class, member, enumeration, function and constant has its sentence in the reference: what doxygen calls undocumented fails.
+# Fails where doxygen finds a public class, member, function or constant without documentation.
 file(READ ${ROOT}/docs/site/Doxyfile settings)
 file(MAKE_DIRECTORY ${TO})
 file(WRITE ${TO}/Doxyfile "${settings}\nOUTPUT_DIRECTORY = ${TO}\n")

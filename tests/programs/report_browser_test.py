@@ -11,6 +11,7 @@ import json
 import pathlib
 import sys
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, str(next(p for p in pathlib.Path(__file__).parents if p.name == "tests") / "support"))
 from browser import Browser, check, chromium  # noqa: E402
 

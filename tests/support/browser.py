@@ -109,13 +109,16 @@ class Browser:
             check(time.monotonic() < end, f"{what}; troubles: {self.troubles}")
             time.sleep(0.02)
 
-    def open(self, path, width=1440, height=1000, dark=False, ready="true", settle=200):
-        """Loads a page and waits until the script `ready` is true and all pictures are drawn; then `settle` ms longer."""
+    def show(self, width, height, dark=False):
         phone = width < 600
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=2 if phone else 1, mobile=phone)
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.call("Emulation.setEmulatedMedia", features=[scheme])
+
+    def open(self, path, width=1440, height=1000, dark=False, ready="true", settle=200):
+        """Loads a page and waits until the script `ready` is true and all pictures are drawn; then `settle` ms longer."""
+        self.show(width, height, dark)
         self.call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
         self.until(f"document.readyState === 'complete' && ({ready})", f"{path} does not start")
         self.run("Promise.all([...document.images].map((i) => i.decode()))")
