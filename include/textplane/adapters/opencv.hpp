@@ -59,14 +59,17 @@ template <class S>
 Vector2<S> from_cv(const cv::Point_<S>& p) noexcept {
   return {p.x, p.y};
 }
+/// \overload
 template <class S>
 Vector3<S> from_cv(const cv::Point3_<S>& p) noexcept {
   return {p.x, p.y, p.z};
 }
+/// As OpenCV's type.
 template <class S>
 cv::Point_<S> to_cv(const Vector2<S>& p) noexcept {
   return {p[0], p[1]};
 }
+/// \overload
 template <class S>
 cv::Point3_<S> to_cv(const Vector3<S>& p) noexcept {
   return {p[0], p[1], p[2]};

@@ -34,6 +34,7 @@ template <class T>
 T* numbers(std::vector<CacheLine<T>>& lines) noexcept {
   return reinterpret_cast<T*>(lines.data());
 }
+/// \overload
 template <class T>
 const T* numbers(const std::vector<CacheLine<T>>& lines) noexcept {
   return reinterpret_cast<const T*>(lines.data());

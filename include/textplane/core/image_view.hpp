@@ -120,8 +120,8 @@ class Image {
   std::vector<T> pixels_;
 };
 
-using ImageView8 = ImageView<const std::uint8_t>;
-using ImageViewF = ImageView<const float>;
+using ImageView8 = ImageView<const std::uint8_t>;  ///< Grey levels of 8 bits.
+using ImageViewF = ImageView<const float>;         ///< Grey levels in float.
 
 TEXTPLANE_END_NAMESPACE
 

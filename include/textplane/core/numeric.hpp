@@ -14,13 +14,13 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 template <class S>
-using Vector2 = Eigen::Matrix<S, 2, 1>;
+using Vector2 = Eigen::Matrix<S, 2, 1>;  ///< A point of an image.
 template <class S>
-using Vector3 = Eigen::Matrix<S, 3, 1>;
+using Vector3 = Eigen::Matrix<S, 3, 1>;  ///< A point, a direction, or a plane theta.
 template <class S>
-using Vector6 = Eigen::Matrix<S, 6, 1>;
+using Vector6 = Eigen::Matrix<S, 6, 1>;  ///< A twist xi = (v, omega).
 template <class S>
-using Matrix3 = Eigen::Matrix<S, 3, 3>;
+using Matrix3 = Eigen::Matrix<S, 3, 3>;  ///< A rotation or a homography.
 
 namespace detail {
 // The scalar that sums over measurements of type S run in: double for float, else S itself.
@@ -107,6 +107,7 @@ inline bool is_finite(double x) noexcept {
   std::memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
+/// \overload
 inline bool is_finite(float x) noexcept {
   std::uint32_t bits;
   std::memcpy(&bits, &x, sizeof bits);
@@ -201,6 +202,7 @@ struct SymmetricEigen {
   Eigen::Matrix<S, N, N> vectors;
 };
 
+/// Eigenvalues and eigenvectors of a symmetric matrix, by Jacobi rotations.
 template <class S, int N>
 SymmetricEigen<S, N> symmetric_eigen(const Eigen::Matrix<S, N, N>& matrix) noexcept {
   using std::abs;

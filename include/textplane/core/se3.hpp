@@ -45,9 +45,10 @@ struct SE3 {
     return {R.template cast<U>(), t.template cast<U>()};
   }
 };
-using SE3d = SE3<double>;
-using SE3f = SE3<float>;
+using SE3d = SE3<double>;  ///< In double.
+using SE3f = SE3<float>;   ///< In float.
 
+/// Whether no entry of R and t is infinite or NaN.
 template <class S>
 bool all_finite(const SE3<S>& T) noexcept {
   return all_finite(T.R) && all_finite(T.t);
@@ -199,10 +200,12 @@ template <class S>
 const SE3<S>& to_se3(const SE3<S>& T) noexcept {
   return T;
 }
+/// \overload
 template <class S, int Mode, int Options>
 SE3<S> to_se3(const Eigen::Transform<S, 3, Mode, Options>& T) noexcept {
   return {T.linear(), T.translation()};
 }
+/// \overload
 template <class Pose, std::enable_if_t<detail::HasRotationMatrix<Pose>::value, int> = 0>
 auto to_se3(const Pose& T) noexcept
     -> SE3<typename std::decay_t<decltype(std::declval<const Pose&>().rotationMatrix())>::Scalar> {

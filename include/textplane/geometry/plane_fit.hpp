@@ -315,11 +315,13 @@ PlaneFit<S> plane_from_inverse_depths(const Points& m, const Depths& rho) noexce
   if (m.size() != rho.size()) return detail::failed_plane<S>(Status::invalid_argument);
   return plane_from_inverse_depths<S>(m.data(), rho.data(), nullptr, static_cast<int>(m.size()));
 }
+/// \overload
 template <class HostPoints, class TargetPoints, class Pose, class S = detail::PointScalar<HostPoints>>
 PlaneFit<S> plane_from_matches(const HostPoints& host_m, const TargetPoints& target_m, const Pose& T_t_h) noexcept {
   if (host_m.size() != target_m.size()) return detail::failed_plane<S>(Status::invalid_argument);
   return plane_from_matches<S>(host_m.data(), target_m.data(), static_cast<int>(host_m.size()), to_se3(T_t_h));
 }
+/// \overload
 template <class Points, class S = detail::PointScalar<Points>>
 PlaneFit<S> plane_from_points(const Points& p) noexcept {
   return plane_from_points<S>(p.data(), static_cast<int>(p.size()));

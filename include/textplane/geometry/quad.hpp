@@ -34,6 +34,7 @@ struct Quad {
   }
 };
 
+/// Whether no coordinate is infinite or NaN.
 template <class S>
 bool all_finite(const Quad<S>& quad) noexcept {
   for (const auto& c : quad.corner)

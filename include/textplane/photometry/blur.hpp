@@ -20,7 +20,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-using Matrix2d = Eigen::Matrix<double, 2, 2>;
+using Matrix2d = Eigen::Matrix<double, 2, 2>;  ///< A covariance, px^2.
 
 /// Covariances, px^2 of each image, of the Gaussian filters that bring host and target to one blur on the plane.
 struct BlurMatch {

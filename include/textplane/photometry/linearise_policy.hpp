@@ -19,6 +19,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
+/// Whose gradients the normal equations use.
 enum class LinearisePolicy : std::uint8_t {
   forward,            ///< Gradients of the target: the derivative of the cost itself.
   template_jacobian,  ///< Gradients of the host, prepared once: the cheapest iteration.

@@ -17,7 +17,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-constexpr int kMaxPyramidLevels = 8;
+constexpr int kMaxPyramidLevels = 8;  ///< Levels at most, the finest included.
 
 /// The levels of a pyramid that somebody else owns, finest first. Levels from `levels` on are empty views.
 struct PyramidView {

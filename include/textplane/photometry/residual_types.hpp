@@ -57,8 +57,8 @@ struct BasicPhotometricInput {
   ImageView<const T> target;
   PairView pairs = {};  ///< Of an 8-bit target, optional: PreparedTarget. Must be of the same image.
 };
-using PhotometricInput = BasicPhotometricInput<std::uint8_t>;
-using PhotometricInputF = BasicPhotometricInput<float>;
+using PhotometricInput = BasicPhotometricInput<std::uint8_t>;  ///< Of an 8-bit target.
+using PhotometricInputF = BasicPhotometricInput<float>;        ///< Of a float target.
 
 namespace detail {
 struct Unset {};

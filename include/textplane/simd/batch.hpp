@@ -35,6 +35,7 @@ struct BatchGroup {
 
 /// Entries of a result: H's upper triangle row by row (45, or 21), b (9, or 6), then these.
 enum class BatchEntry : int { cost, error, mean, s, visible, count };
+/// Floats of one result with 9 or 6 parameters.
 constexpr int batch_entries(int parameters) noexcept {
   return parameters * (parameters + 1) / 2 + parameters + static_cast<int>(BatchEntry::count);
 }

@@ -31,8 +31,8 @@ struct BasicPlaneTarget {
   /// levels and numbers of pixels it must have: a target with another is not used.
   const TextPatch* patch = nullptr;
 };
-using PlaneTarget = BasicPlaneTarget<PyramidView>;
-using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;
+using PlaneTarget = BasicPlaneTarget<PyramidView>;    ///< Of 8-bit images.
+using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
 
 /// Settings of refine_plane() and align_plane().
 struct PlaneOptions {

@@ -10,6 +10,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
+/// How lambda_w follows from the standard deviations of points and intensities.
 enum class Weighting {
   paper,     ///< lambda_w = sigma_rep / sigma_photo, as the paper prints it; every object counts the same, whatever its
              ///< size.

@@ -218,6 +218,7 @@ template <class S = double>
 WindowSummary solve_window(Window& window, const WindowOptions& options, WindowWorkspace& workspace) {
   return detail::WindowSolver<S>(window, options, workspace).run();
 }
+/// \overload
 template <class S = double>
 WindowSummary solve_window(Window& window, const WindowOptions& options = {}) {
   WindowWorkspace workspace;
