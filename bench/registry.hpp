@@ -61,13 +61,13 @@ void keep(T&& value) {
   benchmark::DoNotOptimize(value);
 }
 
-void add_equations();        ///< equations.cpp: normal equations of all kinds, ours.
-void add_images();           ///< images.cpp: warp, FAST, KLT, pyramid, ours.
-void add_converge();         ///< converge.cpp: ours to convergence.
-void add_growth();           ///< growth.cpp: cost against pixels, objects and threads.
-void add_straightforward();  ///< peers_straightforward.cpp: Eigen double; Ceres and numeric differences where built.
-void add_opencv();           ///< peers_opencv.cpp
-void add_visp();             ///< peer_visp.cpp
+void add_equations();        ///< kernels/equations.cpp: normal equations of all kinds, ours.
+void add_images();           ///< kernels/images.cpp: warp, FAST, KLT, pyramid, ours.
+void add_converge();         ///< kernels/converge.cpp: ours to convergence.
+void add_growth();           ///< kernels/growth.cpp: cost against pixels, objects and threads.
+void add_straightforward();  ///< peers/straightforward.cpp: Eigen double; Ceres and numeric differences where built.
+void add_opencv();           ///< peers/opencv.cpp
+void add_visp();             ///< peers/visp.cpp
 
 }  // namespace textplane_bench
 

@@ -3,29 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <random>
+#include <vector>
 
+#include "random.hpp"
 #include "textplane/geometry/homography.hpp"
 
 namespace textplane_bench {
 
 namespace {
-
-// std::mt19937 with own mappings: the standard's distributions differ between libraries.
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
-  }
-  double normal() {
-    const double r = std::sqrt(-2 * std::log(uniform(0, 1))), phi = uniform(0, 6.283185307179586);
-    return r * std::cos(phi);
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 // In [0, 1), the same for the same cell.
 double hash(int x, int y, unsigned seed) {
@@ -55,7 +40,71 @@ tp::SE3d small_motion(Random& random, double translation, double rotation) {
   return tp::se3_exp<double>(xi);
 }
 
+// The rectangle: 100 x 40, or as much larger as the pixels need, around the middle and moved a little from scene to scene.
+void choose_rectangle(int n, Random& random, Scene* s) {
+  s->columns = 100;
+  s->rows = 40;
+  while (s->columns * s->rows < n) {
+    s->columns += 50;
+    s->rows += 36;
+  }
+  s->columns = std::min(s->columns, 560);
+  s->rows = std::min(s->rows, 420);
+  s->left = (Scene::kWidth - s->columns) / 2 + static_cast<int>(s->columns <= 200 ? random.uniform(-120, 120) : 0);
+  s->top = (Scene::kHeight - s->rows) / 2 + static_cast<int>(s->rows <= 120 ? random.uniform(-120, 120) : 0);
+}
+
 std::uint8_t pixel(double value) { return static_cast<std::uint8_t>(std::clamp(std::floor(value + 0.5), 0.0, 255.0)); }
+
+void render(unsigned seed, const Light& light, Random& random, Scene* s) {
+  s->host = tp::Image<std::uint8_t>(Scene::kWidth, Scene::kHeight);
+  s->target = tp::Image<std::uint8_t>(Scene::kWidth, Scene::kHeight);
+  for (int y = 0; y < Scene::kHeight; ++y)
+    for (int x = 0; x < Scene::kWidth; ++x) s->host(x, y) = pixel(texture(x, y, seed));
+  const tp::Matrix3<double> back = s->pixel_homography(s->T_t_h, s->theta).inverse();
+  for (int y = 0; y < Scene::kHeight; ++y)
+    for (int x = 0; x < Scene::kWidth; ++x) {
+      const tp::Vector3<double> q = back * tp::Vector3<double>(x, y, 1);
+      s->target(x, y) =
+          pixel(light.gain * texture(q[0] / q[2], q[1] / q[2], seed) + light.bias + light.noise * random.normal());
+    }
+  // Outliers are in the host, where they stay with a pixel, as a highlight in the key frame does.
+  for (int i = 0; i < Scene::kWidth * Scene::kHeight; ++i)
+    if (random.uniform(0, 1) < light.outliers) s->host.data()[i] = pixel(s->host.data()[i] + random.uniform(-90, 90));
+}
+
+// n pixels of the rectangle, in the order of the rows.
+void scatter_pixels(int n, Random& random, Scene* s) {
+  std::vector<int> cells(static_cast<std::size_t>(s->columns * s->rows));
+  std::iota(cells.begin(), cells.end(), 0);
+  const std::size_t count = std::min(cells.size(), static_cast<std::size_t>(n));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto j = i + static_cast<std::size_t>(random.uniform(0, 1) * static_cast<double>(cells.size() - i));
+    std::swap(cells[i], cells[j]);
+  }
+  cells.resize(count);
+  std::sort(cells.begin(), cells.end());
+  for (const int cell : cells) {
+    const int x = s->left + cell % s->columns, y = s->top + cell / s->columns;
+    s->x.push_back(static_cast<float>(x));
+    s->y.push_back(static_cast<float>(y));
+    s->intensity.push_back(static_cast<float>(s->host(x, y)));
+  }
+}
+
+// Moves pose and plane in a random direction until the corner error is `px`.
+void displace_start(double px, Random& random, Scene* s) {
+  const tp::Vector6<double> xi = tp::se3_log(small_motion(random, 0.02, 0.01));
+  const tp::Vector3<double> tilt(random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
+                                 random.uniform(-0.005, 0.005));
+  double low = 0, high = 8;
+  for (int i = 0; i < 50; ++i) {
+    const double k = 0.5 * (low + high);
+    s->T_start = tp::se3_exp<double>(k * xi) * s->T_t_h;
+    s->theta_start = s->theta + k * tilt;
+    (s->corner_error(s->pixel_homography(s->T_start, s->theta_start)) < px ? low : high) = k;
+  }
+}
 
 }  // namespace
 
@@ -120,67 +169,12 @@ Scene make_scene(int n, unsigned seed, double px, const Light& light, double mot
   const tp::Vector3<double> normal(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), -1);
   s.theta = -normal.normalized() / 2.0;
   s.T_t_h = small_motion(random, 0.06 * motion, 0.03 * motion);
-
-  // The rectangle: 100 x 40, or as much larger as the pixels need, around the middle and moved a little from scene to scene.
-  s.columns = 100;
-  s.rows = 40;
-  while (s.columns * s.rows < n) {
-    s.columns += 50;
-    s.rows += 36;
-  }
-  s.columns = std::min(s.columns, 560);
-  s.rows = std::min(s.rows, 420);
-  s.left = (Scene::kWidth - s.columns) / 2 + static_cast<int>(s.columns <= 200 ? random.uniform(-120, 120) : 0);
-  s.top = (Scene::kHeight - s.rows) / 2 + static_cast<int>(s.rows <= 120 ? random.uniform(-120, 120) : 0);
-
-  s.host = tp::Image<std::uint8_t>(Scene::kWidth, Scene::kHeight);
-  s.target = tp::Image<std::uint8_t>(Scene::kWidth, Scene::kHeight);
-  for (int y = 0; y < Scene::kHeight; ++y)
-    for (int x = 0; x < Scene::kWidth; ++x) s.host(x, y) = pixel(texture(x, y, seed));
-  const tp::Matrix3<double> back = s.pixel_homography(s.T_t_h, s.theta).inverse();
-  for (int y = 0; y < Scene::kHeight; ++y)
-    for (int x = 0; x < Scene::kWidth; ++x) {
-      const tp::Vector3<double> q = back * tp::Vector3<double>(x, y, 1);
-      s.target(x, y) =
-          pixel(light.gain * texture(q[0] / q[2], q[1] / q[2], seed) + light.bias + light.noise * random.normal());
-    }
-  // Outliers on the host's side, where they belong to a pixel for good, as a highlight in the key frame does.
-  for (int i = 0; i < Scene::kWidth * Scene::kHeight; ++i)
-    if (random.uniform(0, 1) < light.outliers) s.host.data()[i] = pixel(s.host.data()[i] + random.uniform(-90, 90));
-
-  // Scattered pixels, in the order of the rows.
-  std::vector<int> cells(static_cast<std::size_t>(s.columns * s.rows));
-  std::iota(cells.begin(), cells.end(), 0);
-  const std::size_t count = std::min(cells.size(), static_cast<std::size_t>(n));
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto j = i + static_cast<std::size_t>(random.uniform(0, 1) * static_cast<double>(cells.size() - i));
-    std::swap(cells[i], cells[j]);
-  }
-  cells.resize(count);
-  std::sort(cells.begin(), cells.end());
-  for (const int cell : cells) {
-    const int x = s.left + cell % s.columns, y = s.top + cell / s.columns;
-    s.x.push_back(static_cast<float>(x));
-    s.y.push_back(static_cast<float>(y));
-    s.intensity.push_back(static_cast<float>(s.host(x, y)));
-  }
-
-  // A start that is off by `px`, by pose and plane.
+  choose_rectangle(n, random, &s);
+  render(seed, light, random, &s);
+  scatter_pixels(n, random, &s);
   s.theta_start = s.theta;
   s.T_start = s.T_t_h;
-  if (px > 0) {
-    const tp::SE3d push = small_motion(random, 0.02, 0.01);
-    const tp::Vector6<double> xi = tp::se3_log(push);
-    const tp::Vector3<double> tilt(random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
-                                   random.uniform(-0.005, 0.005));
-    double low = 0, high = 8;
-    for (int i = 0; i < 50; ++i) {
-      const double k = 0.5 * (low + high);
-      s.T_start = tp::se3_exp<double>(k * xi) * s.T_t_h;
-      s.theta_start = s.theta + k * tilt;
-      (s.corner_error(s.pixel_homography(s.T_start, s.theta_start)) < px ? low : high) = k;
-    }
-  }
+  if (px > 0) displace_start(px, random, &s);
   return s;
 }
 

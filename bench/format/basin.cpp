@@ -1,8 +1,8 @@
-#include "basin.hpp"
+#include "format/basin.hpp"
 
 #include <set>
 
-#include "text.hpp"
+#include "format/text.hpp"
 
 namespace textplane_bench {
 

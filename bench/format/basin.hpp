@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "results.hpp"
+#include "format/results.hpp"
 
 namespace textplane_bench {
 

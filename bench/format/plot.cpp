@@ -1,4 +1,4 @@
-#include "plot.hpp"
+#include "format/plot.hpp"
 
 #include <algorithm>
 #include <cmath>

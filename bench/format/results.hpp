@@ -1,8 +1,7 @@
-// What one run of textplane_bench measured: Google Benchmark's JSON, its repetitions brought together.
+// What one run of textplane_bench measured: Google Benchmark's JSON, with the repetitions of a benchmark together.
 #ifndef TEXTPLANE_BENCH_FORMAT_RESULTS_HPP
 #define TEXTPLANE_BENCH_FORMAT_RESULTS_HPP
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -10,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "statistics.hpp"
 
 namespace textplane_bench {
 
@@ -30,21 +31,13 @@ inline Json read_json(const std::string& path) {
 struct Measured {
   std::vector<double> ns_item, ns_call;
   std::map<std::string, double> errors;
-
-  static double least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }
-  static double median(std::vector<double> v) {
-    std::sort(v.begin(), v.end());
-    return v.size() % 2 ? v[v.size() / 2] : 0.5 * (v[v.size() / 2 - 1] + v[v.size() / 2]);
-  }
-  double min() const { return least(ns_item); }
-  double median() const { return median(ns_item); }
 };
 
 using Results = std::map<std::string, Measured>;
 
-inline Results results(const Json& run) {
+inline Results results(const Json& benchmarks) {
   Results out;
-  for (const Json& b : run.at("benchmarks")) {
+  for (const Json& b : benchmarks) {
     if (b.at("run_type") != "iteration" || b.contains("error_occurred")) continue;
     Measured& m = out[b.at("run_name").get<std::string>()];
     const std::string unit = b.at("time_unit");

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "page.hpp"
-#include "results.hpp"
-#include "text.hpp"
+#include "format/page.hpp"
+#include "format/results.hpp"
+#include "format/text.hpp"
 
 namespace textplane_bench {
 
@@ -17,13 +17,13 @@ std::string milliseconds(const Json& solver) {
   return short_number(solver.at("cpu_ms_min").get<double>()) + ", " +
          short_number(solver.at("cpu_ms_median").get<double>());
 }
-double least(const Json& solver) { return solver.at("cpu_ms_min").get<double>(); }
+double least_ms(const Json& solver) { return solver.at("cpu_ms_min").get<double>(); }
 std::string scientific(double v) {
   char out[32];
   std::snprintf(out, sizeof out, "%.0e", v);
   return out;
 }
-// Relative cost, then camera position and rotation, point, plane.
+// Differences: relative cost, then camera position and rotation, point, plane.
 std::string difference(const Json& r, const char* kind) {
   if (!r.contains(kind)) return "| ";
   std::string out = scientific(r.at(kind).at("cost").get<double>()) + " |";
@@ -42,17 +42,17 @@ std::string row(const Json& r) {
   out << "| " << r.at("path").get<std::string>() << " | " << r.at("frames") << " | " << r.at("points") << " | "
       << r.at("texts") << " | " << r.at("point_observations") << " + " << r.at("text_observations") << " | "
       << milliseconds(ours) << " | " << milliseconds(sparse) << " | "
-      << (dense ? milliseconds(r.at("dense_schur")) : "") << " | " << fixed(least(sparse) / least(ours), 1)
-      << (dense ? ", " + fixed(least(r.at("dense_schur")) / least(ours), 1) : "") << " | " << megabytes(ours) << ", "
-      << megabytes(sparse) << " | " << ours.at("iterations") << ", " << sparse.at("iterations") << " | "
+      << (dense ? milliseconds(r.at("dense_schur")) : "") << " | " << fixed(least_ms(sparse) / least_ms(ours), 1)
+      << (dense ? ", " + fixed(least_ms(r.at("dense_schur")) / least_ms(ours), 1) : "") << " | " << megabytes(ours)
+      << ", " << megabytes(sparse) << " | " << ours.at("iterations") << ", " << sparse.at("iterations") << " | "
       << scientific(r.at("difference").at("cost").get<double>()) << " | " << difference(r, "optimum") << " |\n";
   return out.str();
 }
 
-std::string table(const Json& run, const std::string& cpu) {
-  std::string out = cpu + ", " + run.at("compiler").get<std::string>() + ", `" + run.at("flags").get<std::string>() +
-                    "`, kernels `" + run.at("target").get<std::string>() + "`; Ceres " +
-                    run.at("ceres").get<std::string>() + " as packaged; one thread, 3 to " +
+std::string table(const Json& run) {
+  std::string out = run.at("cpu").get<std::string>() + ", " + run.at("compiler").get<std::string>() + ", `" +
+                    run.at("flags").get<std::string>() + "`, kernels `" + run.at("target").get<std::string>() +
+                    "`; Ceres " + run.at("ceres").get<std::string>() + " as packaged; one thread, 3 to " +
                     std::to_string(run.at("repetitions").get<int>()) + " repetitions in turn.\n\n";
   out +=
       "| path | key frames | points | texts | observations | ours, ms | SPARSE_SCHUR, ms | DENSE_SCHUR, ms | times as "
@@ -64,12 +64,12 @@ std::string table(const Json& run, const std::string& cpu) {
 }
 
 int run(int argc, char** argv) {
-  if (argc != 4) {
-    std::cerr << "usage: report_scaling SCALING.json PAGE.md CPU\n";
+  if (argc != 3) {
+    std::cerr << "usage: report_scaling SCALING.json PAGE.md\n";
     return 2;
   }
-  if (!replace_block(argv[2], "scaling", table(read_json(argv[1]), argv[3])))
-    throw std::runtime_error(std::string(argv[2]) + ": has no marks");
+  if (!replace_block(argv[2], "scaling", table(read_json(argv[1]))))
+    throw std::runtime_error(std::string(argv[2]) + " has no marks for the table");
   return 0;
 }
 

@@ -1,5 +1,5 @@
 // All pixels must be visible. Built -O3 -march=native.
-#include "peer_numeric.hpp"
+#include "peers/numeric.hpp"
 
 #include <ceres/numeric_diff_cost_function.h>
 

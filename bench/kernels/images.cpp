@@ -4,13 +4,13 @@
 #include <cmath>
 #include <memory>
 
-#include "klt_task.hpp"
+#include "kernels/klt_task.hpp"
+#include "kernels/warp_task.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 #include "textplane/features/fast.hpp"
 #include "textplane/features/klt.hpp"
 #include "textplane/photometry/warp_patch.hpp"
-#include "warp_task.hpp"
 
 namespace textplane_bench {
 

@@ -1,10 +1,10 @@
 // Trials of convergence: made scenes, a 100 x 40 patch, starts whose mean corner error is exact. The same for every method.
-#ifndef TEXTPLANE_BENCH_TRIALS_HPP
-#define TEXTPLANE_BENCH_TRIALS_HPP
+#ifndef TEXTPLANE_BENCH_CONVERGENCE_TRIALS_HPP
+#define TEXTPLANE_BENCH_CONVERGENCE_TRIALS_HPP
 
 #include <vector>
 
-#include "align.hpp"
+#include "kernels/align.hpp"
 #include "textplane/photometry/template_patch.hpp"
 
 namespace textplane_bench {
@@ -42,4 +42,4 @@ struct Trials {
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_TRIALS_HPP
+#endif  // TEXTPLANE_BENCH_CONVERGENCE_TRIALS_HPP

@@ -1,6 +1,6 @@
 // Pose and plane of one object: what our convergence benchmarks iterate.
-#ifndef TEXTPLANE_BENCH_ALIGN_HPP
-#define TEXTPLANE_BENCH_ALIGN_HPP
+#ifndef TEXTPLANE_BENCH_KERNELS_ALIGN_HPP
+#define TEXTPLANE_BENCH_KERNELS_ALIGN_HPP
 
 #include <algorithm>
 #include <vector>
@@ -64,4 +64,4 @@ inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatc
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_ALIGN_HPP
+#endif  // TEXTPLANE_BENCH_KERNELS_ALIGN_HPP

@@ -1,6 +1,6 @@
 // Numeric differences, of the kind that the published TextSLAM uses.
-#ifndef TEXTPLANE_BENCH_PEER_NUMERIC_HPP
-#define TEXTPLANE_BENCH_PEER_NUMERIC_HPP
+#ifndef TEXTPLANE_BENCH_PEERS_NUMERIC_HPP
+#define TEXTPLANE_BENCH_PEERS_NUMERIC_HPP
 
 #include <vector>
 
@@ -31,4 +31,4 @@ class NumericCost {
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_PEER_NUMERIC_HPP
+#endif  // TEXTPLANE_BENCH_PEERS_NUMERIC_HPP

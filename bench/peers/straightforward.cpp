@@ -4,13 +4,13 @@
 #include <cmath>
 #include <memory>
 
-#include "baseline_eigen.hpp"
 #include "compare.hpp"
+#include "peers/eigen.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 #if defined(TEXTPLANE_BENCH_CERES)
-#include "peer_ceres.hpp"
-#include "peer_numeric.hpp"
+#include "peers/ceres.hpp"
+#include "peers/numeric.hpp"
 #endif
 
 namespace textplane_bench {

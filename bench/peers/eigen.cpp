@@ -1,8 +1,7 @@
-// Written as a careful SLAM author writes it, and built -O3 -march=native. First pass: warp, bilinear value and gradient, row of
-// dI, and the sums that mean, norm and their derivatives need. Second pass: residual, Huber weight, row of dr, and J^T W J as
-// Eigen's matrix product over chunks of rows, or one rank-one update a pixel, whichever is faster for the number of parameters.
-// Rows are kept between the passes in memory that is reused.
-#include "baseline_eigen.hpp"
+// Written as a careful SLAM author writes it, and built -O3 -march=native. collect() warps each pixel, samples value and
+// gradient, and keeps its row of dI. accumulate() weights the rows and sums J^T W J: as Eigen's matrix product over chunks of
+// rows, or as one rank-one update a pixel, whichever is faster for the number of parameters.
+#include "peers/eigen.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -22,21 +21,26 @@ struct Pixel {
 };
 
 template <int P>
-void baseline(const Problem& p, Equations* out) {
-  using Row = Eigen::Matrix<double, P, 1>;
-  using Square = Eigen::Matrix<double, P, P>;
-  using Mat3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  static thread_local std::vector<Pixel<P>, Eigen::aligned_allocator<Pixel<P>>> pixels;
-  if (pixels.size() < static_cast<std::size_t>(p.n)) pixels.resize(static_cast<std::size_t>(p.n));
+using Row = Eigen::Matrix<double, P, 1>;
+template <int P>
+using Pixels = std::vector<Pixel<P>, Eigen::aligned_allocator<Pixel<P>>>;
 
+// What the means, the norms and their derivatives need.
+template <int P>
+struct Sums {
+  int n = 0;
+  double host = 0, host2 = 0, target = 0, target2 = 0;
+  Row<P> J = Row<P>::Zero(), IJ = Row<P>::Zero();
+};
+
+template <int P>
+Sums<P> collect(const Problem& p, Pixels<P>& pixels) {
+  using Mat3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const Mat3 R = Eigen::Map<const Mat3>(p.R);
   const Eigen::Vector3d t = Eigen::Map<const Eigen::Vector3d>(p.t), theta = Eigen::Map<const Eigen::Vector3d>(p.theta);
   const Mat3 homography = R + t * theta.transpose();
   const double ifx = 1 / p.fx, ify = 1 / p.fy;
-
-  int n = 0;
-  double sum_host = 0, sum_host2 = 0, sum_target = 0, sum_target2 = 0;
-  Row sum_J = Row::Zero(), sum_IJ = Row::Zero();
+  Sums<P> sums;
   for (int i = 0; i < p.n; ++i) {
     const Eigen::Vector3d m((static_cast<double>(p.x[i]) - p.cx) * ifx, (static_cast<double>(p.y[i]) - p.cy) * ify, 1);
     const double rho = theta.dot(m);
@@ -54,39 +58,44 @@ void baseline(const Problem& p, Equations* out) {
 
     const double au = gx * p.fx * iz, av = gy * p.fy * iz;
     const Eigen::Vector3d a(au, av, -(au * u + av * v));
-    Pixel<P>& pixel = pixels[static_cast<std::size_t>(n++)];
-    Row& J = pixel.J;
+    Pixel<P>& pixel = pixels[static_cast<std::size_t>(sums.n++)];
+    Row<P>& J = pixel.J;
     J.template head<3>() = rho * a;
     J.template segment<3>(3) = q.cross(a);
     if constexpr (P == 9) J.template tail<3>() = a.dot(t) * m;
     pixel.host = static_cast<double>(p.intensity[i]);
     pixel.target = value;
-    sum_host += pixel.host;
-    sum_host2 += pixel.host * pixel.host;
-    sum_target += value;
-    sum_target2 += value * value;
-    sum_J += J;
-    sum_IJ += value * J;
+    sums.host += pixel.host;
+    sums.host2 += pixel.host * pixel.host;
+    sums.target += value;
+    sums.target2 += value * value;
+    sums.J += J;
+    sums.IJ += value * J;
   }
+  return sums;
+}
 
-  const double N = n, mean_host = sum_host / N, mean_target = sum_target / N;
-  const double is_host = 1 / std::sqrt(sum_host2 - N * mean_host * mean_host);
-  const double is_target = 1 / std::sqrt(sum_target2 - N * mean_target * mean_target);
-  const Row e = sum_J / N, c = is_target * (sum_IJ - mean_target * sum_J);
+template <int P>
+void accumulate(const Problem& p, const Pixels<P>& pixels, const Sums<P>& sums, Equations* out) {
+  using Square = Eigen::Matrix<double, P, P>;
+  const double N = sums.n, mean_host = sums.host / N, mean_target = sums.target / N;
+  const double is_host = 1 / std::sqrt(sums.host2 - N * mean_host * mean_host);
+  const double is_target = 1 / std::sqrt(sums.target2 - N * mean_target * mean_target);
+  const Row<P> e = sums.J / N, c = is_target * (sums.IJ - mean_target * sums.J);
   const double threshold = p.delta / std::sqrt(N);
   constexpr int kChunk = P == 9 ? 64 : 1;
   Eigen::Matrix<double, P, kChunk> J, wJ;
   Square H = Square::Zero();
-  Row b = Row::Zero();
+  Row<P> b = Row<P>::Zero();
   double cost = 0;
-  for (int first = 0; first < n; first += kChunk) {
-    const int count = std::min(kChunk, n - first);
+  for (int first = 0; first < sums.n; first += kChunk) {
+    const int count = std::min(kChunk, sums.n - first);
     for (int k = 0; k < count; ++k) {
       const Pixel<P>& pixel = pixels[static_cast<std::size_t>(first + k)];
       const double normalised = (pixel.target - mean_target) * is_target;
       const double r = (pixel.host - mean_host) * is_host - normalised, size = std::abs(r);
       const double w = size <= threshold ? 1 : threshold / size;
-      const Row j = -is_target * (pixel.J - e - normalised * c), wj = w * j;
+      const Row<P> j = -is_target * (pixel.J - e - normalised * c), wj = w * j;
       if constexpr (P == 9) {
         J.col(k) = j;
         wJ.col(k) = wj;
@@ -104,12 +113,17 @@ void baseline(const Problem& p, Equations* out) {
       }
     }
   }
-  Eigen::Map<Square> H_out(out->H);  // symmetric: its order does not matter
-  H_out = H;
-  Eigen::Map<Row> b_out(out->b);
-  b_out = b;
+  Eigen::Map<Square>(out->H) = H;  // symmetric: the order of its entries does not matter
+  Eigen::Map<Row<P>>(out->b) = b;
   out->cost = cost;
-  out->visible = n;
+  out->visible = sums.n;
+}
+
+template <int P>
+void baseline(const Problem& problem, Equations* out) {
+  static thread_local Pixels<P> pixels;
+  if (pixels.size() < static_cast<std::size_t>(problem.n)) pixels.resize(static_cast<std::size_t>(problem.n));
+  accumulate(problem, pixels, collect<P>(problem, pixels), out);
 }
 
 }  // namespace

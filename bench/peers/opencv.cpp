@@ -4,10 +4,10 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include "klt_task.hpp"
+#include "kernels/klt_task.hpp"
+#include "kernels/warp_task.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
-#include "warp_task.hpp"
 
 namespace textplane_bench {
 

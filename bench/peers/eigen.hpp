@@ -1,6 +1,6 @@
 // The straightforward way: double precision, fixed-size Eigen, two passes over the pixels.
-#ifndef TEXTPLANE_BENCH_BASELINE_EIGEN_HPP
-#define TEXTPLANE_BENCH_BASELINE_EIGEN_HPP
+#ifndef TEXTPLANE_BENCH_PEERS_EIGEN_HPP
+#define TEXTPLANE_BENCH_PEERS_EIGEN_HPP
 
 #include "problem.hpp"
 
@@ -13,4 +13,4 @@ __attribute__((visibility("default"))) void baseline_pose(const Problem& problem
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_BASELINE_EIGEN_HPP
+#endif  // TEXTPLANE_BENCH_PEERS_EIGEN_HPP

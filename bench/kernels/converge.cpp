@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "align.hpp"
+#include "kernels/align.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 

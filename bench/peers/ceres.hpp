@@ -1,6 +1,6 @@
 // Automatic differentiation of the same residual by ceres::Jet.
-#ifndef TEXTPLANE_BENCH_PEER_CERES_HPP
-#define TEXTPLANE_BENCH_PEER_CERES_HPP
+#ifndef TEXTPLANE_BENCH_PEERS_CERES_HPP
+#define TEXTPLANE_BENCH_PEERS_CERES_HPP
 
 #include "problem.hpp"
 
@@ -26,4 +26,4 @@ class CeresCost {
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_PEER_CERES_HPP
+#endif  // TEXTPLANE_BENCH_PEERS_CERES_HPP

@@ -3,8 +3,8 @@
 //
 // A point observation is two residuals under ceres::HuberLoss, a text observation ten that have the kernel's own sums
 // (TextRows::sums). That costs Ceres a tenth of what a row for each of a hundred pixels would.
-#ifndef TEXTPLANE_BENCH_SCALING_CERES_HPP
-#define TEXTPLANE_BENCH_SCALING_CERES_HPP
+#ifndef TEXTPLANE_BENCH_WINDOW_CERES_HPP
+#define TEXTPLANE_BENCH_WINDOW_CERES_HPP
 
 #include "textplane/solver/window_problem.hpp"
 
@@ -23,9 +23,9 @@ struct CeresResult {
 };
 
 /// Adjusts the window in place, landmarks eliminated first, on one thread. Every element of it must be usable, as those
-/// of ScalingWindow are; of the options robust costs, weights, tolerances, damping and the limit of iterations count.
+/// of SceneWindow are; of the options robust costs, weights, tolerances, damping and the limit of iterations count.
 CeresResult solve_with_ceres(tp::Window& window, const tp::WindowOptions& options, CeresSolver solver);
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_SCALING_CERES_HPP
+#endif  // TEXTPLANE_BENCH_WINDOW_CERES_HPP

@@ -1,6 +1,6 @@
 // Bytes that the program holds on the heap, counted by this program's own malloc(), which libraries reach too. glibc only.
-#ifndef TEXTPLANE_BENCH_HEAP_HPP
-#define TEXTPLANE_BENCH_HEAP_HPP
+#ifndef TEXTPLANE_BENCH_WINDOW_HEAP_HPP
+#define TEXTPLANE_BENCH_WINDOW_HEAP_HPP
 
 #include <cstddef>
 
@@ -13,4 +13,4 @@ std::size_t heap_peak();
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_HEAP_HPP
+#endif  // TEXTPLANE_BENCH_WINDOW_HEAP_HPP

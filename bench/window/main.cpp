@@ -1,5 +1,7 @@
-// solve_window() and Ceres on windows of growing size: time, memory, iterations, cost, and how far the results are apart.
-// Writes JSON; report_scaling makes docs/scaling.md of it.
+// textplane_scaling [--repetitions N] [--only PART_OF_A_NAME] [--cpu NAME]
+//
+// solve_window() and Ceres on windows of growing size: time, memory, iterations, cost, and the difference of the results.
+// Prints JSON, from which report_scaling writes the table of docs/scaling.md.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -8,11 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "heap.hpp"
-#include "scaling_ceres.hpp"
-#include "scaling_window.hpp"
+#include "statistics.hpp"
 #include "stopwatch.hpp"
 #include "textplane/solver/window.hpp"
+#include "window/ceres.hpp"
+#include "window/heap.hpp"
+#include "window/scene_window.hpp"
 
 namespace textplane_bench {
 
@@ -90,12 +93,6 @@ void solve_ceres(const tp::Window& start, const tp::WindowOptions& options, Cere
   out->converged = result.converged;
 }
 
-double least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return 0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]);
-}
-
 Json describe(const Solution& s) {
   Json out = {{"ms_min", least(s.ms)},         {"ms_median", median(s.ms)},
               {"cpu_ms_min", least(s.cpu_ms)}, {"cpu_ms_median", median(s.cpu_ms)},
@@ -134,7 +131,7 @@ Json optimum(const tp::Window& start) {
 }
 
 Json measure(const WindowSize& size, int repetitions) {
-  const ScalingWindow start(size);
+  const SceneWindow start(size);
   Solution ours, sparse, dense;
   const bool with_dense = size.frames <= kLocal;
   const Stopwatch watch;
@@ -160,15 +157,20 @@ Json measure(const WindowSize& size, int repetitions) {
 
 int run(int argc, char** argv) {
   int repetitions = 9;
-  std::string only;
+  std::string only, cpu = "unknown CPU";
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string name = argv[i];
     if (name == "--repetitions") repetitions = std::max(std::atoi(argv[i + 1]), 1);
     if (name == "--only") only = argv[i + 1];
+    if (name == "--cpu") cpu = argv[i + 1];
   }
-  Json out = {{"compiler", TEXTPLANE_BENCH_COMPILER}, {"flags", TEXTPLANE_BENCH_FLAGS},
-              {"ceres", TEXTPLANE_BENCH_CERES},       {"target", tp::simd::to_string(tp::simd::best_target())},
-              {"repetitions", repetitions},           {"rows", Json::array()}};
+  Json out = {{"cpu", cpu},
+              {"compiler", TEXTPLANE_BENCH_COMPILER},
+              {"flags", TEXTPLANE_BENCH_FLAGS},
+              {"ceres", TEXTPLANE_BENCH_CERES},
+              {"target", tp::simd::to_string(tp::simd::best_target())},
+              {"repetitions", repetitions},
+              {"rows", Json::array()}};
   for (const WindowSize& size : kSizes) {
     const std::string name = to_string(size.path) + "/" + std::to_string(size.frames) + "/" +
                              std::to_string(size.points) + "/" + std::to_string(size.texts);

@@ -1,4 +1,4 @@
-#include "heap.hpp"
+#include "window/heap.hpp"
 
 #include <malloc.h>
 

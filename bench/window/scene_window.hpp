@@ -1,8 +1,8 @@
 // Windows of any size for the scaling measurement: a camera walks round inside a square room, looking outwards, and sees
 // points near the walls and patches of the walls' own texture, which is a formula. The same size gives the same window
 // on every platform.
-#ifndef TEXTPLANE_BENCH_SCALING_WINDOW_HPP
-#define TEXTPLANE_BENCH_SCALING_WINDOW_HPP
+#ifndef TEXTPLANE_BENCH_WINDOW_SCENE_WINDOW_HPP
+#define TEXTPLANE_BENCH_WINDOW_SCENE_WINDOW_HPP
 
 #include <string>
 #include <vector>
@@ -29,9 +29,9 @@ struct WindowSize {
 /// two; point observations carry noise of 1 px and 3 % outliers, images noise of 2 grey levels and another exposure each.
 /// Poses, points and planes start some pixels away from the truth. No patch leaves an image, so that the cost is a sum
 /// over the same pixels at every state.
-class ScalingWindow {
+class SceneWindow {
  public:
-  explicit ScalingWindow(const WindowSize& size);
+  explicit SceneWindow(const WindowSize& size);
 
   tp::Window window;
 
@@ -42,4 +42,4 @@ class ScalingWindow {
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_SCALING_WINDOW_HPP
+#endif  // TEXTPLANE_BENCH_WINDOW_SCENE_WINDOW_HPP

@@ -1,6 +1,6 @@
 // Bilinear sampling with its own gradient, chained into the Jet by hand: the cheapest way that automatic differentiation has.
 // All pixels must be visible. Built -O3 -march=native.
-#include "peer_ceres.hpp"
+#include "peers/ceres.hpp"
 
 #include <ceres/autodiff_cost_function.h>
 

@@ -1,4 +1,4 @@
-#include "scaling_ceres.hpp"
+#include "window/ceres.hpp"
 
 #include <ceres/solver.h>
 

@@ -1,6 +1,6 @@
 // A 100 x 40 patch unwarped from an image by eight different homographies: the work of the warp benchmarks.
-#ifndef TEXTPLANE_BENCH_WARP_TASK_HPP
-#define TEXTPLANE_BENCH_WARP_TASK_HPP
+#ifndef TEXTPLANE_BENCH_KERNELS_WARP_TASK_HPP
+#define TEXTPLANE_BENCH_KERNELS_WARP_TASK_HPP
 
 #include <algorithm>
 #include <cmath>
@@ -48,4 +48,4 @@ struct WarpTask {
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_WARP_TASK_HPP
+#endif  // TEXTPLANE_BENCH_KERNELS_WARP_TASK_HPP

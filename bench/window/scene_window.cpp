@@ -1,9 +1,9 @@
-#include "scaling_window.hpp"
+#include "window/scene_window.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "random.hpp"
 #include "scene.hpp"
 
 namespace textplane_bench {
@@ -17,24 +17,6 @@ constexpr double kRadian = 57.29578;  // Degrees.
 constexpr double kMargin = 12;        // Of patches in the images, px: more than a start is off.
 constexpr double kSeen = 0.5;         // Share of the possible observations that are made.
 constexpr int kPixels = 100;          // Of a patch.
-
-// std::mt19937 with own mappings: the standard's distributions differ between libraries.
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
-  }
-  double normal() { return std::sqrt(-2 * std::log(uniform(0, 1))) * std::cos(uniform(0, 6.283185307179586)); }
-  bool chance(double p) { return uniform(0, 1) < p; }
-  tp::Vector3<double> vector(double size) {
-    const double x = uniform(-size, size), y = uniform(-size, size), z = uniform(-size, size);
-    return {x, y, z};
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 // Wall k of four: a frame whose z points out of the room, x along the wall, y down.
 tp::Matrix3<double> wall_frame(int k) { return tp::so3_exp<double>({0, 90 * k / kRadian, 0}); }
@@ -96,7 +78,12 @@ class Builder {
     images_[static_cast<std::size_t>(f)].build(image.view(), 1);
   }
 
-  // Of a wall place: somewhere that the cameras turn to.
+  tp::Vector3<double> vector(double size) {
+    const double x = random_.uniform(-size, size), y = random_.uniform(-size, size), z = random_.uniform(-size, size);
+    return {x, y, z};
+  }
+
+  // A direction that the cameras turn to, rad.
   double somewhere() { return random_.uniform(-0.4, step_ * (size_.frames - 1) + 0.4); }
 
   bool sees(int f, const tp::Vector3<double>& p_w, tp::Vector2<double>* px) {
@@ -184,11 +171,11 @@ class Builder {
   void disturb() {
     for (tp::WindowFrame& f : w_.frames) {
       tp::Vector6<double> xi;
-      xi << random_.vector(0.004), random_.vector(0.001);
+      xi << vector(0.004), vector(0.001);
       if (!f.fixed) f.T_w_c = f.T_w_c * tp::se3_exp(xi);
     }
-    for (tp::WindowPoint& p : w_.points) p.p_w += random_.vector(0.05);
-    for (tp::WindowText& t : w_.texts) t.theta += t.theta.norm() * random_.vector(0.005);
+    for (tp::WindowPoint& p : w_.points) p.p_w += vector(0.05);
+    for (tp::WindowText& t : w_.texts) t.theta += t.theta.norm() * vector(0.005);
   }
 
   const WindowSize size_;
@@ -204,6 +191,6 @@ class Builder {
 
 std::string to_string(Path path) { return path == Path::walk ? "walk" : "stare"; }
 
-ScalingWindow::ScalingWindow(const WindowSize& size) { Builder(size, &window, &images_, &patches_).build(); }
+SceneWindow::SceneWindow(const WindowSize& size) { Builder(size, &window, &images_, &patches_).build(); }
 
 }  // namespace textplane_bench

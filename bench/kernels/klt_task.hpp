@@ -1,7 +1,7 @@
 // Points to track from one image to another under a known motion of about 8 px, as between two frames of a video: the work of
 // the KLT benchmarks.
-#ifndef TEXTPLANE_BENCH_KLT_TASK_HPP
-#define TEXTPLANE_BENCH_KLT_TASK_HPP
+#ifndef TEXTPLANE_BENCH_KERNELS_KLT_TASK_HPP
+#define TEXTPLANE_BENCH_KERNELS_KLT_TASK_HPP
 
 #include <algorithm>
 #include <vector>
@@ -54,4 +54,4 @@ struct KltTask {
 
 }  // namespace textplane_bench
 
-#endif  // TEXTPLANE_BENCH_KLT_TASK_HPP
+#endif  // TEXTPLANE_BENCH_KERNELS_KLT_TASK_HPP

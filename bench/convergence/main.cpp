@@ -13,9 +13,9 @@
 #include <memory>
 #include <string>
 
+#include "convergence/trials.hpp"
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/search.hpp"
-#include "trials.hpp"
 
 #if defined(TEXTPLANE_BENCH_OPENCV)
 #include <opencv2/imgproc.hpp>

@@ -1,4 +1,4 @@
-#include "trials.hpp"
+#include "convergence/trials.hpp"
 
 #include <algorithm>
 #include <array>
