@@ -4,7 +4,7 @@
 usage: style.py [ROOT] [--clang-format PROGRAM] [--only CHECK[,CHECK...]]
 
 Checks: format (clang-format), columns, file (its lines), folder (its units; a header and its source are one), function (its
-lines). Looks at the files that git tracks. Without clang-format its check is left out, and a line says so.
+lines). Looks at the files that git tracks. Exit code 77 where clang-format is missing and nothing else was asked for.
 """
 import argparse
 import ast
@@ -16,6 +16,7 @@ import subprocess
 import sys
 
 COLUMNS, FILE_LINES, FUNCTION_LINES, FOLDER_UNITS = 120, 300, 60, 25
+SKIPPED = 77
 CPP = {".hpp", ".cpp", ".inl"}
 CODE = CPP | {".py", ".sh", ".cmake", ".js", ".css", ".html", ".txt", ""}
 GENERATED = {"single_include/textplane.hpp"}
@@ -104,8 +105,8 @@ class Style:
         result = subprocess.run([self.formatter, "--dry-run", *map(str, self.cpp)], cwd=self.root, capture_output=True,
                                 text=True)
         places = re.findall(r"^(\S+?):(\d+):\d+: \w+: code should be clang-formatted", result.stderr, flags=re.M)
-        for name, places_of_file in collections.Counter(name for name, _ in places).items():
-            yield f"{name}: {places_of_file} places to format: clang-format -i {name}"
+        for name, count in collections.Counter(name for name, _ in places).items():
+            yield f"{name}: {count} places to format: clang-format -i {name}"
         if result.returncode != 0:
             yield f"{self.formatter} ended with {result.returncode}: {result.stderr}"
 
@@ -144,6 +145,9 @@ def main():
     parser.add_argument("--clang-format", default=next(filter(None, map(shutil.which, FORMATTER)), None))
     parser.add_argument("--only", default="format,columns,file,folder,function")
     arguments = parser.parse_args()
+    if arguments.only == "format" and not arguments.clang_format:
+        print("skipped: there is no clang-format; Debian's package of that name has it")
+        sys.exit(SKIPPED)
     style = Style(arguments.root.resolve(), arguments.clang_format)
     offences = [(name, offence) for name in arguments.only.split(",") for offence in getattr(style, name)()]
     for _, offence in offences:

@@ -10,7 +10,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 template <class S>
 struct Pinhole {
   static_assert(!std::is_integral<S>::value, "textplane: a camera of integers; write Pinhole<double>(500, ...)");
-  static constexpr int kParameters = 4;
+  static constexpr int kParameters = 4;  ///< fx fy cx cy.
 
   S fx = S(1);  ///< Focal length along x, px.
   S fy = S(1);  ///< Focal length along y, px.

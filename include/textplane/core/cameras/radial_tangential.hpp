@@ -14,14 +14,14 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// m_d = m (1 + k1 r^2 + k2 r^4 + k3 r^6) + (2 p1 x y + p2 (r^2 + 2 x^2), p1 (r^2 + 2 y^2) + 2 p2 x y).
 template <class S>
 struct RadialTangential {
-  static constexpr int kParameters = 9;
+  static constexpr int kParameters = 9;  ///< fx fy cx cy k1 k2 p1 p2 k3.
 
-  Pinhole<S> intrinsics;
-  S k1 = S(0);  ///< Radial, of r^2.
-  S k2 = S(0);  ///< Radial, of r^4.
-  S p1 = S(0);  ///< Tangential.
-  S p2 = S(0);  ///< Tangential.
-  S k3 = S(0);  ///< Radial, of r^6.
+  Pinhole<S> intrinsics;  ///< Of the undistorted image.
+  S k1 = S(0);            ///< Radial, of r^2.
+  S k2 = S(0);            ///< Radial, of r^4.
+  S p1 = S(0);            ///< Tangential.
+  S p2 = S(0);            ///< Tangential.
+  S k3 = S(0);            ///< Radial, of r^6.
 
   /// Of fx fy cx cy k1 k2 p1 p2 k3.
   static RadialTangential from_parameters(const Eigen::Matrix<S, 9, 1>& p) noexcept {
