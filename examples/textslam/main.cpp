@@ -94,7 +94,7 @@ int execute(int argc, char** argv) {
   options.command.assign(argv, argv + argc);
   const textslam::RunResult result = textslam::run(options);
   if (!options.json_lines)
-    std::printf("%s  %-22s %s\n", textslam::format_summary(result.summary).c_str(), "output",
+    std::printf("%s  %-22s %s\n", textslam::describe(result.summary).table.c_str(), "output",
                 (result.report.empty() ? options.output : result.report).c_str());
   for (const std::string& warning : textslam::warnings(result.summary))
     std::fprintf(stderr, "textslam: warning: %s\n", warning.c_str());

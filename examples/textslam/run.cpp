@@ -14,6 +14,7 @@
 #include "textslam/detect/text_detector.hpp"
 #include "textslam/input/undistorter.hpp"
 #include "textslam/report/frame_line.hpp"
+#include "textslam/report/outputs.hpp"
 #include "textslam/report/progress.hpp"
 #include "textslam/report/report.hpp"
 #include "textslam/report/report_frames.hpp"
@@ -202,7 +203,7 @@ RunResult run(const RunOptions& options) {
   summary = summarise(system, sequence, static_cast<std::size_t>(total));
   summary.latency_ms = clock.latency_ms();
   std::vector<TrueSign> signs;
-  if (summary.has_truth && textplane::is_ok(summary.trajectory.status))
+  if (is_aligned(summary))
     keep_going(result, [&] {
       signs = read_true_signs(sequence);
       summary.text = evaluate_text(system.map(), signs, summary.trajectory.alignment);

@@ -8,7 +8,7 @@
 
 #include "textslam/common/parameters.hpp"
 #include "textslam/detect/text_detector.hpp"
-#include "textslam/report/outputs.hpp"
+#include "textslam/report/summary.hpp"
 
 namespace textslam {
 

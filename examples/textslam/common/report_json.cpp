@@ -28,6 +28,12 @@ Json short_pose(const SE3d& T) {
   return pose;
 }
 
+Json short_corners(const std::array<Vector3<double>, 4>& corners) {
+  Json out = Json::array();
+  for (const auto& corner : corners) out.push_back(short_vector(corner));
+  return out;
+}
+
 Json short_quad(const Quad<double>& quad) {
   Json out = Json::array();
   for (const auto& corner : quad.corner) {

@@ -2,6 +2,7 @@
 #ifndef TEXTSLAM_COMMON_REPORT_JSON_HPP
 #define TEXTSLAM_COMMON_REPORT_JSON_HPP
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -17,6 +18,8 @@ Json short_number(double value);
 Json short_vector(const Vector3<double>& v);
 /// [x, y, z, qx, qy, qz, qw], qw >= 0.
 Json short_pose(const SE3d& T);
+/// [[x, y, z], ...].
+Json short_corners(const std::array<Vector3<double>, 4>& corners);
 /// [x1, y1, ..., x4, y4] in tenths of a pixel; null where a corner is not finite.
 Json short_quad(const Quad<double>& quad);
 

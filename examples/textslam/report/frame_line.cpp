@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "textslam/common/report_json.hpp"
+#include "textslam/report/timing.hpp"
 
 namespace textslam {
 
@@ -20,16 +20,11 @@ std::string frame_line(int index, const FrameRecord& record, const Map& map) {
               {"keyframe", is_keyframe},
               {"map_keyframes", map.keyframe_ids().size()},
               {"pose", record.live ? short_pose(record.T_w_c_live) : Json(nullptr)},
-              {"ms",
-               {{"detection", short_number(record.detect_ms)},
-                {"tracking", short_number(record.track_ms)},
-                {"mapping", short_number(record.map_ms)}}}}
+              {"ms", line_timing(record)}}
       .dump();
 }
 
-std::string summary_line(const RunSummary& summary) {
-  return Json{{"summary", Json::parse(metrics_json(summary))}}.dump();
-}
+std::string summary_line(const RunSummary& summary) { return Json{{"summary", describe(summary).file}}.dump(); }
 
 void print_line(const std::string& line) {
   std::printf("%s\n", line.c_str());

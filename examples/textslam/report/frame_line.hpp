@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "textslam/report/outputs.hpp"
+#include "textslam/report/summary.hpp"
 
 namespace textslam {
 

@@ -7,29 +7,11 @@
 #include "textslam/report/report_data.hpp"
 #include "textslam/report/report_parameters.hpp"
 #include "textslam/report/report_template.hpp"
+#include "textslam/report/text_map.hpp"
+#include "textslam/report/timing.hpp"
 
 namespace textslam {
 namespace {
-
-Json summary_json(const RunSummary& s) {
-  Json out{{"frames", s.frames},       {"tracked", s.tracked},      {"tracked_live", s.tracked_live},
-           {"keyframes", s.keyframes}, {"points", s.points},        {"texts", s.texts},
-           {"loops", s.loops.size()},  {"map_frames", s.map_frames}};
-  if (s.has_truth && textplane::is_ok(s.trajectory.status)) {
-    out["scale"] = short_number(s.trajectory.alignment.scale);
-    out["path_length"] = short_number(s.trajectory.path_length);
-    out["ate_rmse"] = short_number(s.trajectory.ate.rmse);
-    out["ate_live_rmse"] = short_number(s.live.ate.rmse);
-    out["rpe_rotation_deg"] = short_number(s.trajectory.rpe_frame.rotation.rmse);
-  }
-  if (s.text.available) {
-    out["signs_visible"] = s.text.signs;
-    out["signs_mapped"] = s.text.mapped;
-    out["false_texts"] = s.text.false_texts;
-    out["angle_median_deg"] = short_number(s.text.angle.median);
-  }
-  return out;
-}
 
 Json camera_json(const Sequence& sequence) {
   const CameraModel& camera = sequence.camera;
@@ -45,12 +27,12 @@ Json camera_json(const Sequence& sequence) {
 
 Json data_json(const ReportInput& in) {
   return {{"version", TEXTPLANE_VERSION_STRING},
-          {"summary", summary_json(in.summary)},
+          {"summary", describe(in.summary).page},
           {"camera", camera_json(in.sequence)},
           {"min_zncc", in.parameters.text_min_zncc},
           {"cull_zncc", in.parameters.text_cull_zncc},
           {"start", in.system.records().empty() ? Json(nullptr) : Json(in.system.records().front().timestamp)},
-          {"texts", texts_json(in.system, in.summary)},
+          {"texts", page_texts(in.system, in.summary)},
           {"world", world_json(in.system, in.sequence, in.summary, in.signs)},
           {"series", series_json(in.system, in.sequence, in.summary)},
           {"frames", frames_json(in.system, in.parameters, in.detections, in.image)},
@@ -62,7 +44,7 @@ Json run_json(const ReportInput& in) {
           {"sequence", in.sequence.video ? in.sequence.images_file : in.sequence.folder},
           {"first", in.first},
           {"target", textplane::simd::to_string(textplane::simd::active_target())},
-          {"timing", report_timing_json(in.system)}};
+          {"timing", page_timing(in.system)}};
 }
 
 void fill(std::string& page, const std::string& mark, const std::string& text) {

@@ -5,7 +5,7 @@
 //   <script id="run">   what may differ between equal runs: the command line, where the sequence lies, the SIMD target, and the
 //                       milliseconds
 //
-// What is in them: report_data.hpp, report_frames.hpp, report_parameters.hpp.
+// What is in them: summary.hpp, text_map.hpp, report_data.hpp, report_frames.hpp, report_parameters.hpp, timing.hpp.
 #ifndef TEXTSLAM_REPORT_REPORT_HPP
 #define TEXTSLAM_REPORT_REPORT_HPP
 
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "textslam/report/outputs.hpp"
 #include "textslam/report/report_frames.hpp"
+#include "textslam/report/summary.hpp"
 
 namespace textslam {
 

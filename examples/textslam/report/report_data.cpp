@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/data_uri.hpp"
-#include "textplane/geometry/plane.hpp"
-#include "textslam/common/statistics.hpp"
 #include "textslam/loop/pose_graph.hpp"
 #include "textslam/report/report_frames.hpp"
 
 namespace textslam {
 namespace {
 
-bool is_aligned(const RunSummary& summary) { return summary.has_truth && textplane::is_ok(summary.trajectory.status); }
-
 Vec3 to_map(const Similarity& map_to_truth, const Vec3& p) {
   return map_to_truth.R.transpose() * (p - map_to_truth.t) / map_to_truth.scale;
-}
-
-Json short_corners(const std::array<Vec3, 4>& corners) {
-  Json out = Json::array();
-  for (const Vec3& corner : corners) out.push_back(short_vector(corner));
-  return out;
 }
 
 // The true position of each frame, as far as it is known.
@@ -48,38 +37,6 @@ double reprojection(const Map& map, const std::vector<SeenPoint>& seen, const SE
 }
 
 }  // namespace
-
-Json texts_json(const System& system, const RunSummary& summary) {
-  const Map& map = system.map();
-  Json texts = Json::array();
-  std::size_t bytes = 0;
-  for (const TextObject& text : map.texts) {
-    if (text.state != TextState::mapped) continue;
-    const KeyFrame& host = map.keyframe(text.host);
-    const std::array<Vec3, 4> corners = world_corners(map, text);
-    const std::string picture = text_jpeg(map, text);
-    bytes += picture.size();
-    texts.push_back({{"id", text.id},
-                     {"word", text.word()},
-                     {"corners", short_corners(corners)},
-                     {"centre", short_vector((corners[0] + corners[1] + corners[2] + corners[3]) / 4)},
-                     {"normal", short_vector(host.T_w_c.R * textplane::plane_normal(text.theta))},
-                     {"sigma_deg", short_number(normal_sigma(text) * 180 / M_PI)},
-                     {"observations", text.targets.size() + 1},
-                     {"zncc", short_number(text.zncc)},
-                     {"host", host.frame.index},
-                     {"image", bytes <= kTextureBytes ? Json(jpeg_uri(picture)) : Json(nullptr)}});
-    for (const SignMatch& match : summary.text.matches) {
-      if (match.text != text.id) continue;
-      texts.back()["sign"] = match.sign;
-      if (match.sign < 0) continue;
-      texts.back()["angle_deg"] = short_number(match.angle);
-      texts.back()["centre_error"] = short_number(match.centre);
-      texts.back()["word_right"] = match.word;
-    }
-  }
-  return texts;
-}
 
 Json world_json(const System& system, const Sequence& sequence, const RunSummary& summary,
                 const std::vector<TrueSign>& signs) {
@@ -142,25 +99,6 @@ Json series_json(const System& system, const Sequence& sequence, const RunSummar
   }
   return {{"time", times},   {"state", states},           {"points", points}, {"texts", texts},
           {"error", errors}, {"error_live", live_errors}, {"cost", costs},    {"cost_live", live_costs}};
-}
-
-Json report_timing_json(const System& system) {
-  const auto stage = [&](const char* name, double FrameRecord::*member) {
-    Json values = Json::array();
-    std::vector<double> live;
-    for (const FrameRecord& record : system.records()) {
-      values.push_back(short_number(std::round(100 * record.*member) / 100));
-      if (record.live) live.push_back(record.*member);
-    }
-    return Json{{"name", name},
-                {"median", short_number(median(live))},
-                {"p95", short_number(percentile95(live))},
-                {"ms", values}};
-  };
-  return Json::array({stage("detection", &FrameRecord::detect_ms), stage("tracking", &FrameRecord::track_ms),
-                      stage("tracking: corners", &FrameRecord::klt_ms), stage("tracking: pose", &FrameRecord::pose_ms),
-                      stage("tracking: map points found again", &FrameRecord::reobserve_ms),
-                      stage("mapping", &FrameRecord::map_ms), stage("mapping: adjustment", &FrameRecord::adjust_ms)});
 }
 
 }  // namespace textslam

@@ -7,16 +7,11 @@
 
 #include "io/evaluate_signs.hpp"
 #include "textslam/common/report_json.hpp"
-#include "textslam/report/outputs.hpp"
+#include "textslam/report/summary.hpp"
 
 namespace textslam {
 
 constexpr std::size_t kReportPoints = 20000;  ///< Map points shown; of more, evenly spread.
-
-/// [{"id", "word", "corners", "centre", "normal", "sigma_deg", "observations", "zncc", "host", "image", "sign", "angle_deg",
-/// "centre_error", "word_right"}]: sign and what follows only where the truth is known; sign -1: none stands there; `host`: a
-/// frame; `image` null once the pictures are beyond their bound.
-Json texts_json(const System& system, const RunSummary& summary);
 
 /// {"points":[x,y,z,...], "keyframes":[{"frame","pose"}], "trajectory":[pose or null, a frame], "truth":[[x,y,z] or null, a
 /// frame], "signs":[{"id","word","corners"}]}. Truth and signs are empty where they are not known.
@@ -26,9 +21,6 @@ Json world_json(const System& system, const Sequence& sequence, const RunSummary
 /// By frame: {"time", "state":"w|t|f|l" (waiting, tracked, filled in afterwards, lost), "points", "texts", "error",
 /// "error_live" (units of the truth), "cost", "cost_live" (px rms of what the frame's pose rests on, in the final map)}.
 Json series_json(const System& system, const Sequence& sequence, const RunSummary& summary);
-
-/// Milliseconds by frame and stage, and the median and 95th percentile of each.
-Json report_timing_json(const System& system);
 
 }  // namespace textslam
 

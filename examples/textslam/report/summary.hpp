@@ -1,0 +1,51 @@
+// The numbers of a run, for metrics.json, the report and the table on the terminal. A new one is a line in add_...() of summary.cpp, and
+// a tile in examples/viewer/provenance.js where the page is to show it.
+#ifndef TEXTSLAM_REPORT_SUMMARY_HPP
+#define TEXTSLAM_REPORT_SUMMARY_HPP
+
+#include <string>
+#include <vector>
+
+#include "io/evaluate.hpp"
+#include "io/sequence.hpp"
+#include "textslam/report/evaluate_text.hpp"
+#include "textslam/report/fields.hpp"
+#include "textslam/system.hpp"
+
+namespace textslam {
+
+struct RunSummary {
+  std::size_t frames = 0, tracked = 0, tracked_live = 0;
+  int first_tracked_live = -1;  ///< Index of the frame at which the map began.
+  std::size_t keyframes = 0, points = 0, texts = 0;
+  std::vector<LoopRecord> loops;
+  std::vector<std::size_t> map_frames;  ///< Of each map, that of the outputs first; several: they were never joined.
+  double approximate_fov = 0;           ///< Degrees, of a camera without calibration; 0: it is calibrated.
+  bool has_detections = false;          ///< The sequence has.
+  bool has_truth = false;
+  TrajectoryEvaluation trajectory, live;
+  TextEvaluation text;
+  double median_ms = 0;            ///< A frame, detection aside.
+  std::vector<double> latency_ms;  ///< Real time: of each frame, from when it came to when its pose was known.
+};
+
+/// Whether the trajectory was aligned with ground truth.
+bool is_aligned(const RunSummary& summary);
+
+/// Final poses, and poses as known live, of the tracked frames.
+std::vector<StampedPose> final_trajectory(const System& system);
+std::vector<StampedPose> live_trajectory(const System& system);
+
+/// Compares the trajectories with ground truth where the sequence has it; `text` is left to the caller. `frames`: how many
+/// the run was to process.
+RunSummary summarise(const System& system, const Sequence& sequence, std::size_t frames);
+
+/// Each number once: metrics.json, the report's summary, and the table.
+Fields describe(const RunSummary& summary);
+
+/// What the user should know beyond the table, lines without their ends; empty where all is well.
+std::vector<std::string> warnings(const RunSummary& summary);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_REPORT_SUMMARY_HPP
