@@ -6,9 +6,8 @@
     amalgamate.py --check         exit code 1 and one line where the file beside this script is out of date
 
 A header with an include guard is put where it is first included, once. The *.inl files have no guard: each inclusion is expanded
-where it stands, so that a kernel's body is there once for every target, as the preprocessor would see it. What can be decided
-here, the conditions on TEXTPLANE_SIMD_REGION and the name of the kernel, is decided here. Comments of bodies are kept in their
-first expansion alone.
+where it stands, so that a kernel's body is there once for every target, as the preprocessor would see it. The names of kernels and
+of the targets' operations are macros there and are looked up here. Comments of bodies are kept in their first expansion alone.
 
 The file names the version and a hash of what it was made of: a committed file cannot name its own commit, and this tells more.
 """
@@ -22,12 +21,13 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = ROOT / "include"
 UMBRELLA = "textplane/textplane.hpp"
 
-INCLUDE_LINE = re.compile(r'\s*#\s*include\s+(?:"(?P<name>textplane/[^"]+)"|<(?P<angled>textplane/[^>]+)>|TEXTPLANE_SIMD_KERNEL\s*$)')
+INCLUDE_LINE = re.compile(r'\s*#\s*include\s+(?:"(?P<name>textplane/[^"]+)"|<(?P<angled>textplane/[^>]+)>|(?P<macro>TEXTPLANE_SIMD_(?:KERNEL|OPS))\s*$)')
 KERNEL = re.compile(r'\s*#\s*define\s+TEXTPLANE_SIMD_KERNEL\s+"([^"]+)"')
-REGION = re.compile(r"\s*#\s*define\s+TEXTPLANE_SIMD_REGION\s+(\d+)")
-REGION_END = re.compile(r"\s*#\s*undef\s+TEXTPLANE_SIMD_REGION\b")
-CONDITION = re.compile(r"\s*#\s*(?P<word>ifdef|ifndef|if|elif|else|endif)\b(?P<rest>.*)")
-REGION_TEST = re.compile(r"\s*TEXTPLANE_SIMD_REGION\s*==\s*(\d+)\s*$")
+SLOT = re.compile(r"\s*#\s*define\s+TEXTPLANE_SIMD_SLOT\s+(\d+)")
+SLOT_NAME = re.compile(r"^\s*#\s*define\s+TEXTPLANE_SIMD_NAME_(\d+)\s+(\w+)", re.M)
+TARGETS = "textplane/simd/targets.hpp"
+REGION = "textplane/simd/region.inl"
+CONDITION = re.compile(r"\s*#\s*(?P<word>ifdef|ifndef|if|elif|else|endif)\b")
 
 
 class Failure(Exception):
@@ -42,7 +42,7 @@ class Amalgamation:
         self.done = set()      # guarded headers that are already there
         self.expanded = set()  # bodies whose comments are already there
         self.kernel = None
-        self.region = None
+        self.target = None     # the name of the target whose region is being expanded
 
     def read(self, name, where):
         if name not in self.sources:
@@ -62,7 +62,8 @@ class Amalgamation:
 
     def include(self, name, where, depth):
         if name.endswith(".inl"):
-            self.expand(name, where)
+            if name != REGION or self.target != "none":
+                self.expand(name, where)
             return
         # Under a condition the one copy would be missing wherever the condition is false.
         if depth > 1:
@@ -84,54 +85,33 @@ class Amalgamation:
             if not guard:
                 raise Failure(f"include/{name}: has no include guard")
         self.open.append(name)
-        decided = []  # of every open condition: None, or [a branch was taken, this branch is taken]
+        depth = 0  # of open conditions
         for number, line in enumerate(text.splitlines(), 1):
             where = f"include/{name}:{number}"
             condition = CONDITION.match(line)
             if condition:
-                if self.decide(condition, decided, where):
-                    continue
-            if any(d is not None and not d[1] for d in decided):
-                continue
+                depth += {"if": 1, "ifdef": 1, "ifndef": 1, "endif": -1}.get(condition["word"], 0)
+                if depth < 0:
+                    raise Failure(f"{where}: #{condition['word']} without #if")
             found = INCLUDE_LINE.match(line)
             if found:
-                target = found["name"] or found["angled"] or self.kernel
+                operations = f"textplane/simd/ops/{self.target}.inl"
+                target = found["name"] or found["angled"] or (self.kernel if found["macro"].endswith("KERNEL") else operations)
                 if target is None:
                     raise Failure(f"{where}: includes a kernel that nobody named")
-                self.include(target, where, len(decided))
+                self.include(target, where, depth)
                 continue
-            kernel = KERNEL.match(line)
+            kernel, slot = KERNEL.match(line), SLOT.match(line)
             if kernel:
                 self.kernel = kernel[1]
-            region = REGION.match(line)
-            if region:
-                self.region = int(region[1])
-            elif REGION_END.match(line):
-                self.region = None
+            if slot:
+                self.target = dict(SLOT_NAME.findall(self.read(TARGETS, where)))[slot[1]]
+                if self.target == "none":
+                    continue
             self.emit(line, comments)
-        if decided:
+        if depth:
             raise Failure(f"include/{name}: a condition is not closed")
         self.open.pop()
-
-    def decide(self, condition, decided, where):
-        """Keeps track of conditions. True where the line has been dealt with and is not to be written."""
-        word, test = condition["word"], REGION_TEST.match(condition["rest"])
-        mine = self.region is not None and test is not None
-        if word in ("if", "ifdef", "ifndef"):
-            taken = mine and int(test[1]) == self.region
-            decided.append([taken, taken] if mine else None)
-            return mine
-        if not decided:
-            raise Failure(f"{where}: #{word} without #if")
-        if word == "endif":
-            return decided.pop() is not None
-        if decided[-1] is None:
-            return False
-        if word == "elif" and not mine:
-            raise Failure(f"{where}: a condition on TEXTPLANE_SIMD_REGION goes on with another")
-        hit = not decided[-1][0] and (word == "else" or int(test[1]) == self.region)
-        decided[-1] = [decided[-1][0] or hit, hit]
-        return True
 
 
 def version(config):

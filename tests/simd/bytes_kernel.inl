@@ -18,7 +18,7 @@ TEXTPLANE_SIMD_ENTRY void run_bytes(const textplane_test::ByteArrays& t) noexcep
     storeb(t.result->mean + i,
            mean4b(loadb(t.a + 2 * i), loadb(t.a + 2 * i + kBytes), loadb(t.b + 2 * i), loadb(t.b + 2 * i + kBytes)));
     const std::uint64_t bits = bitsb(geb(a, b));
-    if (bits != 0 && t.result->lowest < 0) t.result->lowest = i + lowest_lane(bits);
+    if (bits != 0 && t.result->lowest < 0) t.result->lowest = i + lowest_bit(bits);
     t.result->bits |= bits << i;
     t.result->any = t.result->any || anyb(subsb(a, b));
   }

@@ -2,7 +2,7 @@
 #ifndef TEXTPLANE_TESTS_SIMD_BYTES_SUPPORT_HPP
 #define TEXTPLANE_TESTS_SIMD_BYTES_SUPPORT_HPP
 
-#include "textplane/simd/bytes.hpp"
+#include "textplane/simd/ops.hpp"
 
 namespace textplane_test {
 

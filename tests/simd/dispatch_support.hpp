@@ -2,7 +2,7 @@
 #ifndef TEXTPLANE_TESTS_SIMD_DISPATCH_SUPPORT_HPP
 #define TEXTPLANE_TESTS_SIMD_DISPATCH_SUPPORT_HPP
 
-#include "textplane/simd/vec.hpp"
+#include "textplane/simd/ops.hpp"
 
 #define TEXTPLANE_SIMD_KERNEL "simd/dispatch_kernel.inl"
 #include "textplane/simd/foreach_target.inl"

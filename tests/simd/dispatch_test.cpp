@@ -75,7 +75,7 @@ TEST(Dispatch, ScalarIsAlwaysSupportedAndTheBestTargetIsTheWidest) {
 
 // The compiler's own run-time library asks the same questions.
 TEST(Dispatch, DetectionAgreesWithTheCompilersRuntime) {
-#if TEXTPLANE_HAS_AVX512 && !defined(TEXTPLANE_EMULATED_AVX512)
+#if TEXTPLANE_SIMD_ON_x86_wide && !defined(TEXTPLANE_EMULATED_AVX512)
   __builtin_cpu_init();
   EXPECT_EQ(simd::supported(Target::sse41), __builtin_cpu_supports("sse4.1") != 0);
   EXPECT_EQ(simd::supported(Target::avx2),
@@ -85,7 +85,7 @@ TEST(Dispatch, DetectionAgreesWithTheCompilersRuntime) {
                                                  __builtin_cpu_supports("avx512vl") &&
                                                  __builtin_cpu_supports("avx512vnni") && simd::supported(Target::avx2));
 #else
-  EXPECT_EQ(simd::supported(Target::neon), TEXTPLANE_HAS_NEON != 0);
+  EXPECT_EQ(simd::supported(Target::neon), TEXTPLANE_SIMD_ON_arm != 0);
 #endif
 }
 

@@ -1,5 +1,5 @@
 // Compiled with -Ofast: a NaN must not get past a clamp, which is what keeps the kernels inside their images.
-#include "textplane/simd/vec.hpp"
+#include "textplane/simd/ops.hpp"
 
 #define TEXTPLANE_SIMD_KERNEL "simd/fast_math_kernel.inl"
 #include "textplane/simd/foreach_target.inl"

@@ -117,7 +117,7 @@ TEXTPLANE_SIMD_ENTRY void partial_store_floats(float* p, const float* from, int 
 TEXTPLANE_SIMD_ENTRY void partial_store_ints(int* p, const int* from, int n) noexcept { storei_n(p, loadi(from), n); }
 TEXTPLANE_SIMD_ENTRY unsigned first_lanes(int n) noexcept { return bits(first_n(n)); }
 
-TEXTPLANE_SIMD_ENTRY unsigned read_half(const std::uint8_t* p) noexcept { return load_half(p); }
-TEXTPLANE_SIMD_ENTRY unsigned read_word(const std::uint8_t* p) noexcept { return load_word(p); }
-TEXTPLANE_SIMD_ENTRY unsigned read_word_n(const std::uint8_t* p, int n) noexcept { return load_word_n(p, n); }
+TEXTPLANE_SIMD_ENTRY unsigned read_u16(const std::uint8_t* p) noexcept { return load_u16(p); }
+TEXTPLANE_SIMD_ENTRY unsigned read_u32(const std::uint8_t* p) noexcept { return load_u32(p); }
+TEXTPLANE_SIMD_ENTRY unsigned read_u32_n(const std::uint8_t* p, int n) noexcept { return load_u32_n(p, n); }
 TEXTPLANE_SIMD_ENTRY void copy(void* to, const void* from, int n) noexcept { copy_bytes(to, from, n); }

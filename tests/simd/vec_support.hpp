@@ -2,7 +2,7 @@
 #ifndef TEXTPLANE_TESTS_SIMD_VEC_SUPPORT_HPP
 #define TEXTPLANE_TESTS_SIMD_VEC_SUPPORT_HPP
 
-#include "textplane/simd/vec.hpp"
+#include "textplane/simd/ops.hpp"
 
 #define TEXTPLANE_SIMD_KERNEL "simd/vec_kernel.inl"
 #include "textplane/simd/foreach_target.inl"
@@ -38,9 +38,9 @@ inline void partial_store(float* p, const float* from, int n) {
 }
 inline void partial_store(int* p, const int* from, int n) { TEXTPLANE_SIMD_DISPATCH(partial_store_ints(p, from, n)) }
 inline unsigned first_lanes(int n) { TEXTPLANE_SIMD_DISPATCH(first_lanes(n)) }
-inline unsigned read_half(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_half(p)) }
-inline unsigned read_word(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_word(p)) }
-inline unsigned read_word_n(const std::uint8_t* p, int n) { TEXTPLANE_SIMD_DISPATCH(read_word_n(p, n)) }
+inline unsigned read_u16(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_u16(p)) }
+inline unsigned read_u32(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_u32(p)) }
+inline unsigned read_u32_n(const std::uint8_t* p, int n) { TEXTPLANE_SIMD_DISPATCH(read_u32_n(p, n)) }
 inline void copy_bytes(void* to, const void* from, int n) { TEXTPLANE_SIMD_DISPATCH(copy(to, from, n)) }
 
 }  // namespace textplane_test

@@ -351,13 +351,13 @@ TEST(Vec, BytesAsNumbersAndCopies) {
   std::copy(values, values + 4, bytes.data());
   for (int i = 0; i < 70; ++i) source.data()[i] = static_cast<std::uint8_t>(i * 3 + 1);
   on_each_target([&](Target, int) {
-    EXPECT_EQ(read_half(bytes.end() - 2), 0xc403u);
-    EXPECT_EQ(read_word(bytes.data()), 0xc403f281u);
-    EXPECT_EQ(read_word_n(bytes.end(), 0), 0u);
-    EXPECT_EQ(read_word_n(bytes.end() - 1, 1), 0xc4u);
-    EXPECT_EQ(read_word_n(bytes.end() - 2, 2), 0xc403u);
-    EXPECT_EQ(read_word_n(bytes.end() - 3, 3), 0xc403f2u);
-    EXPECT_EQ(read_word_n(bytes.end() - 4, 4), 0xc403f281u);
+    EXPECT_EQ(read_u16(bytes.end() - 2), 0xc403u);
+    EXPECT_EQ(read_u32(bytes.data()), 0xc403f281u);
+    EXPECT_EQ(read_u32_n(bytes.end(), 0), 0u);
+    EXPECT_EQ(read_u32_n(bytes.end() - 1, 1), 0xc4u);
+    EXPECT_EQ(read_u32_n(bytes.end() - 2, 2), 0xc403u);
+    EXPECT_EQ(read_u32_n(bytes.end() - 3, 3), 0xc403f2u);
+    EXPECT_EQ(read_u32_n(bytes.end() - 4, 4), 0xc403f281u);
     for (int n = 0; n <= 70; ++n) {
       std::fill(target.data(), target.end(), std::uint8_t{0});
       copy_bytes(target.end() - n, source.end() - n, n);

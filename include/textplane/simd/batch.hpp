@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "textplane/simd/doubles.hpp"
 #include "textplane/simd/sample.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -85,9 +84,9 @@ struct BatchFrame {
 
 TEXTPLANE_END_NAMESPACE
 
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/batch_sample.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/batch_sample.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/batch.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/batch.inl"
 #include "textplane/simd/foreach_target.inl"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -95,11 +94,11 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
 /// Costs alone (P = 0), normal equations of the pose (6), of pose and plane (9), for all objects.
-TEXTPLANE_KERNEL void batch_evaluate(const BatchArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(batch_evaluate(args)) TEXTPLANE_KERNEL void batch_linearise_pose(const BatchArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(batch_linearise_pose(args)) TEXTPLANE_KERNEL
-    void batch_linearise_pose_plane(const BatchArgs& args) noexcept
-    TEXTPLANE_SIMD_BODY(batch_linearise_pose_plane(args))
+TEXTPLANE_KERNEL void batch_evaluate(const BatchArgs& args) noexcept TEXTPLANE_SIMD_BODY(batch_evaluate(args));
+TEXTPLANE_KERNEL void batch_linearise_pose(const BatchArgs& args) noexcept
+    TEXTPLANE_SIMD_BODY(batch_linearise_pose(args));
+TEXTPLANE_KERNEL void batch_linearise_pose_plane(const BatchArgs& args) noexcept
+    TEXTPLANE_SIMD_BODY(batch_linearise_pose_plane(args));
 
 }  // namespace simd
 

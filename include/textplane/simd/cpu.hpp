@@ -4,14 +4,30 @@
 
 #include "textplane/simd/targets.hpp"
 
-#if TEXTPLANE_HAS_X86
+#if TEXTPLANE_SIMD_ON_x86
 #include <cpuid.h>
 #endif
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-#if TEXTPLANE_HAS_X86
+#if TEXTPLANE_SIMD_ON_x86
+
+/// A feature: its bit in a word of CPUID, and the registers that the operating system must save (bits of XCR0).
+struct CpuFeature {
+  const char* name;
+  enum Word : int { leaf1_c, leaf7_b, leaf7_c } word;
+  int bit;
+  unsigned saved;
+};
+constexpr unsigned kSavesYmm = 0x06, kSavesZmm = 0xe6;  // xmm and ymm; these, opmask and zmm
+constexpr CpuFeature kCpuFeatures[] = {
+    {"sse4.1", CpuFeature::leaf1_c, 19, 0},           {"popcnt", CpuFeature::leaf1_c, 23, 0},
+    {"fma", CpuFeature::leaf1_c, 12, kSavesYmm},      {"avx", CpuFeature::leaf1_c, 28, kSavesYmm},
+    {"avx2", CpuFeature::leaf7_b, 5, kSavesYmm},      {"avx512f", CpuFeature::leaf7_b, 16, kSavesZmm},
+    {"avx512dq", CpuFeature::leaf7_b, 17, kSavesZmm}, {"avx512bw", CpuFeature::leaf7_b, 30, kSavesZmm},
+    {"avx512vl", CpuFeature::leaf7_b, 31, kSavesZmm}, {"avx512vnni", CpuFeature::leaf7_c, 11, kSavesZmm},
+};
 
 /// The low half of XCR0: which registers the operating system saves. Only where CPUID reports OSXSAVE.
 inline unsigned extended_control_register() noexcept {
@@ -21,43 +37,43 @@ inline unsigned extended_control_register() noexcept {
   return low;
 }
 
-/// True when this CPU runs `target` and the operating system saves the registers that it uses.
-inline bool cpu_runs(simd::Target target) noexcept {
-  const auto has = [](unsigned word, unsigned bits) { return (word & bits) == bits; };
-  unsigned highest = 0, a = 0, b = 0, c = 0, d = 0, features = 0;
+/// True when a comma-separated list begins with `name`; then `list` moves behind it.
+inline bool skip_feature(const char* name, const char*& list) noexcept {
+  const char* rest = list;
+  while (*name != '\0' && *name == *rest) ++name, ++rest;
+  if (*name != '\0' || (*rest != '\0' && *rest != ',')) return false;
+  list = *rest == ',' ? rest + 1 : rest;
+  return true;
+}
+
+/// True when this CPU has all features of a comma-separated list and the operating system saves their registers.
+inline bool cpu_has(const char* features) noexcept {
+  unsigned highest = 0, a = 0, b = 0, c = 0, d = 0, words[3] = {0, 0, 0};
   __cpuid(0, highest, b, c, d);
-  if (highest < 1) return target == simd::Target::scalar;
-  __cpuid(1, a, b, features, d);
-  const bool sse41 = has(features, 1u << 19);
-  unsigned b7 = 0, c7 = 0;
-  if (highest >= 7) __cpuid_count(7, 0, a, b7, c7, d);
-  const unsigned saved = has(features, 1u << 27) ? extended_control_register() : 0u;  // OSXSAVE
-  const bool avx2 = sse41 && has(features, 1u << 28 | 1u << 12 | 1u << 23) &&         // AVX, FMA, POPCNT
-                    has(b7, 1u << 5) && has(saved, 0x06u);                            // AVX2; xmm, ymm
-  switch (target) {
-    case simd::Target::scalar: return true;
-    case simd::Target::sse41: return sse41;
-    case simd::Target::avx2: return avx2;
-    case simd::Target::avx512:
-#if defined(TEXTPLANE_EMULATED_AVX512)
-      return avx2;
-#else
-      return avx2 && has(b7, 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31) &&  // F, DQ, BW, VL
-             has(c7, 1u << 11) && has(saved, 0xe6u);                        // VNNI; xmm, ymm, opmask, zmm
-#endif
-    case simd::Target::neon: return false;
+  if (highest >= 1) __cpuid(1, a, b, words[0], d);
+  if (highest >= 7) __cpuid_count(7, 0, a, words[1], words[2], d);
+  const bool osxsave = (words[0] >> 27 & 1U) != 0;
+  const unsigned saved = osxsave ? extended_control_register() : 0U;
+  while (*features != '\0') {
+    const CpuFeature* f = kCpuFeatures;
+    const CpuFeature* const end = f + sizeof kCpuFeatures / sizeof *f;
+    while (f != end && !skip_feature(f->name, features)) ++f;
+    if (f == end || (words[f->word] >> f->bit & 1U) == 0 || (saved & f->saved) != f->saved) return false;
   }
-  return false;
+  return true;
 }
 
 #else
 
-/// Scalar code runs everywhere, NEON on every AArch64.
-inline bool cpu_runs(simd::Target target) noexcept {
-  return target == simd::Target::scalar || (target == simd::Target::neon && simd::compiled(target));
-}
+/// Scalar code runs everywhere, NEON on every AArch64; no other feature is known here.
+inline bool cpu_has(const char* features) noexcept { return *features == '\0'; }
 
 #endif
+
+/// True when this machine runs `target`, of those that this compiler can build.
+inline bool cpu_runs(simd::Target target) noexcept {
+  return simd::known(target) && cpu_has(kTargets[static_cast<int>(target)].features);
+}
 
 }  // namespace detail
 TEXTPLANE_END_NAMESPACE

@@ -33,15 +33,14 @@ namespace simd {
 /// True when this translation unit holds kernels for `target` and this machine runs them.
 inline bool supported(Target target) noexcept { return compiled(target) && detail::cpu_runs(target); }
 
-/// The widest supported target; where TEXTPLANE_TARGET fixes one, that.
+/// The supported target with the highest number; where TEXTPLANE_TARGET fixes one, that.
 inline Target best_target() noexcept {
 #if defined(TEXTPLANE_TARGET)
   return Target::TEXTPLANE_TARGET;
 #else
-  if (supported(Target::avx512)) return Target::avx512;
-  if (supported(Target::avx2)) return Target::avx2;
-  if (supported(Target::sse41)) return Target::sse41;
-  return compiled(Target::neon) ? Target::neon : Target::scalar;
+  int best = kTargetCount - 1;
+  while (best > 0 && !supported(static_cast<Target>(best))) --best;
+  return static_cast<Target>(best);
 #endif
 }
 
@@ -121,46 +120,37 @@ inline Status set_target(Target target) noexcept {
 }  // namespace simd
 TEXTPLANE_END_NAMESPACE
 
-// TEXTPLANE_SIMD_DISPATCH(halve(a)): the body of an entry point, returns the result of `halve(a)` of the active target.
+// TEXTPLANE_SIMD_DISPATCH(halve(a)): the body of an entry point. Returns the result of `halve(a)` of the active target, of scalar
+// for a target that this compiler cannot build.
 #if defined(TEXTPLANE_TARGET)
 #define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::TEXTPLANE_TARGET::call;
-#elif TEXTPLANE_HAS_AVX512
-#define TEXTPLANE_SIMD_DISPATCH(call)                                                 \
-  switch (::textplane::simd::active_target()) {                                       \
-    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call;   \
-    case ::textplane::simd::Target::avx2: return ::textplane::detail::avx2::call;     \
-    case ::textplane::simd::Target::avx512: return ::textplane::detail::avx512::call; \
-    default: return ::textplane::detail::scalar::call;                                \
-  }
-#elif TEXTPLANE_HAS_SSE41
-#define TEXTPLANE_SIMD_DISPATCH(call)                                               \
-  switch (::textplane::simd::active_target()) {                                     \
-    case ::textplane::simd::Target::sse41: return ::textplane::detail::sse41::call; \
-    default: return ::textplane::detail::scalar::call;                              \
-  }
-#elif TEXTPLANE_HAS_NEON
-#define TEXTPLANE_SIMD_DISPATCH(call)                                             \
-  switch (::textplane::simd::active_target()) {                                   \
-    case ::textplane::simd::Target::neon: return ::textplane::detail::neon::call; \
-    default: return ::textplane::detail::scalar::call;                            \
-  }
 #else
-#define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::scalar::call;
+#define TEXTPLANE_SIMD_CASE_0(name, call)
+#define TEXTPLANE_SIMD_CASE_1(name, call) \
+  case ::textplane::simd::Target::name:   \
+    return ::textplane::detail::name::call;
+#define TEXTPLANE_SIMD_CASE(call, number, name, lanes, fused, needs, few, features) \
+  TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_CASE_, TEXTPLANE_SIMD_ON_##needs)(name, call)
+#define TEXTPLANE_SIMD_DISPATCH(call)                                                      \
+  switch (::textplane::simd::active_target()) {                                            \
+    default: /* and scalar, the first */ TEXTPLANE_SIMD_TARGETS(TEXTPLANE_SIMD_CASE, call) \
+  }
 #endif
 
-// TEXTPLANE_KERNEL int f(int a) noexcept TEXTPLANE_SIMD_BODY(f(a)): an entry point. Inline; or, with compiled kernels
+// TEXTPLANE_KERNEL int f(int a) noexcept TEXTPLANE_SIMD_BODY(f(a)); is an entry point. Inline; or, with compiled kernels
 // (targets.hpp), declared everywhere and defined in one file.
 #if !TEXTPLANE_HAS_KERNELS
 #define TEXTPLANE_KERNEL
-#define TEXTPLANE_SIMD_BODY(call) ;
-#elif defined(TEXTPLANE_EXTERN_KERNELS)
+#define TEXTPLANE_SIMD_BODY(call)
+#else
+#if defined(TEXTPLANE_EXTERN_KERNELS)
 #define TEXTPLANE_KERNEL
-#define TEXTPLANE_SIMD_BODY(call) \
-  { TEXTPLANE_SIMD_DISPATCH(call) }
 #else
 #define TEXTPLANE_KERNEL inline
-#define TEXTPLANE_SIMD_BODY(call) \
-  { TEXTPLANE_SIMD_DISPATCH(call) }
+#endif
+#define TEXTPLANE_SIMD_BODY(call)   \
+  { TEXTPLANE_SIMD_DISPATCH(call) } \
+  static_assert(true, "") /* for the semicolon */
 #endif
 
 #endif  // TEXTPLANE_SIMD_DISPATCH_HPP

@@ -30,16 +30,16 @@ constexpr std::size_t esm_scratch(int n) noexcept { return 2 * (static_cast<std:
 
 TEXTPLANE_END_NAMESPACE
 
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/host_basis.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/host_basis.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/esm.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/esm.inl"
 #include "textplane/simd/foreach_target.inl"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 TEXTPLANE_KERNEL void linearise_esm(const simd::EsmArgs& args, simd::ResidualInfo* out, double* H, double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_esm(args, out, H, b))
+    TEXTPLANE_SIMD_BODY(linearise_esm(args, out, H, b));
 }  // namespace detail
 
 namespace simd {

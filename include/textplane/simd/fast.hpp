@@ -3,7 +3,7 @@
 #ifndef TEXTPLANE_SIMD_FAST_HPP
 #define TEXTPLANE_SIMD_FAST_HPP
 
-#include "textplane/simd/bytes.hpp"
+#include "textplane/simd/ops.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
@@ -45,12 +45,12 @@ namespace simd {
 /// width - 3, and tells whether one of them is not 0. So pixel x is a FAST corner at `threshold` where its strength
 /// counts, and its score in the sense of fast_score() is strength - 1. The same bytes on every target. Reads the pixels
 /// of the row and of the 3 rows on either side alone. No allocation.
-TEXTPLANE_KERNEL bool fast_row(const FastRowArgs& args) noexcept TEXTPLANE_SIMD_BODY(fast_row(args))
+TEXTPLANE_KERNEL bool fast_row(const FastRowArgs& args) noexcept TEXTPLANE_SIMD_BODY(fast_row(args));
 
-    /// Writes those x, ascending, at which row[x] is not 0 and, where `suppress`, exceeds its eight neighbours; returns
-    /// their number. Of the rows of scores it reads kFastRowPadding bytes beyond `last`, whatever they hold; where
-    /// `suppress`, scores are at most 254, and those of the 3 px at either end are 0.
-    TEXTPLANE_KERNEL int fast_maxima(const FastMaximaArgs& args) noexcept TEXTPLANE_SIMD_BODY(fast_maxima(args))
+/// Writes those x, ascending, at which row[x] is not 0 and, where `suppress`, exceeds its eight neighbours; returns
+/// their number. Of the rows of scores it reads kFastRowPadding bytes beyond `last`, whatever they hold; where
+/// `suppress`, scores are at most 254, and those of the 3 px at either end are 0.
+TEXTPLANE_KERNEL int fast_maxima(const FastMaximaArgs& args) noexcept TEXTPLANE_SIMD_BODY(fast_maxima(args));
 
 }  // namespace simd
 TEXTPLANE_END_NAMESPACE

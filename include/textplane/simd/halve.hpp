@@ -2,7 +2,7 @@
 #ifndef TEXTPLANE_SIMD_HALVE_HPP
 #define TEXTPLANE_SIMD_HALVE_HPP
 
-#include "textplane/simd/bytes.hpp"
+#include "textplane/simd/ops.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
@@ -28,7 +28,7 @@ namespace simd {
 /// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). The same
 /// bytes on every target. Reads and writes those pixels alone; src and dst must not overlap. No checks, no allocation,
 /// any number of threads.
-TEXTPLANE_KERNEL void halve(const HalveArgs& args) noexcept TEXTPLANE_SIMD_BODY(halve(args))
+TEXTPLANE_KERNEL void halve(const HalveArgs& args) noexcept TEXTPLANE_SIMD_BODY(halve(args));
 
 }  // namespace simd
 TEXTPLANE_END_NAMESPACE

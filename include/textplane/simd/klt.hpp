@@ -6,7 +6,7 @@
 #ifndef TEXTPLANE_SIMD_KLT_HPP
 #define TEXTPLANE_SIMD_KLT_HPP
 
-#include "textplane/simd/bytes.hpp"
+#include "textplane/simd/ops.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
@@ -59,16 +59,16 @@ namespace simd {
 /// them, the patch with a border of one on all sides, kKltStride apart in kKltPadded elements that are all initialised.
 /// No allocation.
 TEXTPLANE_KERNEL KltPatchSums klt_from_grey(const float* padded, int columns, int rows, KltPatch& patch) noexcept
-    TEXTPLANE_SIMD_BODY(klt_from_grey(padded, columns, rows, patch))
+    TEXTPLANE_SIMD_BODY(klt_from_grey(padded, columns, rows, patch));
 
-    /// A patch from an image. `window` is that of the patch with its border: 2 more columns and rows than the patch,
-    /// whose own are within [1, kKltSide]. Reads the window's pixels, and others of their rows only within `readable`.
-    TEXTPLANE_KERNEL KltPatchSums klt_extract(const KltWindow& window, KltPatch& patch) noexcept
-    TEXTPLANE_SIMD_BODY(klt_extract(window, patch))
+/// A patch from an image. `window` is that of the patch with its border: 2 more columns and rows than the patch,
+/// whose own are within [1, kKltSide]. Reads the window's pixels, and others of their rows only within `readable`.
+TEXTPLANE_KERNEL KltPatchSums klt_extract(const KltWindow& window, KltPatch& patch) noexcept
+    TEXTPLANE_SIMD_BODY(klt_extract(window, patch));
 
-    /// One evaluation of an alignment: the window has the size of the patch. Reads as klt_extract(). No allocation.
-    TEXTPLANE_KERNEL KltSums klt_sums(const KltWindow& window, const KltPatch& patch) noexcept
-    TEXTPLANE_SIMD_BODY(klt_sums(window, patch))
+/// One evaluation of an alignment: the window has the size of the patch. Reads as klt_extract(). No allocation.
+TEXTPLANE_KERNEL KltSums klt_sums(const KltWindow& window, const KltPatch& patch) noexcept
+    TEXTPLANE_SIMD_BODY(klt_sums(window, patch));
 
 }  // namespace simd
 TEXTPLANE_END_NAMESPACE

@@ -84,7 +84,7 @@ enum : int {
 struct ResidualFrame {
   simd::Warp8 warp;
   SampleFrame sample;
-  TapWindows windows;     // used where its guess is likely
+  ImageTiles tiles;       // used where its guess is likely
   float rho[3];           // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
   double inverse[9];      // H^-1, row-major
   double q[3];            // theta^T H^-1
@@ -105,21 +105,29 @@ struct ResidualArrays {
 
 TEXTPLANE_END_NAMESPACE
 
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_frame.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/frame.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_collect.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/collect.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_sums.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/sums.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_rows.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/moments.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_finish.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/rows.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_large.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/strip_sums.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual_small.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/centre.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/weights.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/finish.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/large.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/small.inl"
+#include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/entry.inl"
 #include "textplane/simd/foreach_target.inl"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -127,14 +135,14 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 TEXTPLANE_KERNEL void linearise_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
                                            double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_plane_sums(args, out, H, b)) TEXTPLANE_KERNEL
-    void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H, double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_pose_sums(args, out, H, b)) TEXTPLANE_KERNEL
-    void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                   double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_pose_plane_sums(args, out, H, b)) TEXTPLANE_KERNEL
-    void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept
-    TEXTPLANE_SIMD_BODY(evaluate_cost(args, out))
+    TEXTPLANE_SIMD_BODY(linearise_plane_sums(args, out, H, b));
+TEXTPLANE_KERNEL void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                          double* b) noexcept TEXTPLANE_SIMD_BODY(linearise_pose_sums(args, out, H, b));
+TEXTPLANE_KERNEL void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
+                                                double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_pose_plane_sums(args, out, H, b));
+TEXTPLANE_KERNEL void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept
+    TEXTPLANE_SIMD_BODY(evaluate_cost(args, out));
 }  // namespace detail
 
 namespace simd {

@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "textplane/simd/windows.hpp"
+#include "textplane/simd/ops.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -27,7 +27,7 @@ struct Image8 {
   std::ptrdiff_t stride = 0;  ///< Bytes from row to row.
   int width = 0, height = 0;
   const std::uint16_t* pairs = nullptr;  ///< prepare_pair16() of it, or null.
-  std::ptrdiff_t pair_stride = 0;        ///< 16-bit words from row to row.
+  std::ptrdiff_t pair_stride = 0;        ///< int16 from row to row.
 };
 
 /// True where the kernels can read the image.
@@ -83,7 +83,7 @@ namespace detail {
 // Points are worked on in strips, so that what passes from one short loop to the next stays in the first cache.
 enum : int { kStrip = 256 };
 
-// Between the loops over a strip: position inside the cell, offset of the cell in bytes or pairs, its four pixels; for windows
+// Between the loops over a strip: position inside the cell, offset of the cell in bytes or pairs, its four pixels; for tiles
 // the cell itself.
 struct SampleStrip {
   float fx[kStrip], fy[kStrip];
@@ -113,11 +113,11 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 TEXTPLANE_KERNEL void point_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept
-    TEXTPLANE_SIMD_BODY(point_bounds(x, y, n, out)) TEXTPLANE_KERNEL
-    void warp_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
-    TEXTPLANE_SIMD_BODY(warp_points(args, result)) TEXTPLANE_KERNEL
-    void sample_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
-    TEXTPLANE_SIMD_BODY(sample_points(args, result))
+    TEXTPLANE_SIMD_BODY(point_bounds(x, y, n, out));
+TEXTPLANE_KERNEL void warp_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
+    TEXTPLANE_SIMD_BODY(warp_points(args, result));
+TEXTPLANE_KERNEL void sample_points(const simd::PointArgs& args, simd::PointResult* result) noexcept
+    TEXTPLANE_SIMD_BODY(sample_points(args, result));
 }  // namespace detail
 
 namespace simd {
@@ -144,11 +144,11 @@ inline PointResult sample_points(const PointArgs& args) noexcept {
   return result;
 }
 
-/// Writes pairs(x, y) = I(x, y) | I(x, y + 1) << 8, y < height - 1, to `pairs`, `pair_stride` words from row to row. The caller
-/// guarantees an image that is readable() and room for (height - 2) * pair_stride + width words. Costs about what a copy of the
+/// Writes pairs(x, y) = I(x, y) | I(x, y + 1) << 8, y < height - 1, to `pairs`, `pair_stride` int16 from row to row. The caller
+/// guarantees an image that is readable() and room for (height - 2) * pair_stride + width int16. Costs about what a copy of the
 /// image does.
 TEXTPLANE_KERNEL void prepare_pair16(const Image8& image, std::uint16_t* pairs, std::ptrdiff_t pair_stride) noexcept
-    TEXTPLANE_SIMD_BODY(prepare_pair16(image, pairs, pair_stride))
+    TEXTPLANE_SIMD_BODY(prepare_pair16(image, pairs, pair_stride));
 
 }  // namespace simd
 

@@ -1,18 +1,15 @@
-// SIMD targets: which instruction sets this compiler can build regions for, and the attributes of the functions in them.
+// The table of SIMD targets: the instruction sets that kernels are built for.
 //
 // A *region* is a stretch of source inside `textplane::detail::<target>` that the compiler builds for that instruction set,
-// whatever the command line says (foreach_target.inl opens them). Baseline code stays baseline, so one plain -O2 build
-// holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros:
+// whatever the command line says (foreach_target.inl opens them). Code outside stays baseline, so one plain -O2 build holds
+// kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
 //
-//   TEXTPLANE_HAS_SSE41, _AVX2, _AVX512   1 for GCC and Clang on x86-64 (MinGW: SSE4.1 alone, its stack is not aligned for more)
-//   TEXTPLANE_HAS_NEON                    1 for GCC and Clang on little-endian AArch64, where NEON is part of the baseline
+// GCC and Clang build the x86-64 targets (MinGW: SSE4.1 alone, its stack is not aligned for more) and NEON on little-endian
+// AArch64. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where TEXTPLANE_TARGET fixes
+// a target (dispatch.hpp), a translation unit builds only what that one needs.
 //
-// All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where TEXTPLANE_TARGET fixes one
-// (dispatch.hpp), TEXTPLANE_HAS_SCALAR and these are 1 for what it needs and 0 for all others.
-//
-// Compiled kernels, an option: compiling all targets of a kernel in every file that calls it takes its time. Where
-// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see the entry points as declarations, those of the solvers, too,
-// and one file,
+// Compiled kernels, an option: every file that calls a kernel compiles all its targets, which takes time. Where
+// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see only declarations of kernels and solvers, and one file,
 //
 //   #define TEXTPLANE_DEFINE_KERNELS
 //   #include <textplane/textplane.hpp>
@@ -30,63 +27,120 @@
 #define TEXTPLANE_HAS_KERNELS 1
 #endif
 
-// What this compiler and machine offer.
-#define TEXTPLANE_HAS_X86 0
-#define TEXTPLANE_HAS_WIDE 0
-#define TEXTPLANE_HAS_ARM 0
+// What a target may need of compiler and machine: TEXTPLANE_SIMD_ON_<need> is 1 where they offer it.
+#define TEXTPLANE_SIMD_ON_any 1
+#define TEXTPLANE_SIMD_ON_x86 0
+#define TEXTPLANE_SIMD_ON_x86_wide 0
+#define TEXTPLANE_SIMD_ON_arm 0
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
 #if defined(__x86_64__)
 #if TEXTPLANE_HAS_KERNELS
 #include <immintrin.h>
 #endif
-#undef TEXTPLANE_HAS_X86
-#define TEXTPLANE_HAS_X86 1
+#undef TEXTPLANE_SIMD_ON_x86
+#define TEXTPLANE_SIMD_ON_x86 1
 #if defined(__clang__) || !defined(_WIN32)
-#undef TEXTPLANE_HAS_WIDE
-#define TEXTPLANE_HAS_WIDE 1
+#undef TEXTPLANE_SIMD_ON_x86_wide
+#define TEXTPLANE_SIMD_ON_x86_wide 1
 #endif
 #elif defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
 #if TEXTPLANE_HAS_KERNELS
 #include <arm_neon.h>
 #endif
-#undef TEXTPLANE_HAS_ARM
-#define TEXTPLANE_HAS_ARM 1
+#undef TEXTPLANE_SIMD_ON_arm
+#define TEXTPLANE_SIMD_ON_arm 1
 #endif
 #endif
 
-// TEXTPLANE_FIXED is 1 + the number of the target that TEXTPLANE_TARGET names; 0 where none is named.
-#if defined(TEXTPLANE_TARGET)
-#define TEXTPLANE_NUMBER_scalar 1
-#define TEXTPLANE_NUMBER_sse41 2
-#define TEXTPLANE_NUMBER_avx2 3
-#define TEXTPLANE_NUMBER_avx512 4
-#define TEXTPLANE_NUMBER_neon 5
-#define TEXTPLANE_NUMBER_(target) TEXTPLANE_NUMBER_##target
-#define TEXTPLANE_NUMBER(target) TEXTPLANE_NUMBER_(target)
-#define TEXTPLANE_FIXED TEXTPLANE_NUMBER(TEXTPLANE_TARGET)
-#if TEXTPLANE_FIXED == 0
-#error "TEXTPLANE_TARGET is none of scalar, sse41, avx2, avx512, neon"
-#endif
-#else
-#define TEXTPLANE_FIXED 0
-#endif
-
-// Kernels of avx512 leave few pixels to those of avx2.
-#define TEXTPLANE_HAS_SCALAR (TEXTPLANE_FIXED <= 1)
-#define TEXTPLANE_HAS_SSE41 (TEXTPLANE_HAS_X86 && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 2))
-#define TEXTPLANE_HAS_AVX2 \
-  (TEXTPLANE_HAS_WIDE && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 3 || TEXTPLANE_FIXED == 4))
-#define TEXTPLANE_HAS_AVX512 (TEXTPLANE_HAS_WIDE && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 4))
-#define TEXTPLANE_HAS_NEON (TEXTPLANE_HAS_ARM && (TEXTPLANE_FIXED == 0 || TEXTPLANE_FIXED == 5))
-
-// A test may define this as a header that emulates the AVX-512 intrinsics: the avx512 regions are then built for AVX2, and
-// the target counts as supported wherever AVX2 is.
-#if defined(TEXTPLANE_EMULATED_AVX512) && TEXTPLANE_HAS_KERNELS
+// A test may define TEXTPLANE_EMULATED_AVX512 as a header that emulates the intrinsics: avx512 is then built for AVX2.
+#define TEXTPLANE_SIMD_HASWELL "sse4.1,avx,avx2,fma,popcnt"
+#if defined(TEXTPLANE_EMULATED_AVX512)
+#define TEXTPLANE_SIMD_ICELAKE TEXTPLANE_SIMD_HASWELL
+#if TEXTPLANE_HAS_KERNELS
 #include TEXTPLANE_EMULATED_AVX512
 #endif
+#else
+#define TEXTPLANE_SIMD_ICELAKE "avx512f,avx512bw,avx512dq,avx512vl,avx512vnni," TEXTPLANE_SIMD_HASWELL
+#endif
 
-// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise, and may then exchange the operands of a
-// minimum; a NaN would get past a clamp. The minima and maxima of the vectors are out of its sight there.
+// The table. A target's operations are in ops/<name>.inl.
+//   number    simd::Target; does not change between versions. Of the targets that a CPU runs the highest is the best.
+//   lanes     floats in a vector
+//   fused     whether madd() rounds once
+//   needs     TEXTPLANE_SIMD_ON_<needs>
+//   few       the target whose kernels take patches of few pixels, sooner than its own would
+//   features  what the compiler is asked for and the CPU must have, by the compiler's names (cpu.hpp knows them)
+// clang-format off
+//                                    number  name    lanes  fused  needs     few     features
+#define TEXTPLANE_SIMD_scalar(X, a) X(a, 0,   scalar, 1,     false, any,      scalar, "")
+#define TEXTPLANE_SIMD_sse41(X, a)  X(a, 1,   sse41,  4,     false, x86,      sse41,  "sse4.1")
+#define TEXTPLANE_SIMD_avx2(X, a)   X(a, 2,   avx2,   8,     true,  x86_wide, avx2,   TEXTPLANE_SIMD_HASWELL)
+#define TEXTPLANE_SIMD_avx512(X, a) X(a, 3,   avx512, 16,    true,  x86_wide, avx2,   TEXTPLANE_SIMD_ICELAKE)
+#define TEXTPLANE_SIMD_neon(X, a)   X(a, 4,   neon,   4,     true,  arm,      neon,   "")
+#define TEXTPLANE_SIMD_none(X, a)
+// clang-format on
+
+// The same by number. A new target takes the first free one.
+#define TEXTPLANE_SIMD_NAME_0 scalar
+#define TEXTPLANE_SIMD_NAME_1 sse41
+#define TEXTPLANE_SIMD_NAME_2 avx2
+#define TEXTPLANE_SIMD_NAME_3 avx512
+#define TEXTPLANE_SIMD_NAME_4 neon
+#define TEXTPLANE_SIMD_NAME_5 none
+#define TEXTPLANE_SIMD_NAME_6 none
+#define TEXTPLANE_SIMD_NAME_7 none
+
+// TEXTPLANE_SIMD_TARGETS(X, a): X(a, number, ...) of every target, in order.
+#define TEXTPLANE_SIMD_JOIN_(a, b) a##b
+#define TEXTPLANE_SIMD_JOIN(a, b) TEXTPLANE_SIMD_JOIN_(a, b)
+#define TEXTPLANE_SIMD_ROW(number) \
+  TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_, TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, number))
+// clang-format off
+#define TEXTPLANE_SIMD_TARGETS(X, a)                                                                              \
+  TEXTPLANE_SIMD_ROW(0)(X, a) TEXTPLANE_SIMD_ROW(1)(X, a) TEXTPLANE_SIMD_ROW(2)(X, a) TEXTPLANE_SIMD_ROW(3)(X, a) \
+  TEXTPLANE_SIMD_ROW(4)(X, a) TEXTPLANE_SIMD_ROW(5)(X, a) TEXTPLANE_SIMD_ROW(6)(X, a) TEXTPLANE_SIMD_ROW(7)(X, a)
+// clang-format on
+
+// TEXTPLANE_SIMD_WANTED: bit `number` is set where this translation unit wants that target. Passed as `a`, it makes of the X
+// TEXTPLANE_SIMD_BUILDS "|| 1" or "|| 0", for #if and for C++: whether the target is built.
+#define TEXTPLANE_SIMD_NUMBER(a, number, name, lanes, fused, needs, few, features) number
+#define TEXTPLANE_SIMD_FEW(a, number, name, lanes, fused, needs, few, features) few
+#if defined(TEXTPLANE_TARGET)
+#define TEXTPLANE_SIMD_ONLY(name) TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_, name)
+#define TEXTPLANE_SIMD_ONLY_FEW TEXTPLANE_SIMD_ONLY(TEXTPLANE_TARGET)(TEXTPLANE_SIMD_FEW, 0)
+#define TEXTPLANE_SIMD_WANTED                                             \
+  (1 << TEXTPLANE_SIMD_ONLY(TEXTPLANE_TARGET)(TEXTPLANE_SIMD_NUMBER, 0) | \
+   1 << TEXTPLANE_SIMD_ONLY(TEXTPLANE_SIMD_ONLY_FEW)(TEXTPLANE_SIMD_NUMBER, 0))
+#else
+#define TEXTPLANE_SIMD_WANTED 255
+#endif
+#define TEXTPLANE_SIMD_BUILDS(a, number, name, lanes, fused, needs, few, features) \
+  || (TEXTPLANE_SIMD_ON_##needs && ((a) >> number & 1))
+
+// TEXTPLANE_SIMD_OPEN and TEXTPLANE_SIMD_CLOSE, Xs of the table, go around a region.
+#define TEXTPLANE_SIMD_TEXT_(text) #text
+#define TEXTPLANE_SIMD_TEXT(text) TEXTPLANE_SIMD_TEXT_(text)
+#if defined(__clang__)
+#define TEXTPLANE_SIMD_ASK(features) \
+  _Pragma(TEXTPLANE_SIMD_TEXT(clang attribute push(__attribute__((target(features))), apply_to = function)))
+#define TEXTPLANE_SIMD_ASK_NO_MORE _Pragma("clang attribute pop")
+#else
+#define TEXTPLANE_SIMD_ASK(features) _Pragma("GCC push_options") _Pragma(TEXTPLANE_SIMD_TEXT(GCC target(features)))
+#define TEXTPLANE_SIMD_ASK_NO_MORE _Pragma("GCC pop_options")
+#endif
+#define TEXTPLANE_SIMD_OPEN_any(features)
+#define TEXTPLANE_SIMD_OPEN_x86(features) TEXTPLANE_SIMD_ASK(features)
+#define TEXTPLANE_SIMD_OPEN_x86_wide(features) TEXTPLANE_SIMD_ASK(features)
+#define TEXTPLANE_SIMD_OPEN_arm(features)
+#define TEXTPLANE_SIMD_CLOSE_any
+#define TEXTPLANE_SIMD_CLOSE_x86 TEXTPLANE_SIMD_ASK_NO_MORE
+#define TEXTPLANE_SIMD_CLOSE_x86_wide TEXTPLANE_SIMD_ASK_NO_MORE
+#define TEXTPLANE_SIMD_CLOSE_arm
+#define TEXTPLANE_SIMD_OPEN(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_OPEN_##needs(features)
+#define TEXTPLANE_SIMD_CLOSE(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_CLOSE_##needs
+
+// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise. It may then swap the operands of a minimum, and
+// a NaN would get past a clamp. So the operations hide their minima and maxima from it in assembly.
 #if defined(__clang__) && defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #define TEXTPLANE_SIMD_HIDE_MINIMA 1
 #else
@@ -121,58 +175,61 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
-/// The instruction sets that kernels are built for. The numbers do not change between versions.
+/// The instruction sets that kernels are built for: scalar = 0 (plain C++), sse41 = 1 (SSE4.1), avx2 = 2 (AVX2, FMA and POPCNT:
+/// Haswell, Zen and later), avx512 = 3 (AVX-512 F, BW, DQ, VL and VNNI besides: Ice Lake, Zen 4 and later), neon = 4 (AArch64).
 enum class Target : int {
-  scalar = 0,  ///< Plain C++.
-  sse41 = 1,   ///< SSE4.1.
-  avx2 = 2,    ///< AVX2, FMA and POPCNT: Haswell, Zen and later.
-  avx512 = 3,  ///< AVX-512 F, BW, DQ, VL and VNNI besides: Ice Lake, Zen 4 and later.
-  neon = 4,    ///< AArch64.
+#define TEXTPLANE_SIMD_X(a, number, name, ...) name = number,
+  TEXTPLANE_SIMD_TARGETS(TEXTPLANE_SIMD_X, 0)
+#undef TEXTPLANE_SIMD_X
 };
 
+}  // namespace simd
+
+namespace detail {
+/// A row of the table of targets.
+struct TargetRow {
+  const char *name, *features;
+  int lanes;
+  bool fused, built;
+};
+
+constexpr TargetRow kTargets[] = {
+#define TEXTPLANE_SIMD_X(a, number, name, lanes, fused, needs, few, features) \
+  {#name, features, lanes, fused, false TEXTPLANE_SIMD_BUILDS(a, number, name, lanes, fused, needs, few, features)},
+    TEXTPLANE_SIMD_TARGETS(TEXTPLANE_SIMD_X, TEXTPLANE_SIMD_WANTED)
+#undef TEXTPLANE_SIMD_X
+};
+}  // namespace detail
+
+namespace simd {
+
 /// Number of enumerators of Target.
-constexpr int kTargetCount = 5;
+constexpr int kTargetCount = sizeof detail::kTargets / sizeof detail::kTargets[0];
+
+/// True for an enumerator of Target.
+constexpr bool known(Target target) noexcept {
+  return static_cast<int>(target) >= 0 && static_cast<int>(target) < kTargetCount;
+}
 
 /// The enumerator's name, never null.
 constexpr const char* to_string(Target target) noexcept {
-  switch (target) {
-    case Target::scalar: return "scalar";
-    case Target::sse41: return "sse41";
-    case Target::avx2: return "avx2";
-    case Target::avx512: return "avx512";
-    case Target::neon: return "neon";
-  }
-  return "unknown";
+  return known(target) ? detail::kTargets[static_cast<int>(target)].name : "unknown";
 }
 
 /// True when this translation unit holds kernels for `target`. Whether the CPU runs them is another matter: see supported.
 constexpr bool compiled(Target target) noexcept {
-  switch (target) {
-    case Target::scalar: return TEXTPLANE_HAS_SCALAR != 0;
-    case Target::sse41: return TEXTPLANE_HAS_SSE41 != 0;
-    case Target::avx2: return TEXTPLANE_HAS_AVX2 != 0;
-    case Target::avx512: return TEXTPLANE_HAS_AVX512 != 0;
-    case Target::neon: return TEXTPLANE_HAS_NEON != 0;
-  }
-  return false;
+  return known(target) && detail::kTargets[static_cast<int>(target)].built;
 }
 
 /// Floats in a vector of `target`.
 constexpr int lanes(Target target) noexcept {
-  switch (target) {
-    case Target::scalar: return 1;
-    case Target::sse41:
-    case Target::neon: return 4;
-    case Target::avx2: return 8;
-    case Target::avx512: return 16;
-  }
-  return 1;
+  return known(target) ? detail::kTargets[static_cast<int>(target)].lanes : 1;
 }
 
 /// True when kernels of `target` use fused multiply-add. Kernels that do not reduce give the same bits on all targets of
 /// a group; between the groups each kernel states a bound.
 constexpr bool fused(Target target) noexcept {
-  return target == Target::avx2 || target == Target::avx512 || target == Target::neon;
+  return known(target) && detail::kTargets[static_cast<int>(target)].fused;
 }
 
 }  // namespace simd

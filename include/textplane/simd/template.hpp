@@ -21,7 +21,6 @@
 #include <cstdint>
 
 #include "textplane/simd/esm.hpp"
-#include "textplane/simd/words.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -78,9 +77,9 @@ struct TemplateModel {
 
 TEXTPLANE_END_NAMESPACE
 
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/template.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/template.inl"
 #include "textplane/simd/foreach_target.inl"
-#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/template_model.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/template_model.inl"
 #include "textplane/simd/foreach_target.inl"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -88,27 +87,27 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 TEXTPLANE_KERNEL void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& args,
                                          std::int16_t* values, simd::ResidualInfo* out, double* H, double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_template(m, args, values, out, H, b)) TEXTPLANE_KERNEL
-    void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& args, std::int16_t* values,
-                           simd::ResidualInfo* out) noexcept
-    TEXTPLANE_SIMD_BODY(evaluate_template(m, args, values, out))
+    TEXTPLANE_SIMD_BODY(linearise_template(m, args, values, out, H, b));
+TEXTPLANE_KERNEL void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& args,
+                                        std::int16_t* values, simd::ResidualInfo* out) noexcept
+    TEXTPLANE_SIMD_BODY(evaluate_template(m, args, values, out));
 }  // namespace detail
 
 namespace simd {
 
 /// V of every pixel, and all sums.
 TEXTPLANE_KERNEL void template_sums(const TemplateArgs& args, TemplateSums& sums) noexcept
-    TEXTPLANE_SIMD_BODY(template_sums(args, sums))
+    TEXTPLANE_SIMD_BODY(template_sums(args, sums));
 
-    /// V of every pixel, and the sums of the first column, of V and of V^2: what a correlation needs. The others are zero.
-    TEXTPLANE_KERNEL void template_correlation(const TemplateArgs& args, TemplateSums& sums) noexcept
-    TEXTPLANE_SIMD_BODY(template_correlation(args, sums))
+/// V of every pixel, and the sums of the first column, of V and of V^2: what a correlation needs. The others are zero.
+TEXTPLANE_KERNEL void template_correlation(const TemplateArgs& args, TemplateSums& sums) noexcept
+    TEXTPLANE_SIMD_BODY(template_correlation(args, sums));
 
-    /// Template-Jacobian normal equations for (v, omega, theta), P = 9. Of `args` the host's pixels are not read (n must be the
-    /// model's), masks neither: all pixels count, and where not all of them are visible the status is out_of_view, and another
-    /// kernel must take the case. `values`: room for n int16, rounded up to blocks. Otherwise as linearise_pose_plane().
-    inline ResidualInfo linearise_template(const TemplateModel& model, const ResidualArgs& args, std::int16_t* values,
-                                           double* H, double* b) noexcept {
+/// Template-Jacobian normal equations for (v, omega, theta), P = 9. Of `args` the host's pixels are not read (n must be the
+/// model's), masks neither: all pixels count, and where not all of them are visible the status is out_of_view, and another
+/// kernel must take the case. `values`: room for n int16, rounded up to blocks. Otherwise as linearise_pose_plane().
+inline ResidualInfo linearise_template(const TemplateModel& model, const ResidualArgs& args, std::int16_t* values,
+                                       double* H, double* b) noexcept {
   ResidualInfo out;
   detail::linearise_template(model, args, values, &out, H, b);
   return out;

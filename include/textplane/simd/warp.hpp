@@ -3,7 +3,7 @@
 // Output pixel (x, y) gets the bilinear interpolant of the source at q_xy / q_z, q = H (x, y, 1), where q_z > 0 and the point
 // lies in [0, width - 1] x [0, height - 1], and `fill` elsewhere. No byte is read outside the source's rows.
 //
-// Coordinates are affine before the one division a pixel. Each tile of the output is worked on around its own centre, in
+// Coordinates are affine before the one division a pixel. Each block of the output is worked on around its own centre, in
 // float relative to an integer origin near it, so that their error does not grow with the size of image or patch: below
 // 2e-5 px, 0.005 grey levels, while a step in the output moves at most two pixels in the source.
 #ifndef TEXTPLANE_SIMD_WARP_HPP
@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "textplane/simd/vec.hpp"
+#include "textplane/simd/ops.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -38,25 +38,25 @@ struct WarpArgs {
 }  // namespace simd
 
 namespace detail {
-// A tile of the output, u and v relative to its centre: source x - ox = (x[0] + u x[1] + v x[2]) / (z[0] + u z[1] + v z[2]).
-struct WarpTile {
+// A block of the output, u and v relative to its centre: source x - ox = (x[0] + u x[1] + v x[2]) / (z[0] + u z[1] + v z[2]).
+struct WarpBlock {
   double x[3], y[3], z[3];
   int ox, oy;
   int columns, rows;
   bool dense;               // all pixels lie inside the source, clear of its borders
-  bool windows;             // and neighbours in a row lie close together
+  bool tiles;               // and neighbours in a row lie close together
   bool leftwards, upwards;  // how they follow each other
 };
 
-// Results of the coordinate pass for one row of a tile, for the pass that samples.
-constexpr int kWarpTileWidth = 128, kWarpTileHeight = 32;
+// Results of the coordinate pass for one row of a block, for the pass that samples.
+constexpr int kWarpBlockWidth = 128, kWarpBlockHeight = 32;
 struct WarpStrip {
-  float dx[kWarpTileWidth], dy[kWarpTileWidth];       // in the cell
-  std::int32_t x[kWarpTileWidth], y[kWarpTileWidth];  // the cell, relative to the tile's origin
-  std::int32_t offset[kWarpTileWidth];                // the cell, in bytes from the origin
-  std::int32_t inside[kWarpTileWidth];                // 1 or 0
-  std::uint32_t words[kWarpTileWidth];
-  float upper[2 * kWarpTileWidth], lower[2 * kWarpTileWidth];
+  float dx[kWarpBlockWidth], dy[kWarpBlockWidth];       // in the cell
+  std::int32_t x[kWarpBlockWidth], y[kWarpBlockWidth];  // the cell, relative to the block's origin
+  std::int32_t offset[kWarpBlockWidth];                 // the cell, in bytes from the origin
+  std::int32_t inside[kWarpBlockWidth];                 // 1 or 0
+  std::uint32_t taps[kWarpBlockWidth];
+  float upper[2 * kWarpBlockWidth], lower[2 * kWarpBlockWidth];
 };
 }  // namespace detail
 
@@ -71,13 +71,13 @@ namespace simd {
 
 /// 8-bit source, float output. Returns how many output pixels lie inside the source; -1, and nothing is written, for a source
 /// below 2 x 2 or too large, or an H that is not finite.
-TEXTPLANE_KERNEL int warp_u8_f32(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_u8_f32(args))
+TEXTPLANE_KERNEL int warp_u8_f32(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_u8_f32(args));
 
-    /// 8-bit source and output, rounded to the nearest integer. Returns as warp_u8_f32().
-    TEXTPLANE_KERNEL int warp_u8_u8(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_u8_u8(args))
+/// 8-bit source and output, rounded to the nearest integer. Returns as warp_u8_f32().
+TEXTPLANE_KERNEL int warp_u8_u8(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_u8_u8(args));
 
-    /// Float source and output. Pixels of the source that are not finite spread to what they touch. Returns as warp_u8_f32().
-    TEXTPLANE_KERNEL int warp_f32_f32(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_f32_f32(args))
+/// Float source and output. Pixels of the source that are not finite spread to what they touch. Returns as warp_u8_f32().
+TEXTPLANE_KERNEL int warp_f32_f32(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_f32_f32(args));
 
 }  // namespace simd
 

@@ -42,7 +42,7 @@ namespace simd {
 
 /// ZNCC of every candidate. Within 0.05 / sigma of the double reference's, sigma the lesser standard deviation of the two sides
 /// in intensity units, and the same on every target where the float positions are.
-TEXTPLANE_KERNEL void zncc_candidates(const ZnccArgs& args) noexcept TEXTPLANE_SIMD_BODY(zncc_candidates(args))
+TEXTPLANE_KERNEL void zncc_candidates(const ZnccArgs& args) noexcept TEXTPLANE_SIMD_BODY(zncc_candidates(args));
 
 }  // namespace simd
 

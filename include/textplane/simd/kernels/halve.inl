@@ -1,5 +1,6 @@
-// Halving: kBytes pixels of the result at a time. The last ones of a row are done anew together with some before them,
-// as the outcome is the same; rows shorter than a vector go through partial loads.
+// Halving: kBytes pixels of the result at a time. Include before: the operations.
+//
+// The last vector of a row overlaps the one before it; a row shorter than a vector takes partial loads.
 
 TEXTPLANE_SIMD_INLINE void halve_row_part(const std::uint8_t* upper, const std::uint8_t* lower,
                                           std::uint8_t* out) noexcept {

@@ -1,4 +1,4 @@
-// Scattered points through a homography: warp_points, sample_points; and the prepared target image. See simd/sample.hpp.
+// warp_points(), sample_points() and prepare_pair16() of simd/sample.hpp. Include before: kernels/sample.inl.
 
 TEXTPLANE_SIMD_ENTRY void point_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept {
   find_bounds(x, y, n, out);
@@ -22,7 +22,7 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
   SampleFrame frame;
   if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
   if (!a.inside) result->inside = a.n;
-  const WarpVectors vectors = spread(warp);
+  const WarpVectors vectors = broadcast_warp(warp);
   for (int i = 0; i < a.n; i += kLanes) {
     const int left = a.n - i < kLanes ? a.n - i : kLanes;
     vf x, y, divisor;
@@ -58,8 +58,8 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
   SampleFrame frame;
   if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
   const bool paired = frame.pairs != nullptr;
-  const WarpVectors vectors = spread(warp);
-  const CellVectors cells = spread(frame);
+  const WarpVectors vectors = broadcast_warp(warp);
+  const CellVectors cells = broadcast_cells(frame);
   SampleStrip strip;
   for (int begin = 0; begin < a.n; begin += kStrip) {
     const int n = a.n - begin < kStrip ? a.n - begin : kStrip;

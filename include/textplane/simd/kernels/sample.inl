@@ -1,5 +1,5 @@
-// Pieces of every kernel that samples an image at scattered points: warp | taps | interpolation, each a short loop over a strip
-// (see simd/sample.hpp). Output arrays have room for whole vectors.
+// What every kernel that samples an image at scattered points is made of: warp | taps | interpolation, each a short loop over a
+// strip (simd/sample.hpp). Output arrays have room for whole vectors. Include before: kernels/tiles.inl.
 
 // kLanes floats of an array of which `left` remain; the others are 0 and not touched.
 TEXTPLANE_SIMD_INLINE vf load_part(const float* p, int left) noexcept {
@@ -102,7 +102,7 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
 struct WarpVectors {
   vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
 };
-TEXTPLANE_SIMD_INLINE WarpVectors spread(const simd::Warp8& w) noexcept {
+TEXTPLANE_SIMD_INLINE WarpVectors broadcast_warp(const simd::Warp8& w) noexcept {
   return WarpVectors{set1(w.hx),   set1(w.hy),   set1(w.g[0]), set1(w.g[1]), set1(w.g[2]), set1(w.g[3]),
                      set1(w.g[4]), set1(w.g[5]), set1(w.g[6]), set1(w.g[7]), set1(w.g[8])};
 }
@@ -128,7 +128,7 @@ struct CellVectors {
   vf x_low, y_low, x_high, y_high;
   vi stride;
 };
-TEXTPLANE_SIMD_INLINE CellVectors spread(const SampleFrame& f) noexcept {
+TEXTPLANE_SIMD_INLINE CellVectors broadcast_cells(const SampleFrame& f) noexcept {
   return CellVectors{set1(f.x_low), set1(f.y_low), set1(f.x_high), set1(f.y_high), seti(static_cast<int>(f.stride))};
 }
 
@@ -146,8 +146,8 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
                                       const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
                                       int i, int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
                                       SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const WarpVectors warp = spread(w);
-  const CellVectors cells = spread(f);
+  const WarpVectors warp = broadcast_warp(w);
+  const CellVectors cells = broadcast_cells(f);
   vf tx, ty, divisor;
   for (; i + kLanes <= n; i += kLanes) {
     warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
@@ -162,33 +162,31 @@ TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f
   store(y + i, ty);
 }
 
-// The same of the first n pixels, whole v16, for windows.
-TEXTPLANE_SIMD_INLINE vf window_cell(vf x, vf low, vf high, float* fraction) noexcept {
+// The same of the first n pixels, whole v16, for tiles.
+TEXTPLANE_SIMD_INLINE vf tile_cell(vf x, vf low, vf high, float* fraction) noexcept {
   const vf cell = min_(max_(floor_(x), low), high);
   store(fraction, sub(x, cell));
   return cell;
 }
-TEXTPLANE_SIMD_INLINE void warp_windows(const simd::Warp8& w, const SampleFrame& f, const TapWindows& windows,
-                                        const float* TEXTPLANE_SIMD_RESTRICT px,
-                                        const float* TEXTPLANE_SIMD_RESTRICT py, int n,
-                                        float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
-                                        SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const WarpVectors warp = spread(w);
-  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(windows.x_high));
-  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(windows.y_high));
+TEXTPLANE_SIMD_INLINE void warp_to_tiles(const simd::Warp8& w, const SampleFrame& f, const ImageTiles& tiles,
+                                         const float* TEXTPLANE_SIMD_RESTRICT px,
+                                         const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                         float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                         SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = broadcast_warp(w);
+  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
+  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
   for (int i = 0; i < n; i += k16Lanes) {
     const int j = i + kLanes;
     vf x0, y0, x1, y1, divisor;
     warp_vector(warp, load(px + i), load(py + i), &x0, &y0, &divisor);
     store(x + i, x0);
     store(y + i, y0);
-    const vi a0 = to_int(window_cell(x0, x_low, x_high, s->fx + i)),
-             b0 = to_int(window_cell(y0, y_low, y_high, s->fy + i));
+    const vi a0 = to_int(tile_cell(x0, x_low, x_high, s->fx + i)), b0 = to_int(tile_cell(y0, y_low, y_high, s->fy + i));
     warp_vector(warp, load(px + j), load(py + j), &x1, &y1, &divisor);
     store(x + j, x1);
     store(y + j, y1);
-    const vi a1 = to_int(window_cell(x1, x_low, x_high, s->fx + j)),
-             b1 = to_int(window_cell(y1, y_low, y_high, s->fy + j));
+    const vi a1 = to_int(tile_cell(x1, x_low, x_high, s->fx + j)), b1 = to_int(tile_cell(y1, y_low, y_high, s->fy + j));
     store16(s->x + i, pack16(a0, a1));
     store16(s->y + i, pack16(b0, b1));
   }
@@ -204,7 +202,7 @@ TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t 
   for (; i + 4 <= n; i += 4) fetch_four(upper, lower, offset + i, taps + i);
   for (; i < n; ++i) {
     const std::ptrdiff_t at = offset[i];
-    taps[i] = load_half(upper + at) | load_half(lower + at) << 16;
+    taps[i] = load_u16(upper + at) | load_u16(lower + at) << 16;
   }
 }
 TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
@@ -220,13 +218,13 @@ TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip*
   }
   for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
 }
-// The same of n cells, whole v16, by windows, and then of the groups that these do not hold.
-TEXTPLANE_SIMD_INLINE void fetch_windows(const TapWindows& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
-  const TapWindowVectors v = spread(w);
+// The same of n cells, whole v16, by tiles, and then of the groups that these do not hold.
+TEXTPLANE_SIMD_INLINE void fetch_tiles(const ImageTiles& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const TileVectors v = broadcast_tiles(w);
   std::uint64_t fours = 0;
   for (int i = 0; i < n; i += k16Lanes) {
     v16 first, second;
-    fours |= static_cast<std::uint64_t>(window_words(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
+    fours |= static_cast<std::uint64_t>(tile_pairs(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
     store_taps(s->taps + i, first, second);
   }
   for (std::uint64_t groups = (fours | fours >> 1) & 0x5555555555555555ULL; groups != 0; groups &= groups - 1) {
@@ -238,7 +236,7 @@ TEXTPLANE_SIMD_INLINE void fetch_windows(const TapWindows& w, int n, SampleStrip
 }
 // Those of the cells `from` on, n in all.
 TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, SampleStrip* s) noexcept {
-  // Whole vectors of words are read later: those beyond n repeat the first.
+  // Whole vectors are read later: those beyond n repeat the first.
   if (f.pairs)
     fetch_pairs(f, n, s);
   else
@@ -246,7 +244,7 @@ TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, Sam
   for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
 }
 
-// Value and gradient of kLanes cells of the strip. `paired`: the words are from pairs.
+// Value and gradient of kLanes cells of the strip. `paired`: the taps are from pairs.
 TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
                                               vf* gy) noexcept {
   const taps_t t = load_taps(s.taps + i);

@@ -1,6 +1,7 @@
-// The body of simd/warp.hpp: per tile a frame of reference in double, per row a pass over the coordinates and a pass that
-// samples. Constant arguments make the variants.
-#include "textplane/simd/kernels/warp_ops.inl"
+// The kernels of simd/warp.hpp. Include before: kernels/tiles.inl.
+//
+// Each block has a frame of reference in double; each of its rows takes a pass over the coordinates and a pass that samples.
+// Constant arguments make the variants.
 
 enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 
@@ -17,16 +18,16 @@ TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
   return x < static_cast<double>(last) ? static_cast<int>(x) : last;
 }
 
-// Whether the tile lies inside the source, and how its pixels follow each other in a row. (x1, y1, z1) and so on are source
-// coordinates and their steps as in WarpTile, origin (0, 0).
+// Whether the block lies inside the source, and how its pixels follow each other in a row. (x1, y1, z1) and so on are source
+// coordinates and their steps as in WarpBlock, origin (0, 0).
 //
-// A homography with q_z > 0 maps the tile into the convex hull of the images of its corners. Along a row v,
+// A homography with q_z > 0 maps the block into the convex hull of the images of its corners. Along a row v,
 // d(x/z)/du = N(v) / z^2 with N = x1 z - x z1 affine in v and z affine in u and v, so corners bound both.
 //
 // Positions are made in float, from divisors whose terms add up to `size`: half of the margin is for what float does to a
 // position where q_z is small beside that.
 TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
-                                         double size, WarpTile* t) noexcept {
+                                         double size, WarpBlock* t) noexcept {
   const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
                bottom = top + t->rows - 1;
   const double margin = 1e-3;
@@ -58,22 +59,22 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
   const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
   const double z2_low = z_low * z_low, z2_high = z_high * z_high;
   // At most 15 pixels wide over 8 lanes, and far from standing still, where rounding could reverse the order.
-  t->windows = inside && (nx0 < 0.0) == (nx1 < 0.0) && wide <= 1.95 * z2_low && narrow >= 0.125 * z2_high &&
-               steep <= 0.14 * z2_low && x_high < a.width - 16 && y_high < a.height - 3;
+  t->tiles = inside && (nx0 < 0.0) == (nx1 < 0.0) && wide <= 1.95 * z2_low && narrow >= 0.125 * z2_high &&
+             steep <= 0.14 * z2_low && x_high < a.width - 16 && y_high < a.height - 3;
 }
 
-// The tile whose first pixel is (first_x, first_y). The scale of H is taken out, so that the floats that follow neither
+// The block whose first pixel is (first_x, first_y). The scale of H is taken out, so that the floats that follow neither
 // overflow nor vanish. The origin is the cell of the projected centre where there is one.
-TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, int first_y) noexcept {
-  WarpTile t;
-  t.columns = a.out_width - first_x < kWarpTileWidth ? a.out_width - first_x : kWarpTileWidth;
-  t.rows = a.out_height - first_y < kWarpTileHeight ? a.out_height - first_y : kWarpTileHeight;
+TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x, int first_y) noexcept {
+  WarpBlock t;
+  t.columns = a.out_width - first_x < kWarpBlockWidth ? a.out_width - first_x : kWarpBlockWidth;
+  t.rows = a.out_height - first_y < kWarpBlockHeight ? a.out_height - first_y : kWarpBlockHeight;
   const double* h = a.h;
   const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
   const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
   const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
   const double size =
-      __builtin_fabs(z[0]) + kWarpTileWidth * __builtin_fabs(z[1]) + kWarpTileHeight * __builtin_fabs(z[2]);
+      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
   const double s = size > 0.0 ? 1.0 / size : 0.0;
   const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
   t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
@@ -87,16 +88,16 @@ TEXTPLANE_SIMD_INLINE WarpTile warp_tile(const simd::WarpArgs& a, int first_x, i
   return t;
 }
 
-// How a tile's pixels find their taps.
+// How a block's pixels find their taps.
 enum WarpPath : int {
-  kWarpWindows,  // u8: by shuffles of windows
-  kWarpDense,    // one by one
-  kWarpSparse,   // one by one, some lie outside
+  kWarpTiles,   // u8: by shuffles of tiles
+  kWarpDense,   // one by one
+  kWarpSparse,  // one by one, some lie outside
 };
 
-// Cells and fractions of the pixels of a tile's row, v rows below its centre. Lanes beyond the last column repeat it.
+// Cells and fractions of the pixels of a block's row, v rows below its centre. Lanes beyond the last column repeat it.
 // Pixels outside are flagged and moved to the nearest cell. Returns how many are inside.
-TEXTPLANE_SIMD_INLINE int warp_coordinates(const simd::WarpArgs& a, const WarpTile& t, int v, int pixel, int path,
+TEXTPLANE_SIMD_INLINE int warp_coordinates(const simd::WarpArgs& a, const WarpBlock& t, int v, int pixel, int path,
                                            WarpStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   const int columns = t.columns;
   const vf x0 = set1(static_cast<float>(t.x[0] + v * t.x[2])), x1 = set1(static_cast<float>(t.x[1]));
@@ -128,7 +129,7 @@ TEXTPLANE_SIMD_INLINE int warp_coordinates(const simd::WarpArgs& a, const WarpTi
     }
     store(s->dx + k, sub(x, cell_x));
     store(s->dy + k, sub(y, cell_y));
-    if (path == kWarpWindows) {
+    if (path == kWarpTiles) {
       storei(s->x + k, to_int(cell_x));
       storei(s->y + k, to_int(cell_y));
     } else {
@@ -139,24 +140,24 @@ TEXTPLANE_SIMD_INLINE int warp_coordinates(const simd::WarpArgs& a, const WarpTi
 }
 
 // The word of taps whose first pixel is p.
-TEXTPLANE_SIMD_INLINE std::uint32_t warp_word(const std::uint8_t* p, std::ptrdiff_t stride) noexcept {
+TEXTPLANE_SIMD_INLINE std::uint32_t warp_cell_taps(const std::uint8_t* p, std::ptrdiff_t stride) noexcept {
   const std::uint8_t* q = p + stride;
   const std::uint32_t upper = p[0] | static_cast<std::uint32_t>(p[1]) << 8;
   const std::uint32_t lower = q[0] | static_cast<std::uint32_t>(q[1]) << 8;
   return upper | lower << 16;
 }
 
-// Taps of pixels k to k + kLanes - 1 by shuffles, `origin` being the address of the tile's origin. The left-most and the
-// top-most pixel of a window is its first or its last. *rows collects the rows that pixels lie below the top-most.
-TEXTPLANE_SIMD_INLINE taps_t warp_window(const WarpTile& t, const std::uint8_t* origin, std::ptrdiff_t stride, int k,
-                                         const WarpStrip* s, vi* rows) noexcept {
-  enum : int { kStep = kWindowLanes > 0 ? kWindowLanes : 1, kWindows = kLanes / kStep };
+// Taps of pixels k to k + kLanes - 1 by shuffles, `origin` being the address of the block's origin. The left-most and the
+// top-most pixel of a tile is its first or its last. *rows collects the rows that pixels lie below the top-most.
+TEXTPLANE_SIMD_INLINE taps_t warp_tile_taps(const WarpBlock& t, const std::uint8_t* origin, std::ptrdiff_t stride,
+                                            int k, const WarpStrip* s, vi* rows) noexcept {
+  enum : int { kStep = kTileLanes > 0 ? kTileLanes : 1, kTiles = kLanes / kStep };
   const int *left = s->x + k + (t.leftwards ? kStep - 1 : 0), *top = s->y + k + (t.upwards ? kStep - 1 : 0);
-  const std::uint8_t* corner[kWindows];
-  for (int i = 0; i < kWindows; ++i) corner[i] = origin + top[i * kStep] * stride + left[i * kStep];
-  const vi x = subi(loadi(s->x + k), per_window(left)), y = subi(loadi(s->y + k), per_window(top));
+  const std::uint8_t* corner[kTiles];
+  for (int i = 0; i < kTiles; ++i) corner[i] = origin + top[i * kStep] * stride + left[i * kStep];
+  const vi x = subi(loadi(s->x + k), per_tile(left)), y = subi(loadi(s->y + k), per_tile(top));
   *rows = ori(*rows, y);
-  return window_taps(corner, stride, x, y);
+  return tile_taps(corner, stride, x, y);
 }
 
 // Fetches the taps of a row one by one. A pass of its own: vector loads right behind the stores that they need would wait.
@@ -170,13 +171,13 @@ TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t
       __builtin_memcpy(s->upper + 2 * i, p, 8);
       __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
     } else {
-      s->words[i] = warp_word(p, stride);
+      s->taps[i] = warp_cell_taps(p, stride);
     }
   }
 }
 
 // Interpolated values of pixels k to k + kLanes - 1 of a row.
-TEXTPLANE_SIMD_INLINE vf warp_values(const WarpTile& t, const std::uint8_t* origin, std::ptrdiff_t stride, float fill,
+TEXTPLANE_SIMD_INLINE vf warp_values(const WarpBlock& t, const std::uint8_t* origin, std::ptrdiff_t stride, float fill,
                                      int k, int kind, int path, const WarpStrip* s, vi* rows) noexcept {
   const vf dx = load(s->dx + k), dy = load(s->dy + k);
   vf value;
@@ -187,15 +188,15 @@ TEXTPLANE_SIMD_INLINE vf warp_values(const WarpTile& t, const std::uint8_t* orig
     const vf upper = madd(dx, sub(i10, i00), i00), lower = madd(dx, sub(i11, i01), i01);
     value = madd(dy, sub(lower, upper), upper);
   } else {
-    const taps_t taps = path == kWarpWindows ? warp_window(t, origin, stride, k, s, rows) : load_taps(s->words + k);
+    const taps_t taps = path == kWarpTiles ? warp_tile_taps(t, origin, stride, k, s, rows) : load_taps(s->taps + k);
     value = madd(dy, madd(dx, tap_dxy(taps), tap_dy(taps)), madd(dx, tap_dx(taps), tap_value(taps)));
   }
   return path == kWarpSparse ? select(gt(to_float(loadi(s->inside + k)), zero()), value, set1(fill)) : value;
 }
 
-// Interpolates a row of the tile and writes it to `out`. False, and to be done by another path, where windows did not
+// Interpolates a row of the block and writes it to `out`. False, and to be done by another path, where tiles did not
 // suffice: rounding moved a pixel of a nearly level row across a pixel line.
-TEXTPLANE_SIMD_INLINE bool warp_row(const WarpTile& t, const std::uint8_t* origin, std::ptrdiff_t stride, float fill,
+TEXTPLANE_SIMD_INLINE bool warp_row(const WarpBlock& t, const std::uint8_t* origin, std::ptrdiff_t stride, float fill,
                                     void* TEXTPLANE_SIMD_RESTRICT out, int kind, int path,
                                     const WarpStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   float* floats = static_cast<float*>(out);
@@ -221,12 +222,12 @@ TEXTPLANE_SIMD_INLINE bool warp_row(const WarpTile& t, const std::uint8_t* origi
       store_n(floats + k, value, t.columns - k);
     }
   }
-  return path != kWarpWindows || in_two_rows(rows);
+  return path != kWarpTiles || in_two_rows(rows);
 }
 
-// One tile by one path. Returns how many pixels are inside.
-TEXTPLANE_SIMD_INLINE int warp_tile_by(const simd::WarpArgs& a, const WarpTile& t, int first_x, int first_y, int kind,
-                                       int path, WarpStrip* s) noexcept {
+// One block by one path. Returns how many pixels are inside.
+TEXTPLANE_SIMD_INLINE int warp_block_by(const simd::WarpArgs& a, const WarpBlock& t, int first_x, int first_y, int kind,
+                                        int path, WarpStrip* s) noexcept {
   const int pixel = kind == kWarpFF ? 4 : 1, out_pixel = kind == kWarp88 ? 1 : 4;
   const std::ptrdiff_t stride = a.source_stride;
   const std::uint8_t* origin = static_cast<const std::uint8_t*>(a.source) + t.oy * stride + t.ox * pixel;
@@ -235,7 +236,7 @@ TEXTPLANE_SIMD_INLINE int warp_tile_by(const simd::WarpArgs& a, const WarpTile& 
   for (int row = 0; row < t.rows; ++row) {
     const int y = first_y + row;
     inside += warp_coordinates(a, t, row - t.rows / 2, pixel, path, s);
-    if (path != kWarpWindows) warp_fetch(origin, stride, t.columns, kind, s);
+    if (path != kWarpTiles) warp_fetch(origin, stride, t.columns, kind, s);
     std::uint8_t* out = static_cast<std::uint8_t*>(a.out) + y * a.out_stride + first_x * out_pixel;
     if (!warp_row(t, origin, stride, fill, out, kind, path, s)) {
       warp_coordinates(a, t, row - t.rows / 2, pixel, kWarpDense, s);
@@ -255,16 +256,16 @@ TEXTPLANE_SIMD_INLINE int warp(const simd::WarpArgs& a, int kind) noexcept {
   if (!valid) return -1;
   WarpStrip strip;
   int inside = 0;
-  // Tiles are of one size whatever the target, so that all targets round alike.
-  for (int y = 0; y < a.out_height; y += kWarpTileHeight)
-    for (int x = 0; x < a.out_width; x += kWarpTileWidth) {
-      const WarpTile tile = warp_tile(a, x, y);
-      if (kind != kWarpFF && kWindowLanes > 0 && tile.windows) {
-        inside += warp_tile_by(a, tile, x, y, kind, kWarpWindows, &strip);
-      } else if (tile.dense) {
-        inside += warp_tile_by(a, tile, x, y, kind, kWarpDense, &strip);
+  // Blocks are of one size whatever the target, so that all targets round alike.
+  for (int y = 0; y < a.out_height; y += kWarpBlockHeight)
+    for (int x = 0; x < a.out_width; x += kWarpBlockWidth) {
+      const WarpBlock block = warp_block(a, x, y);
+      if (kind != kWarpFF && kTileLanes > 0 && block.tiles) {
+        inside += warp_block_by(a, block, x, y, kind, kWarpTiles, &strip);
+      } else if (block.dense) {
+        inside += warp_block_by(a, block, x, y, kind, kWarpDense, &strip);
       } else {
-        inside += warp_tile_by(a, tile, x, y, kind, kWarpSparse, &strip);
+        inside += warp_block_by(a, block, x, y, kind, kWarpSparse, &strip);
       }
     }
   return inside;

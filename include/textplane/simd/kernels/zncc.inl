@@ -1,4 +1,4 @@
-// Body of simd/zncc.hpp.
+// The kernel of simd/zncc.hpp. Include before: residual/template_model.inl.
 
 TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
   simd::ResidualArgs a = z.base;

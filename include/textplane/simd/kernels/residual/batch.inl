@@ -1,0 +1,266 @@
+// Sums of simd/batch.hpp: one object a lane, sums in registers, a loop over the pixels. Include before: residual/batch_sample.inl.
+
+// Three rows from `row` on: their sums over the pixels, and their sums times the target's intensity.
+TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf* sum, vf* product) noexcept {
+  vf s0 = zero(), s1 = s0, s2 = s0, p0 = s0, p1 = s0, p2 = s0;
+  for (int k = 0; k < n; ++k) {
+    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf i = hold(load(p + kBatchTarget * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
+    s0 = add(s0, a);
+    s1 = add(s1, b);
+    s2 = add(s2, c);
+    p0 = madd(i, a, p0);
+    p1 = madd(i, b, p1);
+    p2 = madd(i, c, p2);
+  }
+  sum[row] = s0;
+  sum[row + 1] = s1;
+  sum[row + 2] = s2;
+  product[row] = p0;
+  product[row + 1] = p1;
+  product[row + 2] = p2;
+}
+
+// Where H(r, c), r <= c, lies in the packed upper triangle.
+TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept {
+  return r * parameters - r * (r - 1) / 2 + c - r;
+}
+
+TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
+  store(out + entry * kBatchStep, value);
+}
+
+// Products of the rows row .. row + 2 among themselves and with r.
+TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
+                                        float* out) noexcept {
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
+  for (int k = 0; k < n; ++k) {
+    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
+    const vf r = hold(load(p + kBatchHost * kLanes));
+    s0 = madd(a, a, s0);
+    s1 = madd(a, b, s1);
+    s2 = madd(a, c, s2);
+    s3 = madd(b, b, s3);
+    s4 = madd(b, c, s4);
+    s5 = madd(c, c, s5);
+    b0 = madd(a, r, b0);
+    b1 = madd(b, r, b1);
+    b2 = madd(c, r, b2);
+  }
+  batch_put(out, batch_at(parameters, row, row), mul(scale, s0));
+  batch_put(out, batch_at(parameters, row, row + 1), mul(scale, s1));
+  batch_put(out, batch_at(parameters, row, row + 2), mul(scale, s2));
+  batch_put(out, batch_at(parameters, row + 1, row + 1), mul(scale, s3));
+  batch_put(out, batch_at(parameters, row + 1, row + 2), mul(scale, s4));
+  batch_put(out, batch_at(parameters, row + 2, row + 2), mul(scale, s5));
+  float* b_out = out + (parameters * (parameters + 1) / 2 + row) * kBatchStep;
+  batch_put(b_out, 0, mul(scale_b, b0));
+  batch_put(b_out, 1, mul(scale_b, b1));
+  batch_put(b_out, 2, mul(scale_b, b2));
+}
+
+// Products of the rows from `row` on with those from `column` on.
+TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int parameters, int row, int column, vf scale,
+                                       float* out) noexcept {
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
+  for (int k = 0; k < n; ++k) {
+    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
+    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)),
+             z = hold(load(p + (column + 2) * kLanes));
+    s0 = madd(a, x, s0);
+    s1 = madd(a, y, s1);
+    s2 = madd(a, z, s2);
+    s3 = madd(b, x, s3);
+    s4 = madd(b, y, s4);
+    s5 = madd(b, z, s5);
+    s6 = madd(c, x, s6);
+    s7 = madd(c, y, s7);
+    s8 = madd(c, z, s8);
+  }
+  const int r0 = batch_at(parameters, row, column), r1 = batch_at(parameters, row + 1, column);
+  const int r2 = batch_at(parameters, row + 2, column);
+  batch_put(out, r0, mul(scale, s0));
+  batch_put(out, r0 + 1, mul(scale, s1));
+  batch_put(out, r0 + 2, mul(scale, s2));
+  batch_put(out, r1, mul(scale, s3));
+  batch_put(out, r1 + 1, mul(scale, s4));
+  batch_put(out, r1 + 2, mul(scale, s5));
+  batch_put(out, r2, mul(scale, s6));
+  batch_put(out, r2 + 1, mul(scale, s7));
+  batch_put(out, r2 + 2, mul(scale, s8));
+}
+
+// Scratch: intensities become centred, sums of their squares.
+TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, vf host_mean, vf* target,
+                                        vf* host) noexcept {
+  vf t = zero(), h = zero();
+  for (int k = 0; k < n; ++k) {
+    float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf w = load(p + kBatchWeight * kLanes);
+    const vf a = mul(w, sub(load(p + kBatchTarget * kLanes), target_mean));
+    const vf b = mul(w, sub(load(p + kBatchHost * kLanes), host_mean));
+    store(p + kBatchTarget * kLanes, a);
+    store(p + kBatchHost * kLanes, b);
+    t = madd(a, a, t);
+    h = madd(b, b, h);
+  }
+  *target = t;
+  *host = h;
+}
+
+// The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i c). Costs.
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
+                                       vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
+  const vf limit = set1(delta), root_limit = sqrt_(limit);
+  vf c = zero(), s = zero();
+  for (int k = 0; k < n; ++k) {
+    float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf i = hold(load(p + kBatchTarget * kLanes)),
+             e = nmadd(i, target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
+    vf root = load(p + kBatchWeight * kLanes);
+    s = madd(e, e, s);
+    if (huber) {
+      const vf size = abs_(e), m = min_(size, limit);
+      c = madd(m, add(size, sub(size, m)), c);
+      root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
+    }
+    if (parameters == 0) continue;
+    store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);
+    for (int j = 0; j < parameters; j += 3) {
+      float* row = p + j * kLanes;
+      store(row, mul(root, nmadd(i, along[j], sub(load(row), mean[j]))));
+      store(row + kLanes, mul(root, nmadd(i, along[j + 1], sub(load(row + kLanes), mean[j + 1]))));
+      store(row + 2 * kLanes, mul(root, nmadd(i, along[j + 2], sub(load(row + 2 * kLanes), mean[j + 2]))));
+    }
+  }
+  *cost = huber ? c : s;
+  *error = s;
+}
+
+// One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with pixels.
+TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
+                                        const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
+  BatchStripMemory strip;
+  BatchCounts counts = {zero(), zero(), zero(), zero()};
+  bool whole = true;
+  for (int l = lane; l < lane + kLanes; ++l) whole = whole && f.whole[l] && f.n[l] == n;
+  const int stride = static_cast<int>(a.target.stride);
+  for (int k = 0; k < n; k += kBatchStrip) {
+    const int m = n - k < kBatchStrip ? n - k : kBatchStrip;
+    if (whole)
+      batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
+    else
+      batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
+    fetch_rows(a.target.data, a.target.stride, strip.offset, m * kLanes, strip.taps);
+    if (whole)
+      batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
+    else
+      batch_rows(a, f, lane, false, parameters, pixels, k, m, strip, a.scratch, &counts);
+  }
+  const vf one = set1(1.0F), inverse_n = div(one, max_(counts.visible, one)), root = sqrt_(counts.visible);
+  const vf target_mean = mul(counts.target, inverse_n), host_mean = mul(counts.host, inverse_n);
+  vf target, host, cost, error;
+  batch_centre(a.scratch, n, target_mean, host_mean, &target, &host);
+  const vf tiny = set1(1e-30F), target_s = sqrt_(target), host_s = sqrt_(host);
+  const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
+
+  // What rounding leaves of a constant side is no contrast either.
+  const vf least = mul(root, set1(static_cast<float>(a.min_contrast > 0 ? a.min_contrast : 0))), floor = set1(1e-6F);
+  const vm contrast = and_(and_(gt(target_s, least), gt(target_s, mul(root, mul(floor, abs_(target_mean))))),
+                           and_(gt(host_s, least), gt(host_s, mul(root, mul(floor, abs_(host_mean))))));
+  const vm enough = and_(ge(counts.visible, set1(static_cast<float>(a.min_visible))), ge(counts.visible, one));
+  const vm finite = lt(add(target, host), set1(3e38F));
+  const unsigned good = bits(and_(and_(contrast, enough), finite)), many = bits(enough), sane = bits(finite);
+  const unsigned none = bits(lt(counts.visible, one));
+  const unsigned behind = bits(ge(counts.behind, to_float(loadi(f.n + lane))));
+  const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
+  const bool easy = whole && (good & many) == all_lanes;
+  unsigned keep_lanes = easy ? all_lanes : 0;
+  for (int l = 0; l < lanes && !easy; ++l) {
+    if (status[l] != Status::ok) continue;
+    const unsigned bit = 1U << l;
+    if (!(many & bit))
+      status[l] = !(none & bit) ? Status::too_few : behind & bit ? Status::behind_camera : Status::out_of_view;
+    else if (!(sane & bit))
+      status[l] = Status::non_finite;
+    else if (!(good & bit))
+      status[l] = Status::no_contrast;
+    else
+      keep_lanes |= bit;
+  }
+
+  const int head = parameters * (parameters + 1) / 2 + parameters;
+  if (keep_lanes != 0) {
+    vf e[9], c[9];
+    if (parameters > 0) {
+      batch_means(a.scratch, n, 0, e, c);
+      batch_means(a.scratch, n, 3, e, c);
+      if (parameters > 6) batch_means(a.scratch, n, 6, e, c);
+      const vf square = div(one, max_(target, tiny));
+      for (int j = 0; j < parameters; ++j) {
+        e[j] = a.exact ? mul(e[j], inverse_n) : zero();
+        c[j] = a.exact ? mul(c[j], square) : zero();
+      }
+    }
+    const float delta = static_cast<float>(a.delta);
+    if (a.huber)
+      batch_weigh(a.scratch, n, parameters, true, delta, host_scale, target_scale, e, c, &cost, &error);
+    else
+      batch_weigh(a.scratch, n, parameters, false, 0.0F, host_scale, target_scale, e, c, &cost, &error);
+    if (parameters > 0) {
+      const vf inverse_s = div(one, max_(target_s, tiny)), scale = mul(inverse_s, inverse_s);
+      const vf scale_b = neg(div(inverse_s, max_(root, one)));
+      // Not a loop: with constants for rows, where things lie is known when this is compiled.
+      batch_square(a.scratch, n, parameters, 0, scale, scale_b, out);
+      batch_square(a.scratch, n, parameters, 3, scale, scale_b, out);
+      batch_cross(a.scratch, n, parameters, 0, 3, scale, out);
+      if (parameters > 6) {
+        batch_square(a.scratch, n, parameters, 6, scale, scale_b, out);
+        batch_cross(a.scratch, n, parameters, 0, 6, scale, out);
+        batch_cross(a.scratch, n, parameters, 3, 6, scale, out);
+      }
+    }
+    float* tail = out + head * kBatchStep;
+    batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
+    batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));
+    batch_put(tail, static_cast<int>(simd::BatchEntry::mean), target_mean);
+    batch_put(tail, static_cast<int>(simd::BatchEntry::s), target_s);
+  }
+  const int visible = head + static_cast<int>(simd::BatchEntry::visible);
+  batch_put(out, visible, counts.visible);
+  if (keep_lanes != all_lanes)
+    for (int l = 0; l < kLanes; ++l)
+      if (!(keep_lanes >> l & 1U))
+        for (int entry = 0; entry < visible; ++entry) out[entry * kBatchStep + l] = 0.0F;
+}
+
+TEXTPLANE_SIMD_INLINE void batch_any(const simd::BatchArgs& a, int parameters) noexcept {
+  const int entries = simd::batch_entries(parameters);
+  for (int group = 0, first = 0; first < a.count; ++group, first += kBatchStep) {
+    const int members = a.count - first < kBatchStep ? a.count - first : static_cast<int>(kBatchStep);
+    float* out = a.out + static_cast<std::ptrdiff_t>(group) * entries * kBatchStep;
+    BatchFrame frame;
+    batch_group(a, a.groups[group], first, members, &frame);
+    for (int lane = 0; lane < kBatchStep; lane += kLanes) {
+      int n = 0;
+      for (int l = lane; l < lane + kLanes; ++l) n = frame.n[l] > n ? frame.n[l] : n;
+      const int lanes = members - lane < kLanes ? members - lane : static_cast<int>(kLanes);
+      if (n == 0) {
+        for (int entry = 0; entry < entries; ++entry) batch_put(out + lane, entry, zero());
+        continue;
+      }
+      batch_vector(a, frame, lane, parameters, a.pixels + a.groups[group].start, n, a.status + first + lane, lanes,
+                   out + lane);
+    }
+  }
+}
+
+TEXTPLANE_SIMD_ENTRY void batch_evaluate(const simd::BatchArgs& a) noexcept { batch_any(a, 0); }
+TEXTPLANE_SIMD_ENTRY void batch_linearise_pose(const simd::BatchArgs& a) noexcept { batch_any(a, 6); }
+TEXTPLANE_SIMD_ENTRY void batch_linearise_pose_plane(const simd::BatchArgs& a) noexcept { batch_any(a, 9); }

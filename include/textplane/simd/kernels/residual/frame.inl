@@ -1,0 +1,96 @@
+// Geometry of one residual call, in double (simd/residual.hpp). Include before: kernels/sample.inl.
+
+TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
+
+// The corners of a square around the origin, as often as fill a vector.
+constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
+constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+
+// That the points (u, v) are in front of both cameras and project into the target, whose bounds are those of `sample`, with a
+// margin for what rounding does here and in the warp.
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
+  const float *g = f.warp.g, margin = 1e-3F;
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
+           y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
+  const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+  const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
+  const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
+  return all(and_(ahead, and_(across, down)));
+}
+
+// All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.
+TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
+                                      const simd::PointBounds& bounds) noexcept {
+  const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
+  bool inside = true;
+  for (int k = 0; k < 4; k += kLanes)
+    inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  return inside;
+}
+
+// False where float or H^-1 do not carry the case.
+TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                     ResidualFrame* f) noexcept {
+  // Plain locals: in arrays they would pass through memory.
+  const double p0 = a.theta[0], p1 = a.theta[1], p2 = a.theta[2], t0 = a.t[0], t1 = a.t[1], t2 = a.t[2];
+  const double h0 = a.R[0] + t0 * p0, h1 = a.R[1] + t0 * p1, h2 = a.R[2] + t0 * p2;
+  const double h3 = a.R[3] + t1 * p0, h4 = a.R[4] + t1 * p1, h5 = a.R[5] + t1 * p2;
+  const double h6 = a.R[6] + t2 * p0, h7 = a.R[7] + t2 * p1, h8 = a.R[8] + t2 * p2;
+
+  // Larger patches, and those with a position at infinity, float cannot centre. (A NaN compares false.)
+  const double wide = static_cast<double>(bounds.x_high) - static_cast<double>(bounds.x_low);
+  const double high = static_cast<double>(bounds.y_high) - static_cast<double>(bounds.y_low);
+  if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;
+  const float hx = middle_x(bounds), hy = middle_y(bounds);
+
+  // K_t H K_h^-1 as a function of u, v, and rho likewise; (mu, mv) is the ray where both are 0.
+  const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
+  const double mu = (hx - a.host_camera[2]) * ifx, mv = (hy - a.host_camera[3]) * ify;
+  const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
+  const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
+  const double G[9] = {fx * (h0 * ifx) + cx * s6,
+                       fx * (h1 * ify) + cx * s7,
+                       fx * (h0 * mu + h1 * mv + h2) + cx * s8,
+                       fy * (h3 * ifx) + cy * s6,
+                       fy * (h4 * ify) + cy * s7,
+                       fy * (h3 * mu + h4 * mv + h5) + cy * s8,
+                       s6,
+                       s7,
+                       s8};
+  if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
+  make_sample_frame(a.target, f->warp, &f->sample);
+  f->c = cx - f->warp.ox;
+  f->d = cy - f->warp.oy;
+  f->ifx = 1 / fx;
+  f->ify = 1 / fy;
+  const double r0 = p0 * ifx, r1 = p1 * ify, r2 = p2 + p0 * mu + p1 * mv;
+  f->rho[0] = static_cast<float>(r0);
+  f->rho[1] = static_cast<float>(r1);
+  f->rho[2] = static_cast<float>(r2);
+  if (!(abs_d(r0) < 1e30 && abs_d(r1) < 1e30 && abs_d(r2) < 1e30)) return false;
+
+  const double i0 = h4 * h8 - h5 * h7, i1 = h2 * h7 - h1 * h8, i2 = h1 * h5 - h2 * h4;
+  const double i3 = h5 * h6 - h3 * h8, i4 = h0 * h8 - h2 * h6, i5 = h2 * h3 - h0 * h5;
+  const double i6 = h3 * h7 - h4 * h6, i7 = h1 * h6 - h0 * h7, i8 = h0 * h4 - h1 * h3;
+  const double det = h0 * i0 + h1 * i3 + h2 * i6;
+  if (!(abs_d(det) > 1e-9)) return false;
+  const double idet = 1 / det;
+  f->inverse[0] = i0 * idet;
+  f->inverse[1] = i1 * idet;
+  f->inverse[2] = i2 * idet;
+  f->inverse[3] = i3 * idet;
+  f->inverse[4] = i4 * idet;
+  f->inverse[5] = i5 * idet;
+  f->inverse[6] = i6 * idet;
+  f->inverse[7] = i7 * idet;
+  f->inverse[8] = i8 * idet;
+  f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
+  f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
+  f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
+
+  f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
+  f->tiles.guess.likely = false;
+  return true;
+}

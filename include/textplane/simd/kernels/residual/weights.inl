@@ -1,0 +1,101 @@
+// Costs and weights of the residuals of many pixels. Include before: residual/centre.inl, residual/strip_sums.inl.
+
+// Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta, and up
+// to a whole vector some pixel; returns how many.
+struct CostSums {
+  vf squares, rho;
+};
+TEXTPLANE_SIMD_INLINE unsigned cost_vector(vf e, vf limit, CostSums* sums) noexcept {
+  const vf size = abs_(e), m = min_(size, limit);
+  sums->squares = madd(e, e, sums->squares);
+  sums->rho = madd(m, add(size, sub(size, m)), sums->rho);
+  return bits(gt(size, limit));
+}
+TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const Residual& r, bool huber, float delta,
+                                   std::int32_t* list, double* squares, double* rho) noexcept {
+  const vf limit = set1(huber ? delta : 3.0e38F), shift = set1(static_cast<float>(r.shift));
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  int listed = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums sums = {zero(), zero()};
+    // 64 pixels at a time: their outliers are the bits of a word.
+    for (int k = begin; k < end; k += 64) {
+      std::uint64_t word = 0;
+      if (end - k >= 64) {
+        for (int j = k; j < k + 64; j += kLanes) {
+          const vf e = madd(load(d + j), on_d, madd(load(i + j), on_i, shift));
+          word |= static_cast<std::uint64_t>(cost_vector(e, limit, &sums)) << (j - k);
+        }
+      } else {
+        for (int j = k; j < end; j += kLanes) {
+          const vf e = madd(load(d + j), on_d, madd(load(i + j), on_i, shift));
+          word |= static_cast<std::uint64_t>(cost_vector(keep(first_n(end - j), e), limit, &sums)) << (j - k);
+        }
+      }
+      if (!list) continue;
+      for (; word != 0; word &= word - 1) list[listed++] = k + lowest_bit(word);
+    }
+    *squares += hsum_d(sums.squares);
+    *rho += hsum_d(sums.rho);
+  }
+  if (list) storei(list + listed, seti(0));
+  return listed;
+}
+
+// n <= kStrip pixels that are given weights: coordinates, and gradient and factors times the root of the weight.
+struct WeightedStrip {
+  float x[kStrip], y[kStrip], a[kStrip], b[kStrip], p[kStrip], q[kStrip],
+      r[kStrip];  // p = 1, q = n, r = r, times the root
+};
+
+// Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is Huber's w, or
+// (complement) 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
+TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
+                                      const Residual& res, double root, float delta, bool complement, WeightedStrip* w,
+                                      double* sums) noexcept {
+  const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(delta);
+  const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
+  const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
+  for (int j = 0; j < n; j += kLanes) {
+    const std::int32_t* at = list ? list + j : nullptr;
+    const int k = begin + j;
+    const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
+    const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
+    const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
+    const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
+    const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
+    vf weight = div(complement ? sub(size, inner) : inner, least);
+    if (!complement) weight = select(gt(size, limit), weight, one);
+    if (n - j < kLanes) weight = keep(first_n(n - j), weight);
+    const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
+    const vf q = mul(p, nn), r = mul(p, rr);
+    store(w->x + j, x);
+    store(w->y + j, y);
+    store(w->a + j, mul(p, a));
+    store(w->b + j, mul(p, b));
+    store(w->p + j, p);
+    store(w->q + j, q);
+    store(w->r + j, r);
+    s0 = add(s0, weight);
+    s1 = madd(p, q, s1);
+    s2 = madd(q, q, s2);
+    s3 = madd(p, r, s3);
+    s4 = madd(q, r, s4);
+  }
+  sums[0] += hsum_d(s0);
+  sums[1] += hsum_d(s1);
+  sums[2] += hsum_d(s2);
+  sums[3] += hsum_d(s3);
+  sums[4] += hsum_d(s4);
+}
+
+// Sums of the rows with the factors p, q and r of the strip, one after the other.
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
+                                             float* acc) noexcept {
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
+  float* last = acc + 2 * form * kLanes;
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);  // twice the same, stored once more
+}

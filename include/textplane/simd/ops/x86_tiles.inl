@@ -1,0 +1,45 @@
+// Tiles of int16 cells, out of the operations of avx2 or avx512. Include before: these.
+
+TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16_t* y, int stride, int* out) noexcept {
+  const __m128i cx = _mm_loadu_si128(reinterpret_cast<const __m128i*>(x));
+  const __m128i cy = _mm_loadu_si128(reinterpret_cast<const __m128i*>(y)), by = _mm_set1_epi32(stride * 65536 + 1);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + 4), _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
+}
+
+// What a loop over tiles needs, made before it. The left-most and the top-most cells of groups are `left` and `top` cells away
+// from the first.
+struct TileVectors {
+  v16 left_ends, top_ends;
+  int left, top;
+  const std::uint8_t *upper, *middle, *lower;
+  std::ptrdiff_t stride;
+};
+TEXTPLANE_SIMD_INLINE TileVectors broadcast_tiles(const ImageTiles& w) noexcept {
+  TileVectors v;
+  v.left_ends = group_ends(w.guess.leftwards);
+  v.top_ends = group_ends(w.guess.upwards);
+  v.left = w.guess.leftwards ? 7 : 0;
+  v.top = w.guess.upwards ? 7 : 0;
+  v.upper = w.origin;
+  v.middle = w.origin + w.stride;
+  v.lower = v.middle + w.stride;
+  v.stride = w.stride;
+  return v;
+}
+
+// The pairs (I(x,y), I(x+1,y)) and (I(x,y+1), I(x+1,y+1)) of k16Lanes cells. Bit i of the result: tiles do not hold all of the
+// pixels 4 i .. 4 i + 3, whose pairs may be any.
+TEXTPLANE_SIMD_INLINE unsigned tile_pairs(const TileVectors& w, const std::int16_t* x, const std::int16_t* y,
+                                          v16* first, v16* second) noexcept {
+  const TilePlaces at = find_tiles(x + w.left, y + w.top, w.stride);
+  const v16 cx = load_cells(x), cy = load_cells(y);
+  const v16 px = sub16(cx, pick_bytes(cx, w.left_ends)), py = sub16(cy, pick_bytes(cy, w.top_ends)),
+            picks = pair_picks(px);
+  const v16 upper = pick_bytes(load_tile_rows(w.upper, at), picks);
+  const v16 middle = pick_bytes(load_tile_rows(w.middle, at), picks);
+  const v16 lower = pick_bytes(load_tile_rows(w.lower, at), picks);
+  *first = choose16(py, upper, middle);
+  *second = choose16(py, middle, lower);
+  return any_of_four(or16(saturated_sub16(px, 14), saturated_sub16(py, 1)));
+}
