@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "textplane/geometry/quad_projection.hpp"
+
 namespace planar {
 
 namespace {

@@ -17,6 +17,7 @@
 #include "planar/appearance.hpp"
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/homography.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 #include "textplane/solver/gauss_newton.hpp"
 #include "textplane/solver/search.hpp"
 

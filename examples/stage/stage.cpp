@@ -9,7 +9,7 @@
 #include "renderer/sign_plate.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
-#include "textplane/geometry/quad.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 
 namespace textslam {
 

@@ -14,7 +14,9 @@
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/plane_fit.hpp"
+#include "textplane/geometry/plane_fit_result.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 #include "textplane/geometry/triangulate.hpp"
 
 #include "textplane/photometry/blur.hpp"

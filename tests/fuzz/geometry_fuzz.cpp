@@ -7,6 +7,7 @@
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/plane_fit.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 #include "textplane/geometry/triangulate.hpp"
 
 namespace textplane_fuzz {

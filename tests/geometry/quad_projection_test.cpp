@@ -1,5 +1,5 @@
 // Quads of a plane as other cameras and pyramid levels have them.
-#include "textplane/geometry/quad.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,20 @@
 #include <cstddef>
 
 #include "geometry/quad_support.hpp"
+
+namespace tp = textplane;
+using textplane_test::Dual;
+
+#define TEXTPLANE_INSTANTIATE(S)                                                                            \
+  template tp::Status tp::transform<S>(const tp::Quad<S>&, const tp::Matrix3<S>&, tp::Quad<S>*);            \
+  template tp::Status tp::project_quad<S>(const tp::Quad<S>&, const tp::Pinhole<S>&, const tp::Vector3<S>&, \
+                                          const tp::SE3<S>&, const tp::Pinhole<S>&, tp::Quad<S>*);          \
+  template tp::Status tp::quad_points<S>(const tp::Quad<S>&, const tp::Pinhole<S>&, const tp::Vector3<S>&,  \
+                                         std::array<tp::Vector3<S>, 4>*);
+TEXTPLANE_INSTANTIATE(float)
+TEXTPLANE_INSTANTIATE(double)
+TEXTPLANE_INSTANTIATE(Dual<2>)
+#undef TEXTPLANE_INSTANTIATE
 
 namespace quad_test {
 

@@ -50,6 +50,21 @@ inline Quad random_convex(Random& random, Vector2d centre, double radius) {
   return q;
 }
 
+inline Quad reversed(const Quad& q) { return make_quad(q.corner[0], q.corner[3], q.corner[2], q.corner[1]); }
+inline Quad rotated(const Quad& q, std::size_t by) {
+  return make_quad(q.corner[by % 4], q.corner[(by + 1) % 4], q.corner[(by + 2) % 4], q.corner[(by + 3) % 4]);
+}
+
+// Whether p lies in q, by the winding of angles: independent of clipping.
+inline bool inside_by_angles(const Quad& q, const Vector2d& p) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector2d a = q.corner[i] - p, b = q.corner[(i + 1) % 4] - p;
+    sum += std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+  }
+  return std::abs(sum) > 3.14;
+}
+
 }  // namespace quad_test
 
 #endif  // TEXTPLANE_TESTS_GEOMETRY_QUAD_SUPPORT_HPP

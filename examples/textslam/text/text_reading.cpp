@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "textplane/geometry/plane.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 #include "textplane/photometry/sample.hpp"
 #include "textslam/text/text_words.hpp"
 

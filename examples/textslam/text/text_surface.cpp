@@ -6,6 +6,7 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 #include "textslam/common/statistics.hpp"
 
 namespace textslam {

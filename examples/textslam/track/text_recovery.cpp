@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "textplane/geometry/quad.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/search.hpp"
 #include "textslam/track/planar_pose.hpp"

@@ -1,7 +1,7 @@
 // theta (see plane.hpp) fitted to inverse depths, to matches of two views of known pose, and to points.
 //
 // The fits solve 3 x 3 systems by this library's own Cholesky, report rank, condition and covariance, and divide by no
-// coordinate. float input is summed in double. Outliers are the caller's: run RANSAC outside.
+// coordinate. float input is summed in double. Outliers are not handled: run RANSAC outside.
 #ifndef TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 
@@ -12,93 +12,9 @@
 
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/se3.hpp"
-#include "textplane/core/status.hpp"
+#include "textplane/geometry/plane_fit_result.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
-
-/// A fitted plane. `value` is usable where is_ok(status); with behind_camera it holds the algebraic solution, else
-/// zero.
-template <class S>
-struct PlaneFit {
-  /// Of the numbers.
-  using Scalar = S;
-  Vector3<S> value = Vector3<S>::Zero();  ///< theta in the host frame.
-  /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative
-  /// ones) multiply it by sigma^2. Zero unless rank is 3.
-  Matrix3<S> covariance = Matrix3<S>::Zero();
-  int rank = 0;                                 ///< Of the weighted design matrix (0 to 3).
-  S condition = std::numeric_limits<S>::max();  ///< Its largest over smallest singular value; max() unless rank is 3.
-  S sigma = S(0);                               ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
-  /// Whether `value` can be used.
-  Status status = Status::too_few;
-};
-
-namespace detail {
-
-/// Normal equations A theta = b of rows that are multiples of m~^T.
-template <class W>
-struct PlaneSums {
-  Matrix3<W> A = Matrix3<W>::Zero();
-  Vector3<W> b = Vector3<W>::Zero();
-
-  void add(const Vector3<W>& m, const W& weight, const W& rhs) noexcept {
-    const Vector3<W> wm = weight * m;
-    A += wm * m.transpose();
-    b += rhs * m;
-  }
-};
-
-/// An eigenvalue below this ratio to the largest is rounding: of the input, or of the sums.
-template <class S>
-Wide<S> rank_ratio() noexcept {
-  using W = Wide<S>;
-  const W input = W(16) * W(std::numeric_limits<S>::epsilon()), sums = W(64) * std::numeric_limits<W>::epsilon();
-  return input * input > sums ? input * input : sums;
-}
-
-/// Rank and condition of a design matrix from its 3 x 3 normal matrix, for input rounded to S and sums in Wide<S>.
-template <class S>
-void set_rank(const Matrix3<Wide<S>>& A, PlaneFit<S>* fit) noexcept {
-  using std::sqrt;
-  using W = Wide<S>;
-  const auto e = symmetric_eigen<W, 3>(A);
-  const W ratio = rank_ratio<S>();
-  fit->rank = 0;
-  if (!all_finite(e.values) || !(e.values[2] > W(0))) return;
-  for (int i = 0; i < 3; ++i) fit->rank += e.values[i] > ratio * e.values[2] ? 1 : 0;
-  if (fit->rank == 3) fit->condition = S(sqrt(e.values[2] / e.values[0]));
-}
-
-/// weight[i], or 1; status of the weight in *status.
-template <class S>
-Wide<S> plane_weight(const S* weight, int i, Status* status) noexcept {
-  if (!weight) return Wide<S>(1);
-  if (!is_finite(weight[i]))
-    *status = Status::non_finite;
-  else if (weight[i] < S(0))
-    *status = Status::invalid_argument;
-  return Wide<S>(weight[i]);
-}
-
-/// The covariance scale * information^-1; false where the numbers left the range of S.
-template <class S>
-bool set_covariance(const Ldlt<Wide<S>, 3>& information, const Wide<S>& scale, PlaneFit<S>* fit) noexcept {
-  const Matrix3<Wide<S>> c = information.inverse();
-  fit->covariance = ((c + c.transpose()) * (scale / Wide<S>(2))).template cast<S>();
-  return all_finite(fit->covariance) && all_finite(fit->value) && is_finite(fit->sigma);
-}
-
-template <class S>
-PlaneFit<S> with_status(PlaneFit<S> fit, Status status) noexcept {
-  fit.status = status;
-  return fit;
-}
-template <class S>
-PlaneFit<S> failed_plane(Status status) noexcept {
-  return with_status(PlaneFit<S>(), status);
-}
-
-}  // namespace detail
 
 /// theta from n >= 3 inverse depths: weighted least squares of m~_i^T theta = rho_i (docs/equations.md).
 ///
@@ -148,6 +64,39 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
   return fit;
 }
 
+namespace detail {
+
+/// A Gauss-Newton step of plane_from_matches(): normal equations of theta's increment, chi^2 and the largest squared parallax.
+template <class W>
+struct MatchSystem {
+  PlaneSums<W> sums;
+  W chi2 = W(0), parallax = W(0);
+};
+
+/// Reprojection error in the target at `theta`. False where a match is not in front of both cameras.
+template <class S, class W>
+bool match_system(const Vector3<S>* host_m, const Vector3<S>* target_m, const S* weight, int n, const SE3<W>& T,
+                  const Vector3<W>& theta, MatchSystem<W>* system) noexcept {
+  if (!all_finite(theta)) return false;
+  for (int i = 0; i < n; ++i) {
+    const W w = weight ? W(weight[i]) : W(1);
+    if (w == W(0)) continue;
+    const Vector3<W> m = host_m[i].template cast<W>(), mt = target_m[i].template cast<W>();
+    const W rho = theta.dot(m);
+    const Vector3<W> q = T.R * m + rho * T.t;
+    if (!(rho > W(0) && q[2] > W(0))) return false;
+    const W u = q[0] / q[2], v = q[1] / q[2], eu = u - mt[0], ev = v - mt[1];
+    const W du = (T.t[0] - u * T.t[2]) / q[2], dv = (T.t[1] - v * T.t[2]) / q[2];  // d (u, v) / d rho
+    system->sums.add(m, w * (du * du + dv * dv), -w * (du * eu + dv * ev));
+    system->chi2 += w * (eu * eu + ev * ev);
+    const W shift = (du * du + dv * dv) * rho * rho;
+    if (shift > system->parallax) system->parallax = shift;
+  }
+  return true;
+}
+
+}  // namespace detail
+
 /// theta from n >= 3 matches between two views of known relative pose (paper, eq. 5; docs/equations.md).
 ///
 /// The linear system [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i gives the start; up to three Gauss-Newton steps on the
@@ -188,48 +137,29 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
 
   Vector3<W> theta = start.solve(linear.b), previous = theta;
   const W epsilon = std::numeric_limits<W>::epsilon(), rounding = weight_sum * (W(64) * epsilon) * (W(64) * epsilon);
-  W chi2 = std::numeric_limits<W>::max(), parallax = W(0);
-  Matrix3<W> information = linear.A;
+  detail::MatchSystem<W> system;
   fit.status = Status::behind_camera;
   for (int step = 0;; ++step) {
-    detail::PlaneSums<W> sums;
-    W trial_chi2 = W(0), trial_parallax = W(0);
-    bool in_front = all_finite(theta);
-    for (int i = 0; i < n && in_front; ++i) {
-      const W w = weight ? W(weight[i]) : W(1);
-      if (w == W(0)) continue;
-      const Vector3<W> m = host_m[i].template cast<W>(), mt = target_m[i].template cast<W>();
-      const W rho = theta.dot(m);
-      const Vector3<W> q = T.R * m + rho * T.t;
-      in_front = rho > W(0) && q[2] > W(0);
-      if (!in_front) break;
-      const W u = q[0] / q[2], v = q[1] / q[2], eu = u - mt[0], ev = v - mt[1];
-      const W du = (T.t[0] - u * T.t[2]) / q[2], dv = (T.t[1] - v * T.t[2]) / q[2];  // d (u, v) / d rho
-      sums.add(m, w * (du * du + dv * dv), -w * (du * eu + dv * ev));
-      trial_chi2 += w * (eu * eu + ev * ev);
-      const W shift = (du * du + dv * dv) * rho * rho;
-      if (shift > trial_parallax) trial_parallax = shift;
-    }
-    const bool better = in_front && is_finite(trial_chi2) && (step == 0 || trial_chi2 <= chi2 + rounding);
+    detail::MatchSystem<W> trial;
+    const bool in_front = detail::match_system(host_m, target_m, weight, n, T, theta, &trial);
+    const bool better = in_front && is_finite(trial.chi2) && (step == 0 || trial.chi2 <= system.chi2 + rounding);
     if (!better) {
       theta = previous;
       break;
     }
     fit.status = Status::ok;
-    chi2 = trial_chi2;
-    parallax = trial_parallax;
-    information = sums.A;
-    const Ldlt<W, 3> ldlt(sums.A);
+    system = trial;
+    const Ldlt<W, 3> ldlt(system.sums.A);
     if (step == 3 || !ldlt.ok()) break;
     previous = theta;
-    theta += ldlt.solve(sums.b);
+    theta += ldlt.solve(system.sums.b);
   }
   if (!all_finite(theta)) return detail::failed_plane<S>(Status::non_finite);
   fit.value = theta.template cast<S>();
   if (fit.status != Status::ok) return fit;
   const W smallest = W(64) * W(std::numeric_limits<S>::epsilon());
-  const Ldlt<W, 3> ldlt(information);
-  if (!(parallax > smallest * smallest))
+  const Ldlt<W, 3> ldlt(system.sums.A);
+  if (!(system.parallax > smallest * smallest))
     fit.status = Status::degenerate;
   else if (!ldlt.ok())
     fit.status = Status::rank_deficient;
@@ -237,7 +167,7 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
     fit.value.setZero();
     return fit;
   }
-  if (chi2 > W(0)) fit.sigma = S(sqrt(chi2 / W(2 * used - 3)));
+  if (system.chi2 > W(0)) fit.sigma = S(sqrt(system.chi2 / W(2 * used - 3)));
   if (!detail::set_covariance(ldlt, W(1), &fit)) return detail::failed_plane<S>(Status::non_finite);
   return fit;
 }
@@ -278,7 +208,7 @@ PlaneFit<S> plane_from_points(const Vector3<S>* p, int n,
   }
   const auto e = symmetric_eigen<W, 3>(scatter);
   const Ldlt<W, 3> ldlt(sums.A);
-  const W rounding = detail::rank_ratio<S>() * sums.A.trace();  // points are rounded to their size, not to their spread
+  const W rounding = detail::rank_ratio<S>() * sums.A.trace();  // of the coordinates, not of their differences
   if (!(e.values[1] > rounding)) {
     fit.rank = fit.rank < 2 ? fit.rank : 2;
     fit.condition = std::numeric_limits<S>::max();
@@ -308,8 +238,7 @@ template <class Points>
 using PointScalar = typename std::decay_t<decltype(*std::declval<const Points&>().data())>::Scalar;
 }  // namespace detail
 
-/// Container forms of the three fits. Containers of different sizes give invalid_argument. Weights go by the pointer
-/// forms.
+/// The three fits of containers, without weights. Containers of different sizes give invalid_argument.
 template <class Points, class Depths, class S = detail::PointScalar<Points>>
 PlaneFit<S> plane_from_inverse_depths(const Points& m, const Depths& rho) noexcept {
   if (m.size() != rho.size()) return detail::failed_plane<S>(Status::invalid_argument);

@@ -1,7 +1,7 @@
-// Convex quadrilaterals in an image: area, inside, intersection, clipping, and their image under a homography.
+// Convex quadrilaterals in an image: area, inside, hull, intersection, clipping, overlap and pyramid levels.
 //
 // Corners run clockwise on the screen (x right, y down) from the top left of the text, in px unless said otherwise. No
-// function allocates; NaN gives zero areas, empty polygons and `false`, never a NaN that looks like an answer.
+// function allocates; NaN gives zero areas, empty polygons and `false`.
 #ifndef TEXTPLANE_GEOMETRY_QUAD_HPP
 #define TEXTPLANE_GEOMETRY_QUAD_HPP
 
@@ -10,19 +10,13 @@
 #include <cstddef>
 #include <limits>
 
-#include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/numeric.hpp"
-#include "textplane/core/se3.hpp"
-#include "textplane/core/status.hpp"
-#include "textplane/geometry/homography.hpp"
-#include "textplane/geometry/plane.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Four corners, clockwise from the text's top left.
+/// Four corners, clockwise from the text's top left, px or normalised.
 template <class S>
 struct Quad {
-  /// Clockwise from the text's top left, px or normalised.
   std::array<Vector2<S>, 4> corner{Vector2<S>::Zero(), Vector2<S>::Zero(), Vector2<S>::Zero(), Vector2<S>::Zero()};
 
   /// The same of another scalar.
@@ -46,8 +40,7 @@ bool all_finite(const Quad<S>& quad) noexcept {
 template <class S>
 class ConvexPolygon {
  public:
-  /// Most vertices that it holds.
-  static constexpr int kCapacity = 16;
+  static constexpr int kCapacity = 16;  ///< Most vertices that it holds.
 
   /// Number of vertices.
   int size() const noexcept { return size_; }
@@ -55,9 +48,9 @@ class ConvexPolygon {
   bool empty() const noexcept { return size_ == 0; }
   /// Vertex i, not checked.
   const Vector2<S>& operator[](int i) const noexcept { return vertex_[static_cast<std::size_t>(i)]; }
-  /// Takes all vertices out.
+  /// Removes all vertices.
   void clear() noexcept { size_ = 0; }
-  /// Appends a vertex; one that finds the polygon full is dropped.
+  /// Appends a vertex; drops it where the polygon is full.
   void push(const Vector2<S>& p) noexcept {
     if (size_ < kCapacity) vertex_[static_cast<std::size_t>(size_++)] = p;
   }
@@ -80,7 +73,7 @@ template <class S>
 S turn(const Vector2<S>& a, const Vector2<S>& b, const Vector2<S>& c) noexcept {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
-/// turn(), with zero for what the rounding of the coordinates alone can explain.
+/// turn(), or zero where it is within the rounding error of the coordinates.
 template <class S>
 S significant_turn(const Vector2<S>& a, const Vector2<S>& b, const Vector2<S>& c) noexcept {
   using std::abs;
@@ -178,8 +171,8 @@ bool inside_image(const Quad<S>& quad, int width, int height, const S& margin = 
   return true;
 }
 
-/// Convex hull of the four corners, clockwise: the quad itself where it is convex. A detector's quad that is slightly
-/// concave or crosses itself is so made usable. Empty where it has no area or a corner is not finite.
+/// Convex hull of the four corners, clockwise: the quad itself where it is convex. It repairs a detector's quad that is
+/// slightly concave or crosses itself. Empty where it has no area or a corner is not finite.
 template <class S>
 ConvexPolygon<S> convex_hull(const Quad<S>& quad) noexcept {
   ConvexPolygon<S> hull;
@@ -257,7 +250,7 @@ S iou(const Quad<S>& a, const Quad<S>& b) noexcept {
   const S area_a = area(ha), area_b = area(hb), smaller = area_b < area_a ? area_b : area_a;
   S common = area(intersection(ha, hb));
   if (!(common > S(0))) return S(0);
-  if (common > smaller) common = smaller;  // by rounding, where they are slivers
+  if (common > smaller) common = smaller;  // rounding of slivers
   return common / (area_a + area_b - common);
 }
 
@@ -281,52 +274,6 @@ Quad<S> quad_to_level(const Quad<S>& quad, int level) noexcept {
   Quad<S> out;
   for (std::size_t i = 0; i < 4; ++i) out.corner[i] = point_to_level(quad.corner[i], level);
   return out;
-}
-
-/// The quad under a homography of its coordinates. Status of warp() where a corner fails; *out is then untouched.
-template <class S>
-Status transform(const Quad<S>& quad, const Matrix3<S>& H, Quad<S>* out) noexcept {
-  Quad<S> warped;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Status status = warp<S>(H, {quad.corner[i][0], quad.corner[i][1], S(1)}, &warped.corner[i]);
-    if (!is_ok(status)) return status;
-  }
-  *out = warped;
-  return Status::ok;
-}
-
-/// Where the plane carries a host quad (px) in the target (px). All corners must lie in front of both cameras, else
-/// behind_camera; non_finite for NaN or overflow; invalid_argument for a host camera without focal length; *out is then
-/// untouched. Whether they fall inside the target image is not checked.
-template <class S>
-Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta, const SE3<S>& T_t_h,
-                    const Pinhole<S>& target, Quad<S>* out) noexcept {
-  if (host.fx == S(0) || host.fy == S(0)) return Status::invalid_argument;
-  Quad<S> projected;
-  for (std::size_t i = 0; i < 4; ++i) {
-    Vector2<S> m;
-    const Status status = warp_point<S>(theta, T_t_h, host.unproject(quad.corner[i]), &m);
-    if (!is_ok(status)) return status;
-    projected.corner[i] = target.pixel(m);
-    if (!all_finite(projected.corner[i])) return Status::non_finite;
-  }
-  *out = projected;
-  return Status::ok;
-}
-
-/// The four corners (px) on the plane, in the host frame. behind_camera or non_finite as plane_point(), invalid_argument for a
-/// host camera without focal length; *out untouched.
-template <class S>
-Status quad_points(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta,
-                   std::array<Vector3<S>, 4>* out) noexcept {
-  if (host.fx == S(0) || host.fy == S(0)) return Status::invalid_argument;
-  std::array<Vector3<S>, 4> p;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Status status = plane_point<S>(theta, host.unproject(quad.corner[i]), &p[i]);
-    if (!is_ok(status)) return status;
-  }
-  *out = p;
-  return Status::ok;
 }
 
 TEXTPLANE_END_NAMESPACE

@@ -61,9 +61,9 @@ bool point_system(const View& view, int n, const Vector3<W>& p, PointSystem<W>* 
   return is_finite(system->cost);
 }
 
+/// The point nearest to all rays. degenerate where they are parallel or have one centre, to rounding.
 template <class W, class View>
-Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3<W>* point,
-                        Matrix3<W>* covariance) noexcept {
+Status nearest_to_rays(const View& view, int n, const W& input_epsilon, Vector3<W>* point) noexcept {
   Matrix3<W> A = Matrix3<W>::Zero();
   Vector3<W> b = Vector3<W>::Zero(), first_centre = b, first_ray = b;
   W sine2 = W(0), baseline2 = W(0), extent2 = W(0);
@@ -93,9 +93,17 @@ Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3
   if (!(sine2 > tolerance * tolerance) || !(baseline2 > tolerance * tolerance * extent2)) return Status::degenerate;
   const Ldlt<W, 3> start(A);
   if (!start.ok()) return Status::degenerate;
-  Vector3<W> p = start.solve(b);
+  *point = start.solve(b);
+  return all_finite(*point) ? Status::ok : Status::non_finite;
+}
+
+template <class W, class View>
+Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3<W>* point,
+                        Matrix3<W>* covariance) noexcept {
+  Vector3<W> p;
+  const Status start = nearest_to_rays(view, n, input_epsilon, &p);
+  if (!is_ok(start)) return start;
   PointSystem<W> system;
-  if (!all_finite(p)) return Status::non_finite;
   if (!point_system(view, n, p, &system)) return Status::behind_camera;
 
   const W epsilon = std::numeric_limits<W>::epsilon();
@@ -107,7 +115,7 @@ Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3
     if (!ldlt.ok()) return Status::degenerate;
     const Vector3<W> step = ldlt.solve(system.b);
     PointSystem<W> trial;
-    // Near the optimum the cost is all rounding: a step that changes it by no more than that is taken.
+    // Near the optimum the cost is a rounding error: a step that raises it by no more than that is accepted.
     const W rounding = W(64) * epsilon * (system.cost + W(64) * epsilon);
     const bool accepted = point_system<W>(view, n, p + step, &trial) && trial.cost <= system.cost + rounding;
     if (accepted) {
