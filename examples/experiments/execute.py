@@ -1,7 +1,7 @@
-"""Runs cases and keeps what they gave: OUTPUT/runs/<case>/<mode>/result.json beside the files of textslam.
+"""Runs cases and keeps their results: OUTPUT/runs/<case>/<mode>/result.json beside the files of textslam.
 
-A result is kept as long as the program and the arguments that made it are the same; a run that was broken off has none and
-is done again. Runs that fail are results, too.
+A result counts as long as its program and arguments stay the same. An interrupted run has none and runs again. A failed
+run is a result too.
 """
 import concurrent.futures
 import hashlib
@@ -30,14 +30,15 @@ def fingerprint(program):
 
 
 def call(command):
-    """Exit code, the last line of standard error, wall and CPU seconds of the command alone; KeyboardInterrupt where it was interrupted."""
+    """Exit code, the last line of standard error, wall and CPU seconds of the command. Raises KeyboardInterrupt if it
+    was interrupted."""
     start = time.monotonic()
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     errors = process.stderr.read().decode("utf-8", "replace").strip().splitlines()
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode in INTERRUPTED:
-        raise KeyboardInterrupt  # by whoever stopped us: not a result
+        raise KeyboardInterrupt  # stopped from outside: not a result
     return {
         "code": process.returncode,
         "error": errors[-1] if errors else "",
@@ -67,7 +68,7 @@ class Runner:
         return {"program": self.program, "arguments": source + ["--mode", mode]}
 
     def result(self, case, mode):
-        """What the run gave, or None where there is none of this program and these arguments."""
+        """The result of the run, or None if there is none of this program and these arguments."""
         result = load(self.folder(case, mode) / "result.json")
         return result if result and result.get("key") == self.key(case, mode) else None
 
@@ -76,7 +77,7 @@ class Runner:
         return result is not None and (result["code"] == 0 or not self.retry_failed)
 
     def run_case(self, case):
-        """Whatever of the case is not finished; its frames are gone afterwards, unless they are to be kept."""
+        """Runs the unfinished modes of the case, and deletes its frames afterwards unless they are to be kept."""
         missing = [mode for mode in MODES if not self.is_finished(case, mode)]
         if not missing:
             return
@@ -90,7 +91,7 @@ class Runner:
                 shutil.rmtree(scratch, ignore_errors=True)
 
     def render(self, case, folder):
-        """What call() says of the rendering; None where the frames of an earlier time serve."""
+        """What call() returns for the rendering; None if kept frames serve."""
         arguments, note = " ".join(case.arguments), folder / "rendered.txt"
         if self.keep_frames and note.exists() and note.read_text(encoding="utf-8") == arguments:
             return None
@@ -131,7 +132,7 @@ class Runner:
 
 
 def seconds_of(timing):
-    """Seconds of tracking and mapping, all frames; None without timings."""
+    """Seconds of tracking and mapping of all frames; None without timings."""
     if not timing:
         return None
     return sum(frame["tracking"] + frame["mapping"] for frame in timing["frames"]) / 1000

@@ -6,7 +6,7 @@ ANGLE_BINS = (0.25, 0.5, 1, 2, 5, 10)  # degrees; upper ends, as in textslam-eva
 
 
 def quantile(values, share):
-    """Interpolated between the values next to it in order, as in metrics.json; None of nothing."""
+    """Interpolated between the neighbouring values, as in metrics.json; None if there are no values."""
     if not values:
         return None
     ordered = sorted(values)
@@ -25,7 +25,7 @@ def has_truth(result):
 
 
 def failure(result):
-    """Why the run counts as failed, in a few words; None where it does not."""
+    """Why the run counts as failed, in a few words; None if it does not."""
     if result["code"] != 0:
         return f"exit code {result['code']}: {result['error']}"
     metrics = result["metrics"]
@@ -45,7 +45,7 @@ def failure(result):
 
 
 def trajectory_value(result, name, live=False):
-    """A number of the trajectory's errors; None where the run failed or there is no truth."""
+    """One of the trajectory's errors; None if the run failed or there is no truth."""
     if failure(result) or not has_truth(result):
         return None
     errors = result["metrics"]["trajectory_live" if live else "trajectory"]
@@ -68,18 +68,18 @@ def centres(results):
 
 
 def signs_visible(result):
-    """How many true signs the sequence shows; None where the run does not tell."""
+    """How many true signs the sequence shows; None if the run does not say."""
     known = result and result["metrics"] and "text" in result["metrics"]
     return result["metrics"]["text"]["signs_visible"] if known else None
 
 
 def text_count(result, name):
-    """Of signs mapped or false texts; a run that failed has none."""
+    """How many signs were mapped, or texts are false; 0 for a failed run."""
     return 0 if failure(result) or "text" not in result["metrics"] else result["metrics"]["text"][name]
 
 
 def histogram(values):
-    """How many values up to each of ANGLE_BINS, and above the last."""
+    """How many values lie up to each of ANGLE_BINS, and above the last."""
     counts = [0] * (len(ANGLE_BINS) + 1)
     for value in values:
         counts[next((i for i, end in enumerate(ANGLE_BINS) if value <= end), len(ANGLE_BINS))] += 1

@@ -1,14 +1,14 @@
-"""What is run: cases (a rendered sequence or one given, by name) and the modes on each.
+"""What runs: cases, which are rendered sequences or a given one, and the modes on each.
 
-A case is rendered once and run in every mode, so that the modes meet the same images and detections.
+A case is rendered once and runs in every mode, so that all modes see the same images and detections.
 """
 MODES = ("text", "points", "loose")
 KINDS = ("room", "corridor", "rapid", "lights", "sparse", "loop", "notext")
 SEEDS = (1, 2, 3)
-# First frames of the runs on a real sequence: there is one of it, and where it begins changes every number by chance.
+# First frames of the runs on a real sequence. There is only one, and its first frame changes every number by chance.
 STARTS = (0, 3, 6, 9, 12, 15, 18, 21)
 
-# Sweeps vary one condition of the room; each: the option of textslam, its unit, and the values.
+# A sweep varies one condition of the room: the option of textslam, its unit, and the values.
 SWEEPS = {
     "blur": ("--blur", "px of motion blur", (0, 2, 4, 8, 12, 16, 20, 25, 30)),
     "gain": ("--gain", "gain of the sensor", (0.3, 0.5, 0.75, 1, 1.25, 1.5, 2)),
@@ -22,8 +22,8 @@ SWEEP_SEED = 1
 
 
 class Case:
-    """name: its folder in the output; group: `kinds`, `sequence` or a sweep's name; value: of the sweep. arguments: of the
-    rendering, or of every run on a given sequence."""
+    """name: the folder in the output. group: `kinds`, `sequence` or the sweep's name. value: of the sweep. arguments:
+    of the rendering, or of every run on a given sequence."""
 
     def __init__(self, name, group, kind, arguments=(), seed=None, value=None, sequence=None):
         self.name, self.group, self.kind = name, group, kind
@@ -31,7 +31,8 @@ class Case:
 
 
 def cases(kinds, seeds, sweeps, frames, sequence):
-    """The cases asked for, in the order of the report. `frames`: None for each kind's own. `sequence`: the path of a folder, or None."""
+    """The wanted cases, in the order of the report. frames: None for each kind's own length. sequence: a folder, or
+    None."""
     length = ["--frames", str(frames)] if frames else []
     out = []
     for kind in kinds:

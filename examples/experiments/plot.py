@@ -1,11 +1,11 @@
-"""A sweep as SVG: ATE and angle error over the swept value, a line a mode; a cross above where the run failed."""
+"""A sweep as SVG: ATE and angle error over the swept value, one line a mode; a cross at the top marks a failed run."""
 import math
 from html import escape
 
 WIDTH, HEIGHT = 420, 260  # of a panel
 LEFT, RIGHT, TOP, BOTTOM = 58, 14, 30, 44
 COLOURS = {"text": "#1f5fbf", "points": "#8a8a8a", "loose": "#d9731a"}
-DASHES = {"loose": ' stroke-dasharray="7 6"'}  # poses of modes loose and points are the same: both show
+DASHES = {"loose": ' stroke-dasharray="7 6"'}  # loose and points have the same poses: both lines show
 
 
 def decades(values):
@@ -49,13 +49,15 @@ class Panel:
         colour, out, pen = COLOURS[mode], [], ""
         for x, y in line:
             if y is None:
-                out.append(f'<path d="M{self.x(x) - 4:.1f} {TOP - 4}l8 8m0 -8l-8 8" stroke="{colour}" stroke-width="2"/>')
+                cross = f"M{self.x(x) - 4:.1f} {TOP - 4}l8 8m0 -8l-8 8"
+                out.append(f'<path d="{cross}" stroke="{colour}" stroke-width="2"/>')
                 pen += " "
                 continue
             pen += ("L" if pen and pen[-1] != " " else "M") + f"{self.x(x):.1f} {self.y(y):.1f}"
             out.append(f'<circle cx="{self.x(x):.1f}" cy="{self.y(y):.1f}" r="3" fill="{colour}"/>')
         if pen.strip():
-            out.insert(0, f'<path d="{pen.strip()}" fill="none" stroke="{colour}" stroke-width="2"{DASHES.get(mode, "")}/>')
+            style = f'fill="none" stroke="{colour}" stroke-width="2"{DASHES.get(mode, "")}'
+            out.insert(0, f'<path d="{pen.strip()}" {style}/>')
         return out
 
 
@@ -63,12 +65,15 @@ def plot(x_label, panels):
     """panels: [(title, lines)], side by side."""
     drawn = [Panel(i * WIDTH, title, lines) for i, (title, lines) in enumerate(panels)]
     width = WIDTH * len(drawn)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {HEIGHT}" font-family="sans-serif" font-size="12">']
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {HEIGHT}" font-family="sans-serif" '
+           'font-size="12">']
     out.append(f'<rect width="{width}" height="{HEIGHT}" fill="white"/>')
     for panel in drawn:
         out += panel.draw()
-        out.append(f'<text x="{panel.left + (WIDTH + LEFT) / 2:.0f}" y="{HEIGHT - 8}" text-anchor="middle">{escape(x_label)}</text>')
+        middle = panel.left + (WIDTH + LEFT) / 2
+        out.append(f'<text x="{middle:.0f}" y="{HEIGHT - 8}" text-anchor="middle">{escape(x_label)}</text>')
     for i, (mode, colour) in enumerate(COLOURS.items()):
         x = width - RIGHT - 56 * (len(COLOURS) - i)
-        out.append(f'<rect x="{x}" y="9" width="10" height="10" fill="{colour}"/><text x="{x + 14}" y="18">{mode}</text>')
+        out.append(f'<rect x="{x}" y="9" width="10" height="10" fill="{colour}"/>'
+                   f'<text x="{x + 14}" y="18">{mode}</text>')
     return "\n".join(out + ["</svg>"]) + "\n"

@@ -194,9 +194,14 @@ lists it.
             return ""
         jobs = self.setting["jobs"]
         alone = "one run at a time" if jobs == 1 else f"{jobs} runs at a time, which slows each"
-        return (f"## Time\n\n{self.setting['cpu']}, one thread a run, {alone}. \"Frames a second\" counts tracking,\n"
-                'mapping and local adjustment. "CPU" is the whole program, with reading images, filling in and the last\n'
-                "adjustment.\n\n" + table(["sequence", "mode", "frames a second", "CPU ms a frame"], rows, 2))
+        head = ["sequence", "mode", "frames a second", "CPU ms a frame"]
+        return f"""## Time
+
+{self.setting['cpu']}, one thread a run, {alone}. "Frames a second" counts tracking,
+mapping and local adjustment. "CPU" is the whole program, with reading images, filling in and the last
+adjustment.
+
+""" + table(head, rows, 2)
 
     def sweep_cases(self, name):
         cases = [case for case in self.cases if case.group == name]
