@@ -3,8 +3,8 @@
 # The adjustment and the detector beside tracking, with the files that they need and no more: ThreadSanitizer takes a minute
 # for each.
 if(TEXTPLANE_TEST_TIER STREQUAL "threads")
-  set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread map/map map/point_mapper
-    text/text_plane text/text_words track/feature_tracks track/rotation_prior track/tracker)
+  set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread map/map map/observations
+    map/text_geometry map/text_words text/text_plane track/feature_tracks track/point_search track/rotation_prior track/track track/tracker)
   list(TRANSFORM alone REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/examples/textslam/\\1.cpp")
   add_executable(adjuster_alone_test textslam/adjust/adjuster_test.cpp textslam/detect/detection_thread_test.cpp ${alone})
   target_include_directories(adjuster_alone_test PRIVATE ${PROJECT_SOURCE_DIR}/examples)
@@ -26,6 +26,10 @@ textplane_add_tests(renderer LIBRARIES textplane_renderer TIERS first_look sanit
 textplane_add_tests(planar LIBRARIES textplane_textslam TIERS first_look sanitizers)
 textplane_add_tests(textslam LIBRARIES textplane_textslam TIERS first_look sanitizers EXCEPT
   sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms|LateDetections\\." first_look "LateDetections\\.")
+
+add_test(NAME examples.rooms COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/examples/textslam
+  -P ${CMAKE_CURRENT_SOURCE_DIR}/textslam/rooms.cmake)
+textplane_label(examples.rooms textslam first_look)
 
 # Tests that start a program, one executable a file: its tests share one rendered sequence, so they are one test for ctest, too.
 # textplane_add_program_test(NAME [TIER...])

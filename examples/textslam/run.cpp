@@ -9,7 +9,8 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "io/output_file.hpp"
-#include "textslam/common/thinned.hpp"
+#include "textslam/common/bounded_sampler.hpp"
+#include "textslam/common/clock.hpp"
 #include "textslam/detect/detection_thread.hpp"
 #include "textslam/detect/text_detector.hpp"
 #include "textslam/input/undistorter.hpp"
@@ -144,7 +145,7 @@ class Detections {
 
   FrameSource& source_;
   bool in_step_ = false;
-  Thinned<std::vector<Detection>> of_frames_{2 * kReportFrames};
+  BoundedSampler<std::vector<Detection>> of_frames_{2 * kReportFrames};
   std::unique_ptr<DetectionThread> thread_;
 };
 

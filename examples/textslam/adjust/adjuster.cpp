@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "textslam/track/tracker.hpp"
+#include "textslam/common/clock.hpp"
 
 namespace textslam {
 
@@ -12,7 +12,7 @@ Adjuster::~Adjuster() {
 
 void Adjuster::keyframe_added(Map& map) {
   // A map so young is adjusted at once: the frames to come rest on it.
-  if (map.keyframes.size() < 3) return adjust_all(map, parameters_, parameters_.window_iterations);
+  if (is_too_young(map)) return adjust_all(map, parameters_, parameters_.window_iterations);
   if (parameters_.real_time) {
     if (solved_.valid()) {
       waiting_ = true;

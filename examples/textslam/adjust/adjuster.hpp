@@ -1,11 +1,11 @@
 // Adjuster: the adjustment that follows a key frame, in step with the frames or on a thread of its own.
 //
-// It is one around the newest key frame, or, as often as the map has grown by a share, one of the whole map: what is fixed at
-// the rim of a local one keeps the errors of its time, and live poses inherit them.
+// It is a local one around the newest key frame, or, whenever the map has grown by a share, one of the whole map: the
+// key frames that a local one holds fixed keep their errors, and live poses inherit them.
 //
-// In step, the adjustment is done when keyframe_added() returns, and the same frames give the same bytes. On its own thread
-// the tracker goes on with the map as it is; the result is taken over between two frames, by collect(). A key frame that
-// comes while one is under way waits: the adjustment after it covers both.
+// In step, the adjustment is done when keyframe_added() returns, and the same frames give the same bytes. In real time
+// it runs on a thread of its own while the tracker goes on with the map as it is; collect() takes the result over
+// between two frames. A key frame that comes during an adjustment waits: the next adjustment covers both.
 //
 // Threads: all members are called from one thread, which alone touches the map.
 #ifndef TEXTSLAM_ADJUST_ADJUSTER_HPP

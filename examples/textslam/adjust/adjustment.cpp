@@ -4,7 +4,9 @@
 
 #include "textplane/solver/window.hpp"
 #include "textslam/adjust/adjustment_selection.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/common/statistics.hpp"
+#include "textslam/map/observations.hpp"
+#include "textslam/map/text_geometry.hpp"
 #include "textslam/text/text_plane.hpp"
 
 namespace textslam {
@@ -12,8 +14,8 @@ namespace {
 
 class Adjustment {
  public:
-  Adjustment(const Map& map, const Parameters& parameters, const AdjustmentSelection& selection, int text_targets)
-      : parameters_(parameters), text_targets_(static_cast<std::size_t>(text_targets)) {
+  Adjustment(const Map& map, const Parameters& parameters, const AdjustmentSelection& selection, int text_views)
+      : parameters_(parameters), text_views_(static_cast<std::size_t>(text_views)) {
     slot_of_.assign(map.keyframes.size(), -1);
     window_.camera = map.camera;
     for (const int id : selection.free_frames) add_frame(map, id, false);
@@ -38,19 +40,18 @@ class Adjustment {
     textplane::solve_window(window_, options, workspace);
   }
 
-  // A text is seen sharp here and blurred there. What its observations weigh goes with the inverse variance of a pixel's
-  // residual, 1 - zncc up to a factor; together they weigh as before.
+  // Observations of a text weigh by the inverse variance of a pixel's residual, 1 - zncc up to a factor: sharp views
+  // weigh more than blurred ones. Their sum stays the same.
   void weigh_texts(const Map& map) {
-    constexpr double kLeastVariance = 0.02;  // below it, interpolation counts for more than the image
     std::vector<double> sums(texts_.size(), 0), counts(texts_.size(), 0);
     textplane::PhotometricWorkspace workspace;
     for (textplane::WindowTextObservation& o : window_.text_observations) {
       const auto slot = static_cast<std::size_t>(o.text);
-      const TextObject& text = map.texts[static_cast<std::size_t>(texts_[slot])];
+      const TextObject& text = map.text(texts_[slot]);
       const KeyFrame& keyframe = map.keyframe(frames_[static_cast<std::size_t>(o.frame)]);
       const auto cost =
           compare_text(map, text, 0, *keyframe.frame.image, keyframe.T_w_c.inverse(), o.scale_shift, workspace);
-      o.weight = 1 / std::max(kLeastVariance, 1 - (textplane::is_ok(cost.status) ? cost.zncc : 0));
+      o.weight = 1 / std::max(parameters_.window_min_variance, 1 - (textplane::is_ok(cost.status) ? cost.zncc : 0));
       sums[slot] += o.weight;
       ++counts[slot];
     }
@@ -69,7 +70,7 @@ class Adjustment {
   // After all key frames of the map have their poses: a text may have another host by now, one that came later.
   void write_back_texts(Map& map) const {
     for (std::size_t i = 0; i < texts_.size(); ++i) {
-      TextObject& text = map.texts[static_cast<std::size_t>(texts_[i])];
+      TextObject& text = map.text(texts_[i]);
       const textplane::WindowText& adjusted = window_.texts[i];
       if (text.state != TextState::mapped || !textplane::is_ok(adjusted.status)) continue;
       Vec3 theta = adjusted.theta;
@@ -86,7 +87,7 @@ class Adjustment {
     int removed = 0;
     for (const textplane::WindowPointObservation& o : window_.point_observations) {
       const int point = points_[static_cast<std::size_t>(o.point)];
-      if (o.chi2 <= 1.5 * parameters_.outlier_chi2 || map.point(point).bad) continue;
+      if (o.chi2 <= parameters_.window_outlier_factor * parameters_.outlier_chi2 || map.point(point).bad) continue;
       remove_observation(map, point, frames_[static_cast<std::size_t>(o.frame)]);
       ++removed;
     }
@@ -129,10 +130,10 @@ class Adjustment {
   void add_text(const Map& map, const TextObject& text) {
     if (text.state != TextState::mapped || slot_of_[static_cast<std::size_t>(text.host)] < 0) return;
     std::vector<int> usable;
-    for (const int id : text.targets)
+    for (const int id : text.views)
       if (slot_of_[static_cast<std::size_t>(id)] >= 0) usable.push_back(id);
     if (usable.empty()) return;
-    for (const int id : spread(usable, text_targets_)) {
+    for (const int id : evenly_spaced(usable, text_views_)) {
       textplane::WindowTextObservation observation;
       observation.text = static_cast<int>(texts_.size());
       observation.frame = slot_of_[static_cast<std::size_t>(id)];
@@ -151,7 +152,7 @@ class Adjustment {
   }
 
   const Parameters& parameters_;
-  std::size_t text_targets_;                     // at most, of a text
+  std::size_t text_views_;                       // at most, of a text
   int scale_frame_a_ = -1, scale_frame_b_ = -1;  // of the window
   textplane::Window window_;
   std::vector<std::shared_ptr<const Pyramid>> images_;  // of the window's frames
@@ -163,9 +164,9 @@ class Adjustment {
 class StagedWindow : public StagedAdjustment {
  public:
   StagedWindow(const Map& map, const Parameters& parameters, const AdjustmentSelection& selection)
-      : adjustment_(map, parameters, selection, parameters.text_targets),
+      : adjustment_(map, parameters, selection, parameters.text_views),
         iterations_(parameters.window_iterations),
-        newest_(static_cast<int>(map.keyframes.size()) - 1),
+        newest_(map.newest_keyframe()),
         points_(map.points.size()),
         T_w_c_(map.keyframe(newest_).T_w_c) {}
 
@@ -193,7 +194,7 @@ class StagedWindow : public StagedAdjustment {
 }  // namespace
 
 std::unique_ptr<StagedAdjustment> StagedAdjustment::around_newest(const Map& map, const Parameters& parameters) {
-  if (map.keyframes.size() < 3) return nullptr;
+  if (is_too_young(map)) return nullptr;
   const AdjustmentSelection selection = local_selection(map, parameters);
   if (selection.free_frames.empty()) return nullptr;
   return std::make_unique<StagedWindow>(map, parameters, selection);
@@ -205,7 +206,7 @@ std::unique_ptr<StagedAdjustment> StagedAdjustment::of_all(const Map& map, const
 }
 
 void adjust_local(Map& map, const Parameters& parameters) {
-  if (map.keyframes.size() < 3) return adjust_all(map, parameters, parameters.window_iterations);
+  if (is_too_young(map)) return adjust_all(map, parameters, parameters.window_iterations);
   const auto adjustment = StagedAdjustment::around_newest(map, parameters);
   if (!adjustment) return;
   adjustment->solve();
@@ -215,8 +216,8 @@ void adjust_local(Map& map, const Parameters& parameters) {
 void adjust_all(Map& map, const Parameters& parameters, int iterations) {
   if (map.keyframes.size() < 2) return;
   AdjustmentSelection selection = whole_selection(map, parameters);
-  for (int round = 0; round < 2; ++round) {
-    Adjustment adjustment(map, parameters, selection, parameters.final_text_targets);
+  for (int round = 0; round < parameters.final_rounds; ++round) {
+    Adjustment adjustment(map, parameters, selection, parameters.final_text_views);
     adjustment.weigh_texts(map);
     adjustment.solve(iterations);
     adjustment.write_back(map);

@@ -4,23 +4,25 @@
 
 #include <memory>
 
-#include "textslam/common/parameters.hpp"
 #include "textslam/map/map.hpp"
 
 namespace textslam {
 
-/// An adjustment in its three steps, so that the long one may run beside tracking: solve() touches nothing but what was copied
-/// before (images are shared and constant).
+/// Too few key frames to hold some of them fixed: such a map is adjusted as a whole.
+inline bool is_too_young(const Map& map) { return map.keyframes.size() < 3; }
+
+/// An adjustment in three steps, so that the long one may run beside tracking: solve() reads only copies (images are
+/// shared and constant).
 class StagedAdjustment {
  public:
-  /// Around the newest key frame, or of the whole map; null where there is nothing to adjust, as in a map of fewer than three key
-  /// frames.
+  /// Around the newest key frame, or of the whole map; null where there is nothing to adjust, as in a map that is too
+  /// young.
   static std::unique_ptr<StagedAdjustment> around_newest(const Map& map, const Parameters& parameters);
   static std::unique_ptr<StagedAdjustment> of_all(const Map& map, const Parameters& parameters);
   virtual ~StagedAdjustment() = default;
   virtual void solve() = 0;
-  /// Writes the result into the map it was prepared from, which may have grown since: key frames and points that came later
-  /// move along with the newest of then. Returns this motion of the world, for what else came later.
+  /// Writes the result into the map it was prepared from, which may have grown since: later key frames and points move
+  /// along with the key frame that was the newest then. Returns this motion of the world.
   virtual SE3d apply(Map& map) const = 0;
 };
 
@@ -28,7 +30,8 @@ class StagedAdjustment {
 /// around them stay fixed. Observations that no longer fit are removed.
 void adjust_local(Map& map, const Parameters& parameters);
 
-/// Adjusts everything; the first key frame is fixed, and the distance to its farthest neighbour in view fixes the scale.
+/// Adjusts everything; the first key frame is fixed, and the distance to its farthest neighbour in view fixes the
+/// scale.
 void adjust_all(Map& map, const Parameters& parameters, int iterations);
 
 }  // namespace textslam

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 
 namespace textslam {
 namespace {
@@ -46,7 +46,7 @@ std::vector<int> points_of(const Map& map, const std::vector<int>& keyframes) {
 }  // namespace
 
 AdjustmentSelection local_selection(const Map& map, const Parameters& parameters) {
-  const int newest = static_cast<int>(map.keyframes.size()) - 1;
+  const int newest = map.newest_keyframe();
   std::vector<int> shared = shared_points(map, map.keyframe(newest).points);
   shared[static_cast<std::size_t>(newest)] = static_cast<int>(map.points.size()) + 1;
   AdjustmentSelection selection;

@@ -1,10 +1,10 @@
-// What of the map takes part in an adjustment: key frames and points, which of them stay fixed, and what holds the scale.
+// What of the map takes part in an adjustment: key frames and points, which of them stay fixed, and what holds the
+// scale.
 #ifndef TEXTSLAM_ADJUST_ADJUSTMENT_SELECTION_HPP
 #define TEXTSLAM_ADJUST_ADJUSTMENT_SELECTION_HPP
 
 #include <vector>
 
-#include "textslam/common/parameters.hpp"
 #include "textslam/map/map.hpp"
 
 namespace textslam {

@@ -1,4 +1,5 @@
-// Values of the report as JSON, short and safe: six significant digits, no NaN, nothing that could end a script element.
+// Values of the report as JSON, short and safe: six significant digits, no NaN, nothing that could end a script
+// element.
 #ifndef TEXTSLAM_COMMON_REPORT_JSON_HPP
 #define TEXTSLAM_COMMON_REPORT_JSON_HPP
 
@@ -23,8 +24,8 @@ Json short_corners(const std::array<Vector3<double>, 4>& corners);
 /// [x1, y1, ..., x4, y4] in tenths of a pixel; null where a corner is not finite.
 Json short_quad(const Quad<double>& quad);
 
-/// The text of `json` for the inside of a script element: it holds no `<`, so neither `</script>` nor `<!--`, and parses to
-/// the same value. Bytes that are not UTF-8 become U+FFFD.
+/// The text of `json` for the inside of a script element: it holds no `<`, so neither `</script>` nor `<!--`, and
+/// parses to the same value. Bytes that are not UTF-8 become U+FFFD.
 std::string script_text(const Json& json);
 
 }  // namespace textslam

@@ -1,4 +1,4 @@
-// The order statistics that several steps decide by.
+// Order statistics, and an even choice of what is too much.
 #ifndef TEXTSLAM_COMMON_STATISTICS_HPP
 #define TEXTSLAM_COMMON_STATISTICS_HPP
 
@@ -21,6 +21,14 @@ inline double percentile95(std::vector<double> values) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
   return values[std::min(values.size() - 1, values.size() * 95 / 100)];
+}
+
+/// At most `count` of the ids, evenly spaced, the first and the last among them.
+inline std::vector<int> evenly_spaced(const std::vector<int>& ids, std::size_t count) {
+  if (ids.size() <= count || count < 2) return ids;
+  std::vector<int> picked;
+  for (std::size_t i = 0; i < count; ++i) picked.push_back(ids[i * (ids.size() - 1) / (count - 1)]);
+  return picked;
 }
 
 }  // namespace textslam

@@ -1,9 +1,9 @@
 // ClassicalParameters: all thresholds of the classical text detector in one place.
 //
 // Lengths without a unit are shares of the letters' or the line's height; "level px" are pixels of the pyramid level
-// that a letter is looked for in. Most defaults are reasoned from print in general. ink_sigmas, min_variety, min_score
-// and the limits of ink, cover, lean and quad height were chosen by true and false boxes in one rendered room (seed 1),
-// kitchen video frames and street photographs: results on those images flatter the detector.
+// that is searched. Most defaults follow from print in general. ink_sigmas, min_variety, min_score and the limits of
+// ink, cover, lean and quad height were chosen by true and false boxes in one rendered room (seed 1), kitchen video
+// frames and street photographs: results on those images flatter the detector.
 #ifndef TEXTSLAM_DETECT_CLASSICAL_PARAMETERS_HPP
 #define TEXTSLAM_DETECT_CLASSICAL_PARAMETERS_HPP
 
@@ -42,7 +42,15 @@ struct ClassicalParameters {
 
   // A line of letters.
   int min_letters = 3;
-  double max_turn = 25.0;        ///< degrees between the line and its next letter
+  double max_turn = 25.0;  ///< degrees between the line and its next letter
+  double max_offset =
+      0.4;  ///< of a letter's centre from the line: small letters stand on its base or hang from its top
+  double angle_tolerance = 1.0;  ///< degrees beyond max_angle for a whole line: noise decides no line at the limit
+  double slope_distance = 0.4;   ///< of the line's length, between two letters whose slope counts
+  double ragged = 0.08;          ///< residual above which a side takes the slope of the other one
+  double lean_step = 0.05;       ///< of the search for the lean, in
+  int lean_steps = 24;           ///< steps, right and left by turns,
+  double lean_penalty = 0.1;     ///< of the squared lean on the letters' width
   double max_residual = 0.12;    ///< median distance of the letters' tops or bottoms (the better of both) from a line
   double max_taper = 1.8;        ///< ratio of the heights at both ends
   double max_lean = 0.5;         ///< tangent of the angle between the sides and the normal of the line
@@ -58,9 +66,11 @@ struct ClassicalParameters {
   double margin = 0.06;                   ///< added around the ink
   double min_score = 0.38;  ///< 0.4 to 0.6 is a clear word of three letters, 0.9 a long line of even capitals
 
-  /// The score is multiplied by this on each coarser level: where two levels see the same text, the finer is more
-  /// exact.
-  double level_penalty = 0.9;
+  double score_letters = 0.3;   ///< how fast the score grows with the letters,
+  double score_tones = 2.0;     ///< and falls with uneven tones,
+  double score_taper = 0.5;     ///< taper
+  double score_residual = 2.0;  ///< and residual
+  double level_penalty = 0.9;   ///< factor on each coarser level: the finer level is more exact
 
   // Quads that share more than this part of the smaller one show the same text; the better one stays.
   double max_shared_area = 0.4;

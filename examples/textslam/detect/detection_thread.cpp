@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "textslam/track/tracker.hpp"
+#include "textslam/common/clock.hpp"
 
 namespace textslam {
 

@@ -1,8 +1,8 @@
 // DetectionThread: a text detector beside tracking, at its own rate.
 //
-// offer() leaves an image to it. While the detector is busy at most one key frame and one other frame wait, the newest of
-// each, and the key frame goes first: it is the one that new texts are hosted by. What is passed over is never detected.
-// collect(), between two frames, gives what was finished since, each with the frame that it belongs to.
+// offer() leaves an image to it. While the detector is busy at most one key frame and one other frame wait, the newest
+// of each, and the key frame goes first: it is the one that new texts are hosted by. What is passed over is never
+// detected. collect(), between two frames, gives what was finished since, each with the frame that it belongs to.
 //
 // Threads: all members are called from one thread and never wait for the detector, but for the destructor. `detect` is
 // called from another, for one image at a time.
@@ -41,8 +41,8 @@ class DetectionThread {
 
   /// After the frame was tracked, and it is known whether it became a key frame.
   void offer(int frame, RawImage image, bool keyframe);
-  /// What is finished, in the order in which it was. Throws what `detect` threw, once what came before has been collected:
-  /// the thread has ended then, and later offers are dropped.
+  /// What is finished, in the order in which it was. Throws what `detect` threw, once what came before has been
+  /// collected: the thread has ended then, and later offers are dropped.
   std::vector<Result> collect();
 
  private:

@@ -15,8 +15,8 @@ namespace textslam {
 class TextDetector {
  public:
   virtual ~TextDetector() = default;
-  /// Quads in raw image pixels, clockwise from the text's top left. May throw InputError. Called by one thread at a time, not always
-  /// the one that made it.
+  /// Quads in raw image pixels, clockwise from the text's top left. May throw InputError. Called by one thread at a
+  /// time, not always the one that made it.
   virtual std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) = 0;
 };
 
@@ -38,16 +38,17 @@ struct DetectorOptions {
   std::string words_model;     ///< Of the reader `dnn`; empty: where scripts/get-detector --reader puts it.
 };
 
-/// "files" (the sequence's own detections, by any external detector), "classical" (built in, no model), "dnn" (a network
-/// through OpenCV) and "tesseract"; the last two are plug-ins that a build may lack.
+/// "files" (the sequence's own detections, by any external detector), "classical" (built in, no model), "dnn" (a
+/// network through OpenCV) and "tesseract"; the last two are plug-ins that a build may lack.
 const std::vector<std::string>& detector_names();
 
-/// The sequence must outlive the detector. Throws InputError where the plug-in was not built, saying how to build it, and for
-/// a model that is missing or wrong; std::invalid_argument that lists the names for any other name.
+/// The sequence must outlive the detector. Throws InputError where the plug-in was not built, saying how to build it,
+/// and for a model that is missing or wrong; std::invalid_argument that lists the names for any other name.
 std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, const Sequence& sequence);
 
-/// Who reads what is unread, and the texts of the map; null: nobody. "auto": after `dnn` the recogniser, where its model is,
-/// else Tesseract where it was built; after `tesseract` that; else nobody. Throws InputError as make_detector() does.
+/// Who reads what is unread, and the texts of the map; null: nobody. "auto": after `dnn` the recogniser, where its
+/// model is, else Tesseract where it was built; after `tesseract` that; else nobody. Throws InputError as
+/// make_detector() does.
 std::unique_ptr<TextReader> make_reader(const DetectorOptions& options);
 
 }  // namespace textslam

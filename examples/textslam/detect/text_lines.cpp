@@ -5,13 +5,14 @@
 #include <cstddef>
 #include <numeric>
 
+#include "textslam/common/geometry.hpp"
+
 namespace textslam {
 namespace {
 
 using Direction = Vector2<double>;
 
 double ratio(double a, double b) { return std::max(a, b) / std::min(a, b); }
-double radians(double degrees) { return degrees * 0.017453292519943295; }
 
 /// Whether b can follow a, and how well; a negative cost means no.
 double pair_cost(const Letter& a, const Letter& b, const ClassicalParameters& parameters) {
@@ -99,7 +100,7 @@ bool continues(const std::vector<int>& line, const Letter& last, const Letter& n
   mean /= static_cast<double>(line.size());
   // Small letters stand beside large ones on a common base or top, not on a common centre.
   const double height = std::max(extent(last, across).length(), extent(next, across).length());
-  return std::abs((next.centre - mean).dot(across)) <= 0.4 * height;
+  return std::abs((next.centre - mean).dot(across)) <= parameters.max_offset * height;
 }
 
 /// Appends the letter that goes on best at the line's end. False where there is none.

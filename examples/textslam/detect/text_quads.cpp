@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "textslam/common/geometry.hpp"
 #include "textslam/common/statistics.hpp"
 
 namespace textslam {
@@ -43,12 +44,12 @@ void settle(const std::vector<Point>& points, Rule& rule) {
 }
 
 /// Median slope of the pairs that are far apart (Theil and Sen): ascenders and descenders do not bend it.
-Rule fit_rule(const std::vector<Point>& points) {
+Rule fit_rule(const std::vector<Point>& points, double min_distance) {
   const double reach = points.back()[0] - points.front()[0];
   std::vector<double> slopes;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = i + 1; j < points.size(); ++j)
-      if (points[j][0] - points[i][0] >= 0.4 * reach && points[j][0] > points[i][0])
+      if (points[j][0] - points[i][0] >= min_distance * reach && points[j][0] > points[i][0])
         slopes.push_back((points[j][1] - points[i][1]) / (points[j][0] - points[i][0]));
   Rule rule;
   if (!slopes.empty()) rule.slope = median(slopes);
@@ -64,7 +65,8 @@ struct Layout {
   double height = 0;  ///< of the letters, median
 };
 
-Layout lay_out(const std::vector<Letter>& letters, const std::vector<int>& line, const Point& along) {
+Layout lay_out(const std::vector<Letter>& letters, const std::vector<int>& line, const Point& along,
+               const ClassicalParameters& parameters) {
   Layout layout;
   layout.along = along;
   layout.across = {-along[1], along[0]};
@@ -80,10 +82,10 @@ Layout lay_out(const std::vector<Letter>& letters, const std::vector<int>& line,
     heights.push_back(box.v.length());
   }
   layout.height = median(heights);
-  layout.top = fit_rule(tops);
-  layout.bottom = fit_rule(bottoms);
+  layout.top = fit_rule(tops, parameters.slope_distance);
+  layout.bottom = fit_rule(bottoms, parameters.slope_distance);
   // Where one side is ragged (small letters among capitals), it runs along the other.
-  const double ragged = 0.08 * layout.height;
+  const double ragged = parameters.ragged * layout.height;
   if (layout.top.residual > ragged && layout.top.residual > layout.bottom.residual) {
     layout.top.slope = layout.bottom.slope;
     settle(tops, layout.top);
@@ -95,15 +97,15 @@ Layout lay_out(const std::vector<Letter>& letters, const std::vector<int>& line,
 }
 
 /// How far the letters lean: the shear u' = u - lean v that makes them narrowest.
-double lean_of(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout) {
-  constexpr int kSteps = 24;
+double lean_of(const std::vector<Letter>& letters, const std::vector<int>& line, const Layout& layout,
+               const ClassicalParameters& parameters) {
   double best = 0, narrowest = 0;
-  for (int step = 0; step <= kSteps; ++step) {
-    const double lean = 0.05 * (step % 2 == 0 ? step / 2 : -(step + 1) / 2);  // from upright outwards
+  for (int step = 0; step <= parameters.lean_steps; ++step) {
+    const double lean = parameters.lean_step * (step % 2 == 0 ? step / 2 : -(step + 1) / 2);  // from upright outwards
     const Point axis = layout.along - lean * layout.across;
     double sum = 0;
     for (const int i : line) sum += extent(letters[at(i)], axis).length();
-    sum *= 1.0 + 0.1 * lean * lean;
+    sum *= 1.0 + parameters.lean_penalty * lean * lean;
     if (step == 0 || sum < narrowest) {
       narrowest = sum;
       best = lean;
@@ -179,12 +181,14 @@ bool is_filled_like_text(const std::vector<Letter>& letters, const std::vector<i
 }
 
 /// In [0, 1]: many letters of equal height on common lines, upright and in even tones, make it 1.
-double score_of(const Layout& layout, double residual, double taper, double lean, double spread) {
+double score_of(const Layout& layout, double residual, double taper, double lean, double spread,
+                const ClassicalParameters& parameters) {
   std::vector<double> heights;
   for (const Box& box : layout.boxes) heights.push_back(box.v.length() / layout.height);
   const double letters = static_cast<double>(layout.boxes.size());
-  return (1.0 - std::exp(-0.3 * letters)) * std::max(0.0, 1.0 - 2.0 * spread) * std::max(0.0, 1.5 - 0.5 * taper) *
-         (1.0 - lean * lean) * std::max(0.0, 1.0 - deviation(heights)) * std::max(0.0, 1.0 - 2.0 * residual);
+  return (1.0 - std::exp(-parameters.score_letters * letters)) * std::max(0.0, 1.0 - parameters.score_tones * spread) *
+         std::max(0.0, 1.0 + parameters.score_taper - parameters.score_taper * taper) * (1.0 - lean * lean) *
+         std::max(0.0, 1.0 - deviation(heights)) * std::max(0.0, 1.0 - parameters.score_residual * residual);
 }
 
 /// Where a rule meets the side u = side + lean v.
@@ -201,19 +205,19 @@ TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& li
   if (line.size() < 2) return result;
   Point along = letters[at(line.back())].centre - letters[at(line.front())].centre;
   along.normalize();
-  Layout layout = lay_out(letters, line, along);
+  Layout layout = lay_out(letters, line, along, parameters);
   // Once more along the text's own lines: extents across a tilted frame are blurred by the letters' widths.
   const double slope = layout.top.residual < layout.bottom.residual ? layout.top.slope : layout.bottom.slope;
-  layout = lay_out(letters, line, Point(layout.along + slope * layout.across).normalized());
+  layout = lay_out(letters, line, Point(layout.along + slope * layout.across).normalized(), parameters);
 
-  // A degree of grace, so that a line at the limit is not decided by noise.
-  if (std::abs(std::atan2(layout.along[1], layout.along[0])) > (parameters.max_angle + 1.0) * 0.017453292519943295)
+  if (std::abs(std::atan2(layout.along[1], layout.along[0])) >
+      radians(parameters.max_angle + parameters.angle_tolerance))
     return result;
   const double residual = std::min(layout.top.residual, layout.bottom.residual) / layout.height;
   if (residual > parameters.max_residual || is_pattern(layout, parameters)) return result;
   const double spread = tone_spread(letters, line);
   if (spread > parameters.max_line_tone_spread) return result;
-  const double lean = lean_of(letters, line, layout);
+  const double lean = lean_of(letters, line, layout, parameters);
   if (std::abs(lean) > parameters.max_lean) return result;
 
   LineFrame frame = enclose(letters, line, layout, lean);
@@ -230,7 +234,7 @@ TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& li
   for (std::size_t k = 0; k < 4; ++k)
     result.quad.corner[k] = corners[k][0] * layout.along + corners[k][1] * layout.across;
   if (!textplane::is_convex(result.quad) || !(textplane::area(result.quad) > 0)) return result;
-  const double score = score_of(layout, residual, taper, lean, spread);
+  const double score = score_of(layout, residual, taper, lean, spread, parameters);
   result.score = score >= parameters.min_score ? score : 0.0;
   return result;
 }

@@ -15,9 +15,8 @@ struct TextQuad {
 };
 
 /// The quad around a line: top and bottom are lines through the letters' tops and bottoms (the text may taper), the
-/// sides lean with the letters. Its score says how much the letters look like print: many of them, on common lines,
-/// of even tones; it is 0 below min_score, and where a pattern (books, railings, tiles, leaves) explains them as
-/// well.
+/// sides lean with the letters. Its score says how much the letters look like print: many of them, on common lines, of
+/// even tones; it is 0 below min_score, and where a pattern (books, railings, tiles, leaves) explains them as well.
 TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& line,
                   const ClassicalParameters& parameters);
 

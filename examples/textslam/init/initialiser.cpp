@@ -6,10 +6,11 @@
 #include "textslam/adjust/adjustment.hpp"
 #include "textslam/common/statistics.hpp"
 #include "textslam/init/two_view.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 #include "textslam/track/feature_tracks.hpp"
-#include "textslam/track/late_corners.hpp"
+#include "textslam/track/point_mapper.hpp"
 #include "textslam/track/rotation_prior.hpp"
+#include "textslam/track/track_from_keyframe.hpp"
 
 namespace textslam {
 
@@ -19,15 +20,15 @@ void Initialiser::restart(const Frame& frame) {
   std::vector<Quad<double>> quads;
   if (parameters_.mode == Mode::text) quads = quads_of(frame.detections);
   add_corners(frame, 0, quads, parameters_, tracks_);
-  rivals_.clear();
+  hypotheses_.clear();
   waited_ = 0;
 }
 
 void Initialiser::add_detections(int frame, std::vector<Detection> detections) {
   if (tracks_.empty() || reference_.index != frame) return;
   reference_.detections = std::move(detections);
-  // Rivals are judged by corners that were followed from their first view on.
-  if (parameters_.mode != Mode::text || !rivals_.empty()) return;
+  // Hypotheses are judged by corners that were followed from their first view on.
+  if (parameters_.mode != Mode::text || !hypotheses_.empty()) return;
   const std::vector<Quad<double>> quads = quads_of(reference_.detections);
   std::vector<Track> then = tracks_;
   std::vector<Vec2f> now;
@@ -35,7 +36,7 @@ void Initialiser::add_detections(int frame, std::vector<Detection> detections) {
     now.push_back(track.px);
     track.px = track.observations.front().px.cast<float>();
   }
-  const std::vector<Track> corners = late_corners(reference_, 0, quads, then, now, last_, parameters_);
+  const std::vector<Track> corners = track_from_keyframe(reference_, 0, quads, then, now, last_, parameters_);
   tracks_.insert(tracks_.end(), corners.begin(), corners.end());
 }
 
@@ -44,7 +45,7 @@ bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) 
     restart(frame);
     return false;
   }
-  const RotationPrior prior = align_rotation(last_, frame, map.camera, Eigen::Matrix3d::Identity());
+  const RotationPrior prior = align_rotation(last_, frame, map.camera, Eigen::Matrix3d::Identity(), parameters_);
   std::vector<Vec2f> guesses;
   for (const Track& track : tracks_) {
     const Vec3 m = prior.R_b_a * map.camera.unproject(track.px.cast<double>());
@@ -56,7 +57,8 @@ bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) 
     restart(frame);
     return false;
   }
-  const std::optional<Motion> motion = rivals_.empty() ? motion_of_two_views(map.camera) : motion_of_rivals(map.camera);
+  const std::optional<Motion> motion =
+      hypotheses_.empty() ? motion_of_two_views(map.camera) : motion_of_hypotheses(map.camera);
   return motion && build(frame, *motion, map, tracks);
 }
 
@@ -79,21 +81,21 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const Pinhol
     a.push_back(camera.unproject(track.observations[0].px));
     b.push_back(camera.unproject(track.px.cast<double>()));
   }
-  const TwoView view = estimate_two_view(a, b, camera.fx);
+  const TwoView view = estimate_two_view(a, b, camera.fx, parameters_);
   if (!view.ok || view.inliers < matches_needed() || view.parallax < parameters_.init_min_parallax ||
       view.direction_sigma > parameters_.init_max_direction || view.rms > parameters_.init_max_rms)
     return std::nullopt;
-  const double limit = clear_ratio(static_cast<double>(a.size()) - 5, parameters_.init_clear);
+  const double limit = clear_ratio(static_cast<double>(a.size()) - kTwoViewFreedom, parameters_.init_clear);
   std::vector<SE3d> close;
   for (const TwoViewMotion& motion : view.motions)
     if (motion.cost <= limit * view.motions.front().cost) close.push_back(motion.T_b_a);
   if (close.size() < 2) return Motion{view.T_b_a, view.inlier};
-  rivals_.begin(close);
+  hypotheses_.begin(close);
   for (Track& track : tracks_) track.observations.push_back({1, track.px.cast<double>()});
   return std::nullopt;
 }
 
-std::optional<Initialiser::Motion> Initialiser::motion_of_rivals(const Pinhole<double>& camera) {
+std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const Pinhole<double>& camera) {
   ++waited_;
   std::vector<double> flow;
   for (const Track& track : tracks_) flow.push_back((track.observations.back().px - track.px.cast<double>()).norm());
@@ -103,13 +105,13 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_rivals(const Pinhole<d
     if (full) track.observations.pop_back();
     track.observations.push_back({static_cast<int>(track.observations.size()), track.px.cast<double>()});
   }
-  rivals_.judge(tracks_, camera, full);
-  if (rivals_.rms() > parameters_.init_max_rms) {
+  hypotheses_.judge(tracks_, camera, full);
+  if (hypotheses_.rms() > parameters_.init_max_rms) {
     restart(last_);
     return std::nullopt;
   }
-  if (!rivals_.won() && waited_ < parameters_.init_patience) return std::nullopt;
-  const Motion best{rivals_.T_newest_a(), rivals_.inlier()};
+  if (!hypotheses_.won() && waited_ < parameters_.init_patience) return std::nullopt;
+  const Motion best{hypotheses_.T_newest_a(), hypotheses_.inlier()};
   if (std::count(best.inlier.begin(), best.inlier.end(), 1) < matches_needed()) return std::nullopt;
   // The camera may have come back to where it began.
   if (parallax(best, camera) < parameters_.init_min_parallax) return std::nullopt;
@@ -128,9 +130,7 @@ double Initialiser::parallax(const Motion& motion, const Pinhole<double>& camera
 }
 
 bool Initialiser::build(const Frame& frame, const Motion& motion, Map& map, std::vector<Track>* tracks) {
-  map.keyframes.clear();
-  map.points.clear();
-  map.texts.clear();
+  map.clear();
   std::vector<Track> kept;
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     if (motion.inlier[i]) {
@@ -140,24 +140,19 @@ bool Initialiser::build(const Frame& frame, const Motion& motion, Map& map, std:
   const SE3d T_w_b = motion.T_b_a.inverse();
   map.keyframes.push_back({reference_, SE3d{}, {}, false});
   insert_keyframe(map, frame, T_w_b, kept);
-  Parameters loose = parameters_;
-  loose.min_parallax = 0.5 * parameters_.init_min_parallax;
-  triangulate_tracks(map, loose, kept);
-  adjust_all(map, parameters_, 20);
+  triangulate_tracks(map, parameters_, parameters_.init_parallax_share * parameters_.init_min_parallax, kept);
+  adjust_all(map, parameters_, parameters_.init_adjust_iterations);
 
   int points = 0;
   for (const MapPoint& point : map.points) points += point.bad ? 0 : 1;
   const double depth = median_depth(map, 0);
   if (points < matches_needed() / 2 || !(depth > 0)) {
-    map.keyframes.clear();
-    map.points.clear();
+    map.clear();
     return false;
   }
   for (KeyFrame& keyframe : map.keyframes) keyframe.T_w_c.t /= depth;
   for (MapPoint& point : map.points) point.p_w /= depth;
-  kept.erase(
-      std::remove_if(kept.begin(), kept.end(), [&](const Track& t) { return t.point >= 0 && map.point(t.point).bad; }),
-      kept.end());
+  erase_bad_tracks(map, kept);
   *tracks = std::move(kept);
   forget();
   return true;

@@ -1,30 +1,28 @@
-// Initialiser: watches corners from a reference frame until two views give a map that can be trusted. Where several motions
-// explain the two views, all are kept until further views leave one (motion_rivals.hpp).
+// Initialiser: follows corners from a reference frame until two views give a reliable map. Where several motions
+// explain the two views, all are kept until further views leave one (motion_hypotheses.hpp).
 #ifndef TEXTSLAM_INIT_INITIALISER_HPP
 #define TEXTSLAM_INIT_INITIALISER_HPP
 
 #include <optional>
 #include <vector>
 
-#include "textslam/common/parameters.hpp"
-#include "textslam/init/motion_rivals.hpp"
-#include "textslam/map/map.hpp"
+#include "textslam/init/motion_hypotheses.hpp"
 
 namespace textslam {
 
 class Initialiser {
  public:
-  explicit Initialiser(const Parameters& parameters) : parameters_(parameters), rivals_(parameters) {}
+  explicit Initialiser(const Parameters& parameters) : parameters_(parameters), hypotheses_(parameters) {}
 
-  /// Takes the next frame. True when `map` now holds two key frames (the reference and this frame) and their points, and
-  /// `tracks` the corners in this frame. The map's median depth is 1.
+  /// Takes the next frame. True when `map` now holds two key frames (the reference and this frame) and their points,
+  /// and `tracks` the corners in this frame. The map's median depth is 1.
   bool add(const Frame& frame, Map& map, std::vector<Track>* tracks);
   /// Of a frame added before: they matter if it is the reference.
   void add_detections(int frame, std::vector<Detection> detections);
   /// The next frame begins anew.
   void forget() {
     tracks_.clear();
-    rivals_.clear();
+    hypotheses_.clear();
   }
 
  private:
@@ -37,15 +35,15 @@ class Initialiser {
   void restart(const Frame& frame);
   int matches_needed() const;
   std::optional<Motion> motion_of_two_views(const Pinhole<double>& camera);
-  std::optional<Motion> motion_of_rivals(const Pinhole<double>& camera);
+  std::optional<Motion> motion_of_hypotheses(const Pinhole<double>& camera);
   double parallax(const Motion& motion, const Pinhole<double>& camera) const;
   bool build(const Frame& frame, const Motion& motion, Map& map, std::vector<Track>* tracks);
 
   const Parameters& parameters_;
   Frame reference_, last_;
-  std::vector<Track> tracks_;  // observations: in the reference frame, then in the views of the rivals
-  MotionRivals rivals_;        // empty while two views decide, or could
-  int waited_ = 0;             // frames since there are rivals
+  std::vector<Track> tracks_;    // observations: in the reference frame, then in the views of the hypotheses
+  MotionHypotheses hypotheses_;  // empty while two views may decide
+  int waited_ = 0;               // frames since there are hypotheses
 };
 
 }  // namespace textslam

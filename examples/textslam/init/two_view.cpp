@@ -11,8 +11,8 @@
 namespace textslam {
 namespace {
 
-constexpr double kHuberPx = 1.0;
-constexpr double kInlierPx = 2.0;
+constexpr double kUnknown = 1e9;       // radians: of a direction that the matches leave open
+constexpr double kMinVariance = 0.01;  // px^2: of matches without noise
 
 using Vec5 = Eigen::Matrix<double, 5, 1>;
 using Mat5 = Eigen::Matrix<double, 5, 5>;
@@ -25,8 +25,8 @@ struct Hypothesis {
   int in_front = 0;
 };
 
-double huber_weight(double r) { return std::abs(r) <= kHuberPx ? 1 : kHuberPx / std::abs(r); }
-double huber_cost(double r) { return std::abs(r) <= kHuberPx ? r * r : kHuberPx * (2 * std::abs(r) - kHuberPx); }
+double huber_weight(double r, double bound) { return std::abs(r) <= bound ? 1 : bound / std::abs(r); }
+double huber_cost(double r, double bound) { return std::abs(r) <= bound ? r * r : bound * (2 * std::abs(r) - bound); }
 
 // The rotation that best turns a into b, translation ignored: where the search starts.
 Eigen::Matrix3d rotation_only(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal) {
@@ -73,49 +73,6 @@ void tangent_basis(const Vec3& t, Eigen::Matrix<double, 3, 2>* basis) {
   basis->col(1) = t.cross(basis->col(0));
 }
 
-double total_cost(const Hypothesis& h, const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal) {
-  double cost = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) cost += huber_cost(sampson(h, a[i], b[i], focal, nullptr, nullptr));
-  return cost;
-}
-
-void minimise_epipolar(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal, int iterations,
-                       Hypothesis& h) {
-  Eigen::Matrix<double, 3, 2> basis;
-  double lambda = 1e-3;
-  h.cost = total_cost(h, a, b, focal);
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    tangent_basis(h.t, &basis);
-    Mat5 H = Mat5::Zero();
-    Vec5 g = Vec5::Zero();
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      Vec5 J;
-      const double r = sampson(h, a[i], b[i], focal, &basis, &J), w = huber_weight(r);
-      H += w * J * J.transpose();
-      g += w * r * J;
-    }
-    h.information = H;
-    Mat5 damped = H;
-    damped.diagonal() += lambda * H.diagonal() + Vec5::Constant(1e-9);
-    const textplane::Ldlt<double, 5> ldlt(damped);
-    if (!ldlt.ok()) return;
-    const Vec5 step = -ldlt.solve(g);
-    Hypothesis trial = h;
-    trial.R = textplane::so3_exp<double>(step.head<3>()) * h.R;
-    trial.t = (h.t + basis * step.tail<2>()).normalized();
-    trial.cost = total_cost(trial, a, b, focal);
-    if (trial.cost < h.cost) {
-      const bool settled = h.cost - trial.cost < 1e-6 * h.cost;
-      h = trial;
-      lambda = std::max(1e-7, lambda / 5);
-      if (settled) return;
-    } else {
-      lambda *= 10;
-      if (lambda > 1e6) return;
-    }
-  }
-}
-
 // Points in front of both cameras with visible depth, for +t.
 int count_in_front(const Hypothesis& h, const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   int n = 0;
@@ -130,8 +87,9 @@ int count_in_front(const Hypothesis& h, const std::vector<Vec3>& a, const std::v
   return n;
 }
 
-// The other motion that moves a plane's points the same way. With the plane fitted to the matches, H = R (I + a theta^T),
-// a = R^T t, and H^T H = I + theta b^T + b theta^T with b = a + |a|^2 theta / 2: theta and b may change places.
+// The other motion that moves a plane's points the same way. With the plane fitted to the matches, H = R (I + a
+// theta^T), a = R^T t, and H^T H = I + theta b^T + b theta^T with b = a + |a|^2 theta / 2: theta and b may change
+// places.
 bool planar_twin(const Hypothesis& h, const std::vector<Vec3>& a, const std::vector<Vec3>& b, Hypothesis* twin) {
   const auto plane = textplane::plane_from_matches(a, b, SE3d{h.R, h.t});
   // A wrong motion often has part of its plane behind the camera; the twin is in front all the same.
@@ -149,46 +107,118 @@ bool planar_twin(const Hypothesis& h, const std::vector<Vec3>& a, const std::vec
   return twin->R.allFinite() && twin->t.allFinite();
 }
 
-}  // namespace
+// The matches, and the search for motions that explain them.
+class TwoViewSearch {
+ public:
+  TwoViewSearch(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal, const Parameters& parameters)
+      : a_(a), b_(b), focal_(focal), parameters_(parameters) {}
 
-TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal) {
-  TwoView best;
-  if (a.size() < 12 || a.size() != b.size()) return best;
-  const Eigen::Matrix3d R0 = rotation_only(a, b, focal);
+  // All distinct minima, the best first.
+  std::vector<Hypothesis> minima() {
+    Hypothesis start;
+    start.R = rotation_only(a_, b_, focal_);
+    // A half-sphere of directions: t and -t have the same epipolar lines.
+    for (int polar = 0; polar < 4; ++polar) {
+      const int around = polar == 0 ? 1 : polar == 3 ? 3 : 6;
+      for (int k = 0; k < around; ++k) {
+        const double inclination = polar * 30 * M_PI / 180, azimuth = (k + 0.5 * (polar % 2)) * M_PI / 3;
+        start.t = Vec3(std::sin(inclination) * std::cos(azimuth), std::sin(inclination) * std::sin(azimuth),
+                       std::cos(inclination));
+        search_from(start);
+      }
+    }
+    // On a plane one of two solutions may lie too far from where the search starts; it is computed from the other.
+    const std::size_t searched = found_.size();
+    for (std::size_t i = 0; i < searched; ++i) {
+      Hypothesis twin;
+      if (planar_twin(found_[i], a_, b_, &twin)) search_from(twin);
+    }
+    std::sort(found_.begin(), found_.end(), [](const Hypothesis& x, const Hypothesis& y) { return x.cost < y.cost; });
+    return std::move(found_);
+  }
 
-  std::vector<Hypothesis> found;
-  const auto search_from = [&](Hypothesis h) {
-    minimise_epipolar(a, b, focal, 25, h);
+ private:
+  void search_from(Hypothesis h) {
+    minimise(h);
     Hypothesis flipped = h;
     flipped.t = -h.t;
-    h.in_front = count_in_front(h, a, b);
-    flipped.in_front = count_in_front(flipped, a, b);
+    h.in_front = count_in_front(h, a_, b_);
+    flipped.in_front = count_in_front(flipped, a_, b_);
     const Hypothesis& kept = flipped.in_front > h.in_front ? flipped : h;
-    for (const Hypothesis& other : found)
-      if (kept.t.dot(other.t) > std::cos(0.1) && textplane::so3_log<double>(kept.R * other.R.transpose()).norm() < 0.02)
+    for (const Hypothesis& other : found_)
+      if (kept.t.dot(other.t) > std::cos(parameters_.init_distinct_direction) &&
+          textplane::so3_log<double>(kept.R * other.R.transpose()).norm() < parameters_.init_distinct_rotation)
         return;
-    found.push_back(kept);
-  };
-  // A half-sphere of directions: t and -t have the same epipolar lines.
-  for (int polar = 0; polar < 4; ++polar) {
-    const int around = polar == 0 ? 1 : polar == 3 ? 3 : 6;
-    for (int k = 0; k < around; ++k) {
-      const double inclination = polar * 30 * M_PI / 180, azimuth = (k + 0.5 * (polar % 2)) * M_PI / 3;
-      Hypothesis h;
-      h.R = R0;
-      h.t = Vec3(std::sin(inclination) * std::cos(azimuth), std::sin(inclination) * std::sin(azimuth),
-                 std::cos(inclination));
-      search_from(h);
+    found_.push_back(kept);
+  }
+
+  double total_cost(const Hypothesis& h) const {
+    double cost = 0;
+    for (std::size_t i = 0; i < a_.size(); ++i)
+      cost += huber_cost(sampson(h, a_[i], b_[i], focal_, nullptr, nullptr), parameters_.init_huber);
+    return cost;
+  }
+
+  void minimise(Hypothesis& h) const {
+    Eigen::Matrix<double, 3, 2> basis;
+    double lambda = 1e-3;
+    h.cost = total_cost(h);
+    for (int iteration = 0; iteration < parameters_.init_iterations; ++iteration) {
+      tangent_basis(h.t, &basis);
+      Mat5 H = Mat5::Zero();
+      Vec5 g = Vec5::Zero();
+      for (std::size_t i = 0; i < a_.size(); ++i) {
+        Vec5 J;
+        const double r = sampson(h, a_[i], b_[i], focal_, &basis, &J), w = huber_weight(r, parameters_.init_huber);
+        H += w * J * J.transpose();
+        g += w * r * J;
+      }
+      h.information = H;
+      Mat5 damped = H;
+      damped.diagonal() += lambda * H.diagonal() + Vec5::Constant(1e-9);
+      const textplane::Ldlt<double, 5> ldlt(damped);
+      if (!ldlt.ok()) return;
+      const Vec5 step = -ldlt.solve(g);
+      Hypothesis trial = h;
+      trial.R = textplane::so3_exp<double>(step.head<3>()) * h.R;
+      trial.t = (h.t + basis * step.tail<2>()).normalized();
+      trial.cost = total_cost(trial);
+      if (trial.cost < h.cost) {
+        const bool settled = h.cost - trial.cost < 1e-6 * h.cost;
+        h = trial;
+        lambda = std::max(1e-7, lambda / 5);
+        if (settled) return;
+      } else {
+        lambda *= 10;
+        if (lambda > 1e6) return;
+      }
     }
   }
-  // On a plane one of two solutions may lie too far from where the search starts; it is computed from the other.
-  const std::size_t searched = found.size();
-  for (std::size_t i = 0; i < searched; ++i) {
-    Hypothesis twin;
-    if (planar_twin(found[i], a, b, &twin)) search_from(twin);
-  }
-  std::sort(found.begin(), found.end(), [](const Hypothesis& x, const Hypothesis& y) { return x.cost < y.cost; });
-  const int enough = static_cast<int>(0.75 * static_cast<double>(a.size()));
+
+  const std::vector<Vec3>&a_, &b_;
+  double focal_;
+  const Parameters& parameters_;
+  std::vector<Hypothesis> found_;
+};
+
+// Largest standard deviation of the direction of translation, radians, for this variance of a match, px^2.
+double direction_sigma(const Hypothesis& h, double variance) {
+  Mat5 information = h.information;
+  information.diagonal() += Vec5::Constant(1e-12);
+  const textplane::Ldlt<double, 5> ldlt(information);
+  if (!ldlt.ok()) return kUnknown;
+  const Mat5 covariance = variance * ldlt.inverse();
+  return std::sqrt(std::max(covariance(3, 3), covariance(4, 4)));
+}
+
+}  // namespace
+
+TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal,
+                          const Parameters& parameters) {
+  TwoView best;
+  if (static_cast<int>(a.size()) < parameters.init_least_points || a.size() != b.size()) return best;
+  const std::vector<Hypothesis> found = TwoViewSearch(a, b, focal, parameters).minima();
+  const int enough = static_cast<int>(parameters.init_in_front * static_cast<double>(a.size()));
   const Hypothesis* chosen = nullptr;
   for (const Hypothesis& h : found) {
     if (h.in_front < enough) continue;
@@ -204,24 +234,17 @@ TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double r = sampson(*chosen, a[i], b[i], focal, nullptr, nullptr);
     const Vec3 q = chosen->R * a[i];
-    if (std::abs(r) > kInlierPx) continue;
+    if (std::abs(r) > parameters.init_inlier) continue;
     best.inlier[i] = 1;
     sum += r * r;
     parallaxes.push_back(degrees_between(q, b[i]));
   }
   best.inliers = static_cast<int>(parallaxes.size());
-  if (best.inliers < 12) return best;
+  if (best.inliers < parameters.init_least_points) return best;
   best.rms = std::sqrt(sum / best.inliers);
   best.parallax = median(parallaxes);
-  Mat5 information = chosen->information;
-  information.diagonal() += Vec5::Constant(1e-12);
-  const textplane::Ldlt<double, 5> ldlt(information);
-  const double variance = std::max(chosen->cost / static_cast<double>(a.size() - 5), 0.01);
-  best.direction_sigma = 1e9;
-  if (ldlt.ok()) {
-    const Mat5 covariance = variance * ldlt.inverse();
-    best.direction_sigma = std::sqrt(std::max(covariance(3, 3), covariance(4, 4)));
-  }
+  best.direction_sigma = direction_sigma(
+      *chosen, std::max(chosen->cost / (static_cast<double>(a.size()) - kTwoViewFreedom), kMinVariance));
   best.ok = true;
   return best;
 }

@@ -1,15 +1,17 @@
 // Relative pose of two views from matches, for planar and general scenes alike.
 //
 // The epipolar (Sampson) distance is minimised over rotation and direction of translation by Gauss-Newton from a fan of
-// starting directions, with Huber weights. Tracks of a video have few outliers and a small rotation, so this needs neither
-// a minimal solver nor random draws, and a planar scene is no special case: its two-fold ambiguity shows as a second
-// minimum of almost the same cost. All minima are reported; motion_rivals.hpp decides among those that are close.
+// starting directions, with Huber weights. Tracks of a video have few outliers and a small rotation, so this needs
+// neither a minimal solver nor random draws, and a planar scene is no special case: its two-fold ambiguity shows as a
+// second minimum of almost the same cost. All minima are reported; motion_rivals.hpp decides among those that are
+// close.
 #ifndef TEXTSLAM_INIT_TWO_VIEW_HPP
 #define TEXTSLAM_INIT_TWO_VIEW_HPP
 
 #include <vector>
 
-#include "textslam/map/map.hpp"
+#include "textslam/common/geometry.hpp"
+#include "textslam/common/parameters.hpp"
 
 namespace textslam {
 
@@ -19,10 +21,13 @@ struct TwoViewMotion {
   double cost = 0;  ///< px^2, sum of the robust epipolar distances.
 };
 
+/// Degrees of freedom of the motion.
+constexpr double kTwoViewFreedom = 5;
+
 struct TwoView {
   bool ok = false;           ///< A solution with most points in front of both cameras was found.
   SE3d T_b_a;                ///< |t| = 1.
-  std::vector<char> inlier;  ///< Per match: epipolar distance below 2 px, in front of both.
+  std::vector<char> inlier;  ///< Per match: epipolar distance of at most init_inlier.
   int inliers = 0;
   double rms = 0;                      ///< px, of the inliers.
   double parallax = 0;                 ///< Degrees, median of the inliers.
@@ -31,7 +36,8 @@ struct TwoView {
 };
 
 /// `a`, `b`: normalised homogeneous points of the matches; `focal`: px, the unit of the distances reported.
-TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal);
+TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal,
+                          const Parameters& parameters = {});
 
 }  // namespace textslam
 

@@ -3,15 +3,12 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 
 namespace textslam {
 namespace {
 
-constexpr int kIterations = 15;
-constexpr double kHuber = 2;     // standard deviations
-constexpr double kLink = 0.1;    // standard deviation of the link: radians, depths, logarithm of the scale
-constexpr double kStop = 1e-10;  // length of a step
+constexpr double kSettledStep = 1e-10;  // length of a step
 
 struct NormalEquations {
   Matrix7 H = Matrix7::Zero();
@@ -37,7 +34,7 @@ NormalEquations linearise(const Map& map, const Parameters& parameters, const Ma
       Q << -Eigen::Matrix3d::Identity(), textplane::hat(q), -q;
       const Eigen::Matrix<double, 2, 7> J = P * T_j_k.R * Q / parameters.point_sigma;
       const Vec2 e = (map.camera.project(p) - track.px.cast<double>()) / parameters.point_sigma;
-      const double w = e.norm() > kHuber ? kHuber / e.norm() : 1;
+      const double w = e.norm() > parameters.loop_huber ? parameters.loop_huber / e.norm() : 1;
       out.H += w * J.transpose() * J;
       out.b -= w * J.transpose() * e;
       ++out.observations;
@@ -52,10 +49,11 @@ LoopAlignment align_loop(const Map& map, const Parameters& parameters, const Map
   LoopAlignment out;
   const double depth = median_depth(map, newest);
   if (!(depth > 0)) return out;
-  Vector7 by_link = Vector7::Constant(1 / (kLink * kLink)), moved_by = Vector7::Zero();
+  Vector7 by_link = Vector7::Constant(1 / (parameters.loop_link_sigma * parameters.loop_link_sigma)),
+          moved_by = Vector7::Zero();
   by_link.head<3>() /= depth * depth;
   out.S_w_k = compose(link.S_a_b, similarity_of(map.keyframe(newest).T_w_c));
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < parameters.loop_iterations; ++iteration) {
     const NormalEquations equations = linearise(map, parameters, link, newest, out.S_w_k);
     if (equations.observations < parameters.join_min_pairs) return out;
     const Matrix7 H = equations.H + Matrix7(by_link.asDiagonal());
@@ -63,9 +61,9 @@ LoopAlignment align_loop(const Map& map, const Parameters& parameters, const Map
     if (!step.allFinite()) return out;
     moved_by += step;
     out.S_w_k = moved(out.S_w_k, step);
-    // What is wrong with an old point is wrong with it in every key frame: together they tell as much as one.
+    // The error of an old point is the same in every key frame: together they tell as much as one.
     out.information = equations.H / static_cast<double>(link.sightings.size());
-    if (step.norm() < kStop) break;
+    if (step.norm() < kSettledStep) break;
   }
   out.ok = true;
   return out;

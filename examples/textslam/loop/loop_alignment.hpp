@@ -1,7 +1,7 @@
-// Loop alignment: where the newest key frame lies by what it and those before it show of the old part of the map.
+// Loop alignment: where the newest key frame lies, by the old points that it and the key frames before it show.
 //
-// The points that both parts know are young in the recent one, and not well known in depth. Here the old points alone count, at
-// the pixels where the recent key frames show them, and the recent key frames' poses to each other, which give the scale.
+// The recent part's own points are young, and their depths uncertain. So only the old points count, at the pixels where
+// the recent key frames show them; the poses of the recent key frames to each other give the scale.
 #ifndef TEXTSLAM_LOOP_LOOP_ALIGNMENT_HPP
 #define TEXTSLAM_LOOP_LOOP_ALIGNMENT_HPP
 
@@ -16,8 +16,8 @@ struct LoopAlignment {
   Matrix7 information = Matrix7::Zero();  ///< Of its error, as moved() applies one: weak where the view is narrow.
 };
 
-/// Refines where `link` puts key frame `newest` (the recent part is b) by Gauss-Newton over the reprojections of its sightings,
-/// with Huber weights; what they leave open stays near the link. Not ok where there are fewer of them than join_min_pairs.
+/// Refines where `link` puts key frame `newest` (the recent part is b) by Gauss-Newton over the reprojections of its
+/// sightings, with Huber weights and the link as a weak prior. Not ok with fewer than join_min_pairs of them.
 LoopAlignment align_loop(const Map& map, const Parameters& parameters, const MapLink& link, int newest);
 
 }  // namespace textslam

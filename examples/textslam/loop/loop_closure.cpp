@@ -5,8 +5,7 @@
 
 #include "textplane/geometry/quad.hpp"
 #include "textslam/common/statistics.hpp"
-#include "textslam/map/point_mapper.hpp"
-#include "textslam/text/text_merge.hpp"
+#include "textslam/map/text_geometry.hpp"
 #include "textslam/track/pose_refit.hpp"
 
 namespace textslam {
@@ -29,7 +28,7 @@ Map part_of(const Map& map, const LocalMap& local, bool inside) {
 }
 
 // Points outside the local map that key frame `id` would see if there were no drift.
-int old_points_in_view(const Map& map, const LocalMap& local, int id) {
+int old_points_in_view(const Map& map, const LocalMap& local, const Parameters& parameters, int id) {
   const SE3d& T_w_c = map.keyframe(id).T_w_c;
   const SE3d T_c_w = T_w_c.inverse();
   int count = 0;
@@ -41,14 +40,15 @@ int old_points_in_view(const Map& map, const LocalMap& local, int id) {
     const Vec2 px = map.camera.project(p);
     if (!(px.x() >= 0 && px.y() >= 0 && px.x() < map.width && px.y() < map.height)) continue;
     const Vec3 from_host = point.p_w - map.keyframe(point.observations.front().keyframe).T_w_c.t;
-    count += (point.p_w - T_w_c.t).normalized().dot(from_host.normalized()) > kMinViewCosine ? 1 : 0;
+    count += (point.p_w - T_w_c.t).normalized().dot(from_host.normalized()) > parameters.min_view_cosine ? 1 : 0;
   }
   return count;
 }
 
-// The detections that may be old texts: those that read like one, and, as some are never read, those unread on no text that
-// is known here.
-std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, const KeyFrame& keyframe) {
+// The detections that may be old texts: those that read like one, and, as some are never read, those unread on no text
+// that is known here.
+std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, const Parameters& parameters,
+                                         const KeyFrame& keyframe) {
   const SE3d T_c_w = keyframe.T_w_c.inverse();
   std::vector<std::string> words;
   std::vector<Quad<double>> known;
@@ -67,7 +67,7 @@ std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, 
     const bool wanted = is_read(detection.text)
                             ? std::find(words.begin(), words.end(), detection.text) != words.end()
                             : std::none_of(known.begin(), known.end(), [&](const Quad<double>& quad) {
-                                return textplane::iou(quad, detection.quad) >= kSameTextOverlap;
+                                return textplane::iou(quad, detection.quad) >= parameters.text_shown_iou;
                               });
     if (wanted) out.push_back(detection);
   }
@@ -75,7 +75,7 @@ std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, 
 }
 
 // The key frame, of the old part, that shows most of the points seen.
-int key_frame_met(const Map& old_part, const Recovery& seen) {
+int key_frame_met(const Map& old_part, const Relocalisation& seen) {
   std::vector<int> counts(old_part.keyframes.size(), 0);
   for (const Track& track : seen.tracks)
     if (track.point >= 0 && track.inlier)
@@ -86,7 +86,7 @@ int key_frame_met(const Map& old_part, const Recovery& seen) {
 
 }  // namespace
 
-double way_between(const Map& map, int a, int b) {
+double path_length_between(const Map& map, int a, int b) {
   double way = 0;
   int before = a;
   for (int id = a + 1; id <= b; ++id) {
@@ -103,12 +103,13 @@ Map recent_part(const Map& map, const LocalMap& local) { return part_of(map, loc
 
 Loop find_loop(const Map& map, const LocalMap& local, const Parameters& parameters) {
   Loop loop;
-  loop.keyframe = static_cast<int>(map.keyframes.size()) - 1;
+  loop.keyframe = map.newest_keyframe();
   const KeyFrame& newest = map.keyframe(loop.keyframe);
-  const bool expected = old_points_in_view(map, local, loop.keyframe) >= 2 * parameters.min_inliers;
+  const bool expected = old_points_in_view(map, local, parameters, loop.keyframe) >=
+                        parameters.loop_expected_factor * parameters.min_inliers;
   Frame frame = newest.frame;
   frame.detections.clear();
-  if (parameters.mode == Mode::text) frame.detections = detections_of_old(map, local, newest);
+  if (parameters.mode == Mode::text) frame.detections = detections_of_old(map, local, parameters, newest);
   if (!expected && frame.detections.empty()) return loop;
 
   const Map old = old_part(map, local);
@@ -133,7 +134,7 @@ Drift drift_left(const Map& map, const Parameters& parameters, const Loop& loop)
   for (const SeenPoint& seen : old_points)
     if (!map.point(seen.point).bad)
       ratios.push_back((by_old * map.point(seen.point).p_w).z() / (T_c_w * map.point(seen.point).p_w).z());
-  return {(by_old.inverse().t - T_w_c.t).norm() / way_between(map, loop.met, loop.keyframe),
+  return {(by_old.inverse().t - T_w_c.t).norm() / path_length_between(map, loop.met, loop.keyframe),
           degrees(by_old.R * T_w_c.R), median(std::move(ratios))};
 }
 

@@ -6,21 +6,19 @@
 #include "textslam/loop/loop_alignment.hpp"
 #include "textslam/loop/loop_closure.hpp"
 #include "textslam/loop/pose_graph.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 #include "textslam/text/text_merge.hpp"
 
 namespace textslam {
 namespace {
 
-constexpr double kSameSpot = 0.3;      // px between points whose observations are those of one
-constexpr double kLeastLength = 0.01;  // of an edge, in units of the depth of what is seen
-
-class Spreader {
+// Distributes the drift over the path since the camera was at the place before.
+class DriftCorrection {
  public:
-  Spreader(Map& map, const Parameters& parameters, const Loop& loop)
+  DriftCorrection(Map& map, const Parameters& parameters, const Loop& loop)
       : map_(map), parameters_(parameters), loop_(loop), unit_(median_depth(map, loop.keyframe)) {}
 
-  // Where the key frames would be without drift. False where that cannot be told.
+  // Where the key frames would be without drift; false where that is not known.
   bool solve() {
     if (!(unit_ > 0)) return false;
     for (const KeyFrame& keyframe : map_.keyframes) before_.push_back(similarity_of(keyframe.T_w_c));
@@ -29,24 +27,25 @@ class Spreader {
     add_sequence();
     const LoopAlignment aligned = align_loop(map_, parameters_, loop_.link, loop_.keyframe);
     const Similarity& newest = node(before_, loop_.keyframe);
-    GraphEdge edge = edge_of(loop_.met, loop_.keyframe, kLeastLength);
+    GraphEdge edge = edge_of(loop_.met, loop_.keyframe, parameters_.loop_min_length);
     edge.S_a_b =
         compose(inverse(node(before_, loop_.met)), aligned.ok ? aligned.S_w_k : compose(loop_.link.S_a_b, newest));
     if (aligned.ok) edge.information = aligned.information;
     edges_.push_back(edge);
-    return relax(nodes_, edges_, 0);
+    return relax(nodes_, edges_, 0, parameters_);
   }
 
   // Of the newest key frame against the one that it met.
   Drift drift() const {
     const Similarity is = compose(inverse(node(nodes_, loop_.met)), node(nodes_, loop_.keyframe));
     const Similarity was = compose(inverse(node(before_, loop_.met)), node(before_, loop_.keyframe));
-    return {(is.t - was.t).norm() / way_between(map_, loop_.met, loop_.keyframe), degrees(is.R.transpose() * was.R),
-            is.scale};
+    return {(is.t - was.t).norm() / path_length_between(map_, loop_.met, loop_.keyframe),
+            degrees(is.R.transpose() * was.R), is.scale};
   }
 
-  // Moves the map; the scales of the key frames. Points go with the key frame that saw them first, planes with their host.
-  std::vector<double> spread() {
+  // Moves the map and returns the scales of the key frames. Points move with the key frame that saw them first, planes
+  // with their host.
+  std::vector<double> apply() {
     for (MapPoint& point : map_.points) {
       if (point.bad) continue;
       const int host = point.observations.front().keyframe;
@@ -70,7 +69,7 @@ class Spreader {
     return nodes[static_cast<std::size_t>(id)];
   }
 
-  // As the map has it, with what is lost on a way of this length, in units.
+  // As the map has it, with the drift of a path of this length, in depths.
   GraphEdge edge_of(int a, int b, double length) const {
     GraphEdge edge;
     edge.a = a;
@@ -83,7 +82,8 @@ class Spreader {
 
   void add_edge(int a, int b) {
     const Similarity S_a_b = compose(inverse(node(before_, a)), node(before_, b));
-    edges_.push_back(edge_of(a, b, kLeastLength + S_a_b.t.norm() / unit_ + textplane::so3_log<double>(S_a_b.R).norm()));
+    edges_.push_back(edge_of(
+        a, b, parameters_.loop_min_length + S_a_b.t.norm() / unit_ + textplane::so3_log<double>(S_a_b.R).norm()));
   }
 
   void add_neighbours() {
@@ -94,7 +94,8 @@ class Spreader {
     }
   }
 
-  // Neighbours in time hold the graph together where nothing else does. Those culled hang on it by one edge, and do nothing.
+  // Neighbours in time connect the graph where nothing else does. Culled key frames hang on it by one edge, without
+  // effect.
   void add_sequence() {
     std::vector<int> order;
     for (int id = 0; id < static_cast<int>(nodes_.size()); ++id) order.push_back(id);
@@ -116,9 +117,7 @@ class Spreader {
 };
 
 bool observes(const Map& map, int point, int keyframe) {
-  const auto& observations = map.point(point).observations;
-  return std::any_of(observations.begin(), observations.end(),
-                     [&](const PointObservation& o) { return o.keyframe == keyframe; });
+  return observed_in(map.point(point).observations, keyframe) != nullptr;
 }
 
 void merge_points(Map& map, int kept, int other) {
@@ -164,23 +163,21 @@ LoopCorrection close_loop(Map& map, const Parameters& parameters, const Loop& lo
   LoopCorrection out;
   for (std::size_t i = 0; i < map.points.size(); ++i) out.points.push_back(static_cast<int>(i));
   out.scales.assign(map.keyframes.size(), 1);
-  Spreader spreader(map, parameters, loop);
-  if (spreader.solve()) {
-    out.found = spreader.drift();
-    out.spread = shift_seen(map, loop) > parameters.loop_max_shift;
-    if (out.spread) out.scales = spreader.spread();
+  DriftCorrection correction(map, parameters, loop);
+  if (correction.solve()) {
+    out.found = correction.drift();
+    out.corrected = shift_seen(map, loop) > parameters.loop_max_shift;
+    if (out.corrected) out.scales = correction.apply();
   }
 
   for (const auto& [kept, other] : loop.link.points) {
-    if (map.point(kept).bad || map.point(other).bad || distance_seen(map, loop, kept, other) > kSameSpot) continue;
+    if (map.point(kept).bad || map.point(other).bad ||
+        distance_seen(map, loop, kept, other) > parameters.loop_same_point)
+      continue;
     merge_points(map, kept, other);
     out.points[static_cast<std::size_t>(other)] = kept;
   }
-  for (const auto& [a, b] : loop.link.texts) {
-    const bool second =
-        map.texts[static_cast<std::size_t>(b)].targets.size() > map.texts[static_cast<std::size_t>(a)].targets.size();
-    merge_texts(map, second ? b : a, second ? a : b);
-  }
+  for (const auto& [a, b] : loop.link.texts) merge_texts(map, parameters, a, b);
   for (const LinkSighting& sighting : loop.link.sightings)
     for (const Track& track : sighting.tracks)
       if (!map.point(track.point).bad && !observes(map, track.point, sighting.keyframe))

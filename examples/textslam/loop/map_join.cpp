@@ -6,17 +6,13 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
 #include "textslam/common/statistics.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
+#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_words.hpp"
 #include "textslam/text/text_merge.hpp"
 
 namespace textslam {
 namespace {
-
-constexpr float kSamePixel = 1.5F;     // px between two sightings of one point
-constexpr double kSameText = 0.4;      // IoU of the quads of one text
-constexpr double kMinAgreement = 0.6;  // share of the pairs that one similarity must explain
-constexpr int kTrims = 5;              // rounds of fitting and leaving out what does not agree
-constexpr double kMaxTurn = 3;         // degrees between a key frame's pose in a and where the similarity puts it
 
 // The same place in both maps, seen from a key frame.
 struct Pair {
@@ -31,7 +27,7 @@ class Linker {
   Linker(const Map& a, const Map& b, const Parameters& parameters) : a_(a), b_(b), parameters_(parameters) {}
 
   // Key frame `id` of b was recognised in a.
-  void add(int id, const Recovery& seen) {
+  void add(int id, const Relocalisation& seen) {
     const KeyFrame& keyframe = b_.keyframe(id);
     sightings_.push_back({id, seen.T_c_w.inverse(), {}});
     const std::vector<Track> in_b = tracks_of_keyframe(b_, id);
@@ -41,7 +37,7 @@ class Linker {
       const auto nearest = std::min_element(in_b.begin(), in_b.end(), [&](const Track& p, const Track& q) {
         return (p.px - track.px).squaredNorm() < (q.px - track.px).squaredNorm();
       });
-      if (nearest == in_b.end() || (nearest->px - track.px).norm() > kSamePixel) continue;
+      if (nearest == in_b.end() || (nearest->px - track.px).norm() > parameters_.join_same_pixel) continue;
       const Vec3& in_a = a_.point(track.point).p_w;
       add_pair({in_a, b_.point(nearest->point).p_w, (seen.T_c_w * in_a).z(), id, track.point, nearest->point});
     }
@@ -66,10 +62,10 @@ class Linker {
 
   // The similarity that most pairs agree with.
   void solve(MapLink* link) {
-    double limit = 3 * parameters_.join_tolerance;
+    double limit = parameters_.join_first_tolerance * parameters_.join_tolerance;
     std::vector<char> agrees(pairs_.size(), 1);
     std::size_t count = pairs_.size();
-    for (int round = 0; round < kTrims; ++round) {
+    for (int round = 0; round < parameters_.join_rounds; ++round) {
       std::vector<Vec3> from, to;
       for (std::size_t i = 0; i < pairs_.size(); ++i) {
         if (!agrees[i]) continue;
@@ -83,19 +79,19 @@ class Linker {
         agrees[i] = error.norm() <= limit * pairs_[i].depth ? 1 : 0;
         count += agrees[i] ? 1 : 0;
       }
-      limit = std::max(parameters_.join_tolerance, 0.7 * limit);
+      limit = std::max(parameters_.join_tolerance, parameters_.join_narrowing * limit);
     }
     for (const Sighting& sighting : sightings_) {
       const SE3d expected = link->S_a_b * b_.keyframe(sighting.keyframe).T_w_c;
       const double depth = link->S_a_b.scale * median_depth(b_, sighting.keyframe);
       const double turn = degrees(expected.R.transpose() * sighting.T_a_c.R);
       const double shift = (expected.t - sighting.T_a_c.t).norm();
-      if (turn > kMaxTurn || shift > parameters_.join_tolerance * depth) continue;
+      if (turn > parameters_.join_max_turn || shift > parameters_.join_tolerance * depth) continue;
       ++link->keyframes;
       link->sightings.push_back({sighting.keyframe, sighting.tracks});
     }
     link->ok = static_cast<int>(count) >= parameters_.join_min_pairs &&
-               static_cast<double>(count) >= kMinAgreement * static_cast<double>(pairs_.size()) &&
+               static_cast<double>(count) >= parameters_.join_min_agreement * static_cast<double>(pairs_.size()) &&
                link->keyframes >= parameters_.join_min_keyframes;
     for (std::size_t i = 0; i < pairs_.size(); ++i)
       if (agrees[i] && pairs_[i].point_a >= 0) link->points.emplace_back(pairs_[i].point_a, pairs_[i].point_b);
@@ -119,10 +115,11 @@ class Linker {
   // The corners of a's quad, and where their rays meet b's plane.
   void add_text(const TextObject& of_a, const SE3d& T_c_a, const TextObject& of_b, const SE3d& T_c_b, int id) {
     if (of_a.state != TextState::mapped || of_b.state != TextState::mapped) return;
-    if (!words_agree(of_a, of_b)) return;
+    if (!words_agree(of_a.word(), of_b.word(), parameters_)) return;
     Quad<double> quad_a, quad_b;
     if (!project_text(a_, of_a, T_c_a, &quad_a) || !project_text(b_, of_b, T_c_b, &quad_b) ||
-        facing(a_, of_a, T_c_a) <= 0 || facing(b_, of_b, T_c_b) <= 0 || textplane::iou(quad_a, quad_b) < kSameText)
+        facing(a_, of_a, T_c_a) <= 0 || facing(b_, of_b, T_c_b) <= 0 ||
+        textplane::iou(quad_a, quad_b) < parameters_.join_text_iou)
       return;
     Vec3 theta_a, theta_b;
     if (!textplane::is_ok(textplane::reanchor_plane<double>(of_a.theta, a_.T_c_h(T_c_a, of_a.host), &theta_a)) ||
@@ -151,23 +148,23 @@ class Linker {
 
 }  // namespace
 
-MapLink link_maps(const Map& a, const Map& b, const Parameters& parameters, const Recovery& seen) {
+MapLink link_maps(const Map& a, const Map& b, const Parameters& parameters, const Relocalisation& seen) {
   MapLink link;
-  const int newest = static_cast<int>(b.keyframes.size()) - 1;
+  const int newest = b.newest_keyframe();
   Linker linker(a, b, parameters);
   linker.add(newest, seen);
   const Similarity guess = linker.from_keyframe(newest, seen.T_c_w);
   if (!(guess.scale > 0)) return link;
   for (int id = newest - 1; id >= 0 && id > newest - parameters.join_keyframes; --id) {
     const KeyFrame& keyframe = b.keyframe(id);
-    const Recovery other = observe_from(a, parameters, keyframe.frame, (guess * keyframe.T_w_c).inverse());
+    const Relocalisation other = observe_from(a, parameters, keyframe.frame, (guess * keyframe.T_w_c).inverse());
     if (other.ok) linker.add(id, other);
   }
   linker.solve(&link);
   return link;
 }
 
-JoinedIds join_maps(Map& a, const Map& b, const MapLink& link) {
+JoinedIds join_maps(Map& a, const Map& b, const MapLink& link, const Parameters& parameters) {
   JoinedIds ids;
   ids.first_keyframe = static_cast<int>(a.keyframes.size());
   for (const KeyFrame& keyframe : b.keyframes)
@@ -196,7 +193,7 @@ JoinedIds join_maps(Map& a, const Map& b, const MapLink& link) {
     const auto same = std::find_if(link.texts.begin(), link.texts.end(),
                                    [&](const std::pair<int, int>& pair) { return pair.second == text.id; });
     if (same != link.texts.end()) {
-      add_sightings(a.texts[static_cast<std::size_t>(same->first)], text, ids.first_keyframe);
+      add_observations_of(text, ids.first_keyframe, parameters, a.text(same->first));
       continue;
     }
     TextObject moved = text;
@@ -204,7 +201,7 @@ JoinedIds join_maps(Map& a, const Map& b, const MapLink& link) {
     moved.host += ids.first_keyframe;
     moved.theta /= s;
     moved.covariance /= s * s;
-    for (int& target : moved.targets) target += ids.first_keyframe;
+    for (int& view : moved.views) view += ids.first_keyframe;
     a.texts.push_back(std::move(moved));
   }
   return ids;

@@ -1,8 +1,8 @@
 // Joining of two maps that turn out to show one place.
 //
-// Key frames of map b are looked for in map a. What both maps know of such a frame, points found at the same pixel and texts
-// that fall on each other, gives the similarity between their worlds; it must hold over several key frames. Then b's
-// contents move over to a, and what is in both becomes one.
+// Key frames of map b are searched for in map a. Points found at the same pixel, and texts that fall on each other,
+// give the similarity between the two worlds; several key frames must agree on it. Then b's contents move to a, and
+// what is in both is merged.
 #ifndef TEXTSLAM_LOOP_MAP_JOIN_HPP
 #define TEXTSLAM_LOOP_MAP_JOIN_HPP
 
@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "io/evaluate.hpp"
-#include "textslam/common/parameters.hpp"
-#include "textslam/map/map.hpp"
-#include "textslam/track/recovery.hpp"
+#include "textslam/relocalise/relocalisation.hpp"
 
 namespace textslam {
 
@@ -32,7 +30,7 @@ struct MapLink {
 };
 
 /// Where map b lies in map a. `seen` is b's newest key frame as recognised in a; the others are looked for from there.
-MapLink link_maps(const Map& a, const Map& b, const Parameters& parameters, const Recovery& seen);
+MapLink link_maps(const Map& a, const Map& b, const Parameters& parameters, const Relocalisation& seen);
 
 /// What became of b's ids in a.
 struct JoinedIds {
@@ -41,7 +39,7 @@ struct JoinedIds {
 };
 
 /// Moves the contents of b into a by the link. a's poses stay as they are; nothing is adjusted.
-JoinedIds join_maps(Map& a, const Map& b, const MapLink& link);
+JoinedIds join_maps(Map& a, const Map& b, const MapLink& link, const Parameters& parameters);
 
 }  // namespace textslam
 

@@ -6,9 +6,6 @@
 namespace textslam {
 namespace {
 
-using Vec3 = Eigen::Vector3d;
-
-constexpr int kRelaxations = 20;
 constexpr double kSettled = 1e-10;  // largest entry of a step
 
 // M moved(I, d) M^-1 = moved(I, adjoint(M) d) to first order.
@@ -105,10 +102,11 @@ Similarity similarity_of(const SE3d& T) {
   return S;
 }
 
-bool relax(std::vector<Similarity>& nodes, const std::vector<GraphEdge>& edges, int fixed) {
+bool relax(std::vector<Similarity>& nodes, const std::vector<GraphEdge>& edges, int fixed,
+           const Parameters& parameters) {
   Relaxation relaxation(edges, static_cast<int>(nodes.size()), fixed);
   std::vector<Similarity> S = nodes;
-  for (int iteration = 0; iteration < kRelaxations; ++iteration) {
+  for (int iteration = 0; iteration < parameters.loop_graph_iterations; ++iteration) {
     Eigen::VectorXd x;
     if (!relaxation.step(S, &x)) return false;
     for (int k = 0; k < static_cast<int>(S.size()); ++k)

@@ -1,11 +1,13 @@
-// Pose graph: key frames held together by what is known of their relative poses. A loop that is closed pulls on it, and the
-// drift spreads over the way on which it came about.
+// Pose graph: key frames with what is known of their relative poses. Closing a loop distributes the drift over the path
+// along which it built up.
 #ifndef TEXTSLAM_LOOP_POSE_GRAPH_HPP
 #define TEXTSLAM_LOOP_POSE_GRAPH_HPP
 
 #include <vector>
 
 #include "io/evaluate.hpp"
+#include "textslam/common/geometry.hpp"
+#include "textslam/common/parameters.hpp"
 
 namespace textslam {
 
@@ -18,7 +20,8 @@ Similarity similarity_of(const SE3d& T);
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-/// S moved in its source's frame: S times (step's translation, exponential of its rotation, exponential of its last entry).
+/// S moved in its source's frame: S times (step's translation, exponential of its rotation, exponential of its last
+/// entry).
 Similarity moved(const Similarity& S, const Vector7& step);
 
 /// What is known of nodes a and b: S_w_b = S_w_a S_a_b, moved by an error of this information (inverse covariance).
@@ -32,9 +35,10 @@ struct GraphEdge {
 ///
 ///   sum over edges of e^T information e,  e = (t, log R, log s) of S_a_b^-1 S_w_a^-1 S_w_b,
 ///
-/// by Gauss-Newton from the nodes given. Every node must hang together with the fixed one. False, and the nodes as they were,
-/// where the system cannot be solved.
-bool relax(std::vector<Similarity>& nodes, const std::vector<GraphEdge>& edges, int fixed);
+/// by Gauss-Newton from the nodes given. Every node must be connected with the fixed one. False, and the nodes as they
+/// were, where the system cannot be solved.
+bool relax(std::vector<Similarity>& nodes, const std::vector<GraphEdge>& edges, int fixed,
+           const Parameters& parameters = {});
 
 }  // namespace textslam
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 
 namespace textslam {
 namespace {
-
-constexpr int kHops = 2;
 
 class Neighbourhood {
  public:
@@ -17,7 +15,7 @@ class Neighbourhood {
     for (const TextObject& text : map.texts) {
       if (text.state != TextState::mapped) continue;
       texts_of_[static_cast<std::size_t>(text.host)].push_back(text.id);
-      for (const int id : text.targets) texts_of_[static_cast<std::size_t>(id)].push_back(text.id);
+      for (const int id : text.views) texts_of_[static_cast<std::size_t>(id)].push_back(text.id);
     }
   }
 
@@ -25,9 +23,9 @@ class Neighbourhood {
   std::vector<int> add_around(const std::vector<int>& points, const std::vector<int>& texts) {
     std::vector<int> shared = shared_points(map_, points);
     for (const int id : texts) {
-      const TextObject& text = map_.texts[static_cast<std::size_t>(id)];
+      const TextObject& text = map_.text(id);
       shared[static_cast<std::size_t>(text.host)] += parameters_.local_min_shared;
-      for (const int target : text.targets) shared[static_cast<std::size_t>(target)] += parameters_.local_min_shared;
+      for (const int view : text.views) shared[static_cast<std::size_t>(view)] += parameters_.local_min_shared;
     }
     std::vector<int> added;
     for (std::size_t i = 0; i < shared.size(); ++i)
@@ -60,7 +58,7 @@ class Neighbourhood {
     }
     for (const TextObject& text : map_.texts) {
       const auto is_in = [&](int keyframe) { return found_.keyframe_in[static_cast<std::size_t>(keyframe)] != 0; };
-      if (is_in(text.host) || std::any_of(text.targets.begin(), text.targets.end(), is_in))
+      if (is_in(text.host) || std::any_of(text.views.begin(), text.views.end(), is_in))
         found_.text_in[static_cast<std::size_t>(text.id)] = 1;
     }
     return std::move(found_);
@@ -79,14 +77,14 @@ LocalMap local_map(const Map& map, const Parameters& parameters, int keyframe) {
   Neighbourhood around(map, parameters);
   around.add(keyframe);
   std::vector<int> reached = {keyframe};
-  for (int hop = 0; hop < kHops; ++hop) reached = around.add_around(reached);
+  for (int hop = 0; hop < parameters.local_hops; ++hop) reached = around.add_around(reached);
   return around.contents();
 }
 
 LocalMap local_map(const Map& map, const Parameters& parameters, const std::vector<int>& points) {
   Neighbourhood around(map, parameters);
   std::vector<int> reached = around.add_around(points, {});
-  for (int hop = 1; hop < kHops; ++hop) reached = around.add_around(reached);
+  for (int hop = 1; hop < parameters.local_hops; ++hop) reached = around.add_around(reached);
   return around.contents();
 }
 

@@ -1,7 +1,8 @@
-// Local map: what the tracker may look for. The key frames around the newest one, by what they share, and what these observe.
+// Local map: the key frames around the newest one, by what they share, and what these observe. The tracker looks for it
+// alone.
 //
-// The rest of the map may have drifted against it: where it seems to be is not where it is. It is met again by loop closure
-// (loop_closure.hpp), which says how the two lie to each other, and not by chance.
+// The rest of the map may have drifted against it. Loop closure finds out by how much (loop_closure.hpp), and connects
+// the two.
 #ifndef TEXTSLAM_MAP_LOCAL_MAP_HPP
 #define TEXTSLAM_MAP_LOCAL_MAP_HPP
 
@@ -15,7 +16,7 @@ namespace textslam {
 struct LocalMap {
   std::vector<char> keyframe_in, point_in, text_in;  ///< By id.
 
-  /// What was added to the map since is in; so is everything, in an empty one.
+  /// What the map got since is in. In an empty local map everything is.
   bool has_keyframe(int id) const { return in(keyframe_in, id); }
   bool has_point(int id) const { return in(point_in, id); }
   bool has_text(int id) const { return in(text_in, id); }
@@ -26,8 +27,8 @@ struct LocalMap {
   }
 };
 
-/// Around a key frame: the key frames that share local_min_shared points or a mapped text with it, those that share as much
-/// with one of these, their points, and the texts that any of them hosts or observes.
+/// Around a key frame: the key frames that share local_min_shared points or a mapped text with it, those that share as
+/// much with one of these (local_hops), their points, and the texts that any of them hosts or observes.
 LocalMap local_map(const Map& map, const Parameters& parameters, int keyframe);
 
 /// The same around a frame that is no key frame, by the map points that it sees.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "textslam/track/tracker.hpp"
+#include "textslam/common/clock.hpp"
 
 namespace textslam {
 

@@ -46,7 +46,7 @@ Json world_json(const System& system, const Sequence& sequence, const RunSummary
   std::vector<int> good;
   for (std::size_t i = 0; i < map.points.size(); ++i)
     if (!map.points[i].bad) good.push_back(static_cast<int>(i));
-  for (const int id : spread(good, kReportPoints))
+  for (const int id : evenly_spaced(good, kReportPoints))
     for (const double value : map.point(id).p_w) points.push_back(short_number(value));
   for (const int id : map.keyframe_ids())
     keyframes.push_back({{"frame", map.keyframe(id).frame.index}, {"pose", short_pose(map.keyframe(id).T_w_c)}});

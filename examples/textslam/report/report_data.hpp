@@ -11,7 +11,7 @@
 
 namespace textslam {
 
-constexpr std::size_t kReportPoints = 20000;  ///< Map points shown; of more, evenly spread.
+constexpr std::size_t kReportPoints = 20000;  ///< Map points shown; of more, evenly spaced.
 
 /// {"points":[x,y,z,...], "keyframes":[{"frame","pose"}], "trajectory":[pose or null, a frame], "truth":[[x,y,z] or null, a
 /// frame], "signs":[{"id","word","corners"}]}. Truth and signs are empty where they are not known.

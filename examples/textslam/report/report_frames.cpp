@@ -7,6 +7,8 @@
 #include "io/image_file.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/photometry/sample.hpp"
+#include "textslam/common/statistics.hpp"
+#include "textslam/map/text_geometry.hpp"
 #include "textslam/report/evaluate_text.hpp"
 #include "textslam/text/text_plane.hpp"
 
@@ -101,7 +103,7 @@ Json frames_json(const System& system, const Parameters& parameters,
   for (const auto& entry : detections)
     if (entry.first < static_cast<int>(system.records().size())) processed.push_back(entry.first);
   Json frames = Json::array();
-  for (const int index : spread(processed, kReportFrames)) {
+  for (const int index : evenly_spaced(processed, kReportFrames)) {
     const auto i = static_cast<std::size_t>(index);
     const FrameRecord& record = system.records()[i];
     const std::shared_ptr<const Pyramid> pyramid = image(index);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "textslam/common/report_json.hpp"
-#include "textslam/system.hpp"
+#include "textslam/system/system.hpp"
 
 namespace textslam {
 
@@ -17,7 +17,7 @@ namespace textslam {
 using ImageSource = std::function<std::shared_ptr<const Pyramid>(int)>;
 
 // Bounds on the size of the report. A frame's picture takes up to 4/3 of kFrameBytes in it, its marks about 10 kB; map points 30 B each.
-constexpr std::size_t kReportFrames = 300;      ///< Pictures; of a longer run, evenly spread.
+constexpr std::size_t kReportFrames = 300;      ///< Pictures; of a longer run, evenly spaced.
 constexpr int kFrameSide = 320;                 ///< px, the longer side of a picture at most.
 constexpr std::size_t kFrameBytes = 22 << 10;   ///< Of a picture's JPEG.
 constexpr std::size_t kTextureBytes = 3 << 19;  ///< Of the JPEGs of all texts.

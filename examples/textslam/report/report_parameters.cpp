@@ -13,10 +13,9 @@ Json to_value(float value) { return short_number(static_cast<double>(value)); }
 
 Json parameters_json(const Parameters& parameters) {
   Json out = Json::array();
-  const auto field = [&](const char* section, const char* name, const auto& value, const char* comment) {
-    out.push_back(Json::array({section, name, to_value(value), comment}));
-  };
-#include "parameters_list.inc"
+  for_each_parameter(parameters, [&](const char* section, const char* name, const auto& value, const char* meaning) {
+    out.push_back(Json::array({section, name, to_value(value), meaning}));
+  });
   return out;
 }
 

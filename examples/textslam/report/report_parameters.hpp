@@ -1,5 +1,4 @@
-// The parameters as JSON. The list of them is made from parameters.hpp when the program is built (examples/viewer/
-// parameters.cmake), so none can be forgotten.
+// The parameters as JSON, for the report.
 #ifndef TEXTSLAM_REPORT_REPORT_PARAMETERS_HPP
 #define TEXTSLAM_REPORT_REPORT_PARAMETERS_HPP
 
@@ -8,7 +7,7 @@
 
 namespace textslam {
 
-/// [[section, name, value, comment], ...] in the order of the struct.
+/// [[section, name, value, meaning], ...] in the order of the list.
 Json parameters_json(const Parameters& parameters);
 
 }  // namespace textslam

@@ -17,7 +17,7 @@ void add_loops(Fields& fields, const std::vector<LoopRecord>& loops) {
     list.push_back({{"frame", loop.frame},
                     {"met_keyframe", loop.met_frame},
                     {"text", loop.word},
-                    {"spread", loop.spread},
+                    {"spread", loop.corrected},
                     {"drift", drift(loop.found)},
                     {"left", drift(loop.left)}});
   fields.add("loops", nullptr, list);

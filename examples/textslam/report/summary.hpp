@@ -10,7 +10,7 @@
 #include "io/sequence.hpp"
 #include "textslam/report/evaluate_text.hpp"
 #include "textslam/report/fields.hpp"
-#include "textslam/system.hpp"
+#include "textslam/system/system.hpp"
 
 namespace textslam {
 

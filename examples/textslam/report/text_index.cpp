@@ -6,8 +6,9 @@
 #include "io/json_file.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/common/report_json.hpp"
+#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_words.hpp"
 #include "textslam/report/evaluate_text.hpp"
-#include "textslam/text/text_words.hpp"
 
 namespace textslam {
 namespace {
@@ -27,7 +28,7 @@ int rank(const IndexedText& text, const std::string& word) {
   for (const auto& [reading, votes] : text.readings)
     if (holds(reading)) return 2;
   for (const auto& [reading, votes] : text.readings)
-    if (likeness(lower(reading), word) >= kSameWord) return 3;
+    if (word_similarity(lower(reading), word) >= Parameters{}.same_word) return 3;
   return kNoMatch;
 }
 
@@ -35,7 +36,7 @@ int rank(const IndexedText& text, const std::string& word) {
 
 int best_view(const Map& map, const TextObject& text, Quad<double>* quad) {
   std::vector<int> views = {text.host};
-  views.insert(views.end(), text.targets.begin(), text.targets.end());
+  views.insert(views.end(), text.views.begin(), text.views.end());
   int best = text.host;
   double most = -1;
   for (const int id : views) {

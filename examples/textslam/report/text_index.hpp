@@ -39,7 +39,7 @@ std::string text_index_json(const std::vector<IndexedText>& texts);
 std::vector<IndexedText> read_text_index(const std::string& path);
 
 /// Texts that have `word` in their own word or in a reading, letters' case aside: first those that are the word, then those
-/// whose own word holds it, then those that were read so at times, last those with a reading like it (likeness() of a half);
+/// whose own word holds it, then those that were read so at times, last those with a reading like it (word_similarity() of a half);
 /// among equals by score.
 std::vector<IndexedText> query(const std::vector<IndexedText>& texts, const std::string& word);
 

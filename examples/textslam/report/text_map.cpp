@@ -5,6 +5,7 @@
 
 #include "io/data_uri.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textslam/map/text_geometry.hpp"
 #include "textslam/report/report_frames.hpp"
 
 namespace textslam {
@@ -23,7 +24,7 @@ Fields describe(const Map& map, const TextObject& text) {
   fields.add("theta", nullptr, text.theta);
   fields.add("host", nullptr, host.frame.timestamp);
   fields.add(nullptr, "sigma_deg", sigma);
-  fields.add("observations", "observations", text.targets.size() + 1);
+  fields.add("observations", "observations", text.views.size() + 1);
   fields.add("zncc", "zncc", text.zncc);
   fields.add("normal_sigma_deg", nullptr, sigma);
   fields.add(nullptr, "host", host.frame.index);

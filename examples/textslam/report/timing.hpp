@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "textslam/common/report_json.hpp"
-#include "textslam/system.hpp"
+#include "textslam/system/system.hpp"
 
 namespace textslam {
 

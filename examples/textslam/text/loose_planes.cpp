@@ -8,16 +8,16 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/plane_fit.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textslam/map/culling.hpp"
+#include "textslam/map/text_geometry.hpp"
 
 namespace textslam {
 namespace {
 
-constexpr int kMostFailures = 5;  // fits in a row
-
 using Draw = std::array<std::size_t, 3>;
 
-// All triples where they are few, else as many as asked for. The generator's numbers are the same with every compiler; the
-// slight preference of a remainder for small indices does no harm.
+// All triples where they are few, else as many as asked for. The generator's numbers are the same with every compiler;
+// the slight preference of a remainder for small indices does no harm.
 std::vector<Draw> draws_of(std::size_t n, std::size_t most) {
   std::vector<Draw> draws;
   if (n * (n - 1) * (n - 2) / 6 <= most) {
@@ -59,19 +59,11 @@ PointsOfText points_in_quad(const Map& map, const TextObject& text) {
   return found;
 }
 
-bool plausible(const Map& map, const TextObject& text, const Vec3& theta, const Parameters& parameters) {
-  const Vec3 ray = map.camera.unproject(textplane::centroid(text.patch.quad)).normalized();
-  if (-textplane::plane_normal(theta).dot(ray) < std::cos(parameters.text_max_slant * M_PI / 180)) return false;
-  return std::all_of(text.patch.quad.corner.begin(), text.patch.quad.corner.end(), [&](const Vec2& corner) {
-    return textplane::inverse_depth(theta, map.camera.unproject(corner)) > 0;
-  });
-}
-
 // Takes the plane of the points; *on_plane are the ids of its inliers, rising. False, and nothing changed, without one.
 bool fit_text(const Map& map, const Parameters& parameters, TextObject& text, std::vector<int>* on_plane) {
   const PointsOfText points = points_in_quad(map, text);
   const LoosePlane plane = fit_loose_plane(points.m, points.rho, parameters);
-  if (!plane.ok || !plausible(map, text, plane.theta, parameters)) return false;
+  if (!plane.ok || !is_plausible_plane(map, parameters, text.patch.quad, plane.theta)) return false;
   text.theta = plane.theta;
   text.covariance = plane.covariance;
   on_plane->clear();
@@ -81,11 +73,9 @@ bool fit_text(const Map& map, const Parameters& parameters, TextObject& text, st
 
 bool observes(const Map& map, const Parameters& parameters, const TextObject& text, const std::vector<int>& on_plane,
               int keyframe) {
-  const SE3d T_c_w = map.keyframe(keyframe).T_w_c.inverse();
   Quad<double> quad;
-  if (facing(map, text, T_c_w) < std::cos(parameters.text_max_slant * M_PI / 180) ||
-      !project_text(map, text, T_c_w, &quad) || std::abs(textplane::area(quad)) < parameters.text_min_area / 2 ||
-      !textplane::inside_image(quad, map.width, map.height, 1.0))
+  if (!is_in_view(map, parameters, text, map.keyframe(keyframe).T_w_c.inverse(),
+                  parameters.text_seen_area * parameters.text_min_area, 1, &quad))
     return false;
   int seen = 0;
   for (const int point : map.keyframe(keyframe).points)
@@ -115,7 +105,7 @@ LoosePlane fit_loose_plane(const std::vector<Vec3>& m, const std::vector<double>
     }
   }
   if (best.theta.isZero()) return best;
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < parameters.loose_rounds; ++round) {
     std::vector<Vec3> rays;
     std::vector<double> depths;
     best.inliers.clear();
@@ -140,7 +130,6 @@ void update_loose_planes(Map& map, const Parameters& parameters, int id) {
   for (TextObject& text : map.texts) {
     if (text.host == id || text.state == TextState::dropped) continue;
     std::vector<int> on_plane;
-    const int age = id - text.host;
     if (fit_text(map, parameters, text, &on_plane)) {
       text.failures = 0;
       int first = id;
@@ -149,17 +138,12 @@ void update_loose_planes(Map& map, const Parameters& parameters, int id) {
         first = text.host + 1;
       }
       for (int keyframe = first; keyframe <= id; ++keyframe)
-        if (observes(map, parameters, text, on_plane, keyframe)) text.targets.push_back(keyframe);
+        if (observes(map, parameters, text, on_plane, keyframe)) text.views.push_back(keyframe);
     } else if (text.has_plane()) {
       ++text.failures;
     }
-    const int observations = static_cast<int>(text.targets.size()) + 1;
-    if (text.state == TextState::tentative && observations >= parameters.text_min_observations &&
-        text.detections >= parameters.text_min_detections)
-      text.state = TextState::mapped;
-    const bool waited = (text.state == TextState::candidate && age > parameters.text_patience) ||
-                        (text.state == TextState::tentative && age > 2 * parameters.text_patience);
-    if (waited || text.failures >= kMostFailures) drop(text);
+    if (text.state == TextState::tentative && is_proven(text, parameters)) text.state = TextState::mapped;
+    if (is_overdue(text, parameters, id) || is_contradicted(text, parameters)) drop(text);
   }
 }
 

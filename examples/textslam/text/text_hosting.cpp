@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "textplane/geometry/quad.hpp"
+#include "textslam/common/statistics.hpp"
+#include "textslam/map/text_geometry.hpp"
 #include "textslam/text/text_plane.hpp"
 
 namespace textslam {
@@ -17,11 +19,11 @@ bool shown_better(const Map& map, const Parameters& parameters, const TextObject
     return false;
   if (!(textplane::area(*quad) >= parameters.rehost_area * textplane::area(text.patch.quad))) return false;
   const auto slant = [&](const SE3d& T) { return std::acos(std::clamp(facing(map, text, T), -1.0, 1.0)); };
-  return slant(T_c_w) <= slant(map.keyframe(text.host).T_w_c.inverse()) + parameters.rehost_slant * M_PI / 180;
+  return slant(T_c_w) <= slant(map.keyframe(text.host).T_w_c.inverse()) + radians(parameters.rehost_slant);
 }
 
 // Mean of 1 - ZNCC between the text's patch and these key frames, on the finest level.
-double unlikeness(const Map& map, const TextObject& text, const std::vector<int>& keyframes) {
+double dissimilarity(const Map& map, const TextObject& text, const std::vector<int>& keyframes) {
   textplane::PhotometricWorkspace workspace;
   double sum = 0;
   for (const int id : keyframes) {
@@ -38,13 +40,13 @@ double unlikeness(const Map& map, const TextObject& text, const std::vector<int>
 }  // namespace
 
 bool rehost(const Map& map, const Parameters& parameters, int id, TextObject& text) {
-  const auto at = std::find(text.targets.begin(), text.targets.end(), id);
+  const auto at = std::find(text.views.begin(), text.views.end(), id);
   Quad<double> quad;
-  if (text.state != TextState::mapped || at == text.targets.end() || map.keyframe(id).culled ||
+  if (text.state != TextState::mapped || at == text.views.end() || map.keyframe(id).culled ||
       !shown_better(map, parameters, text, id, &quad))
     return false;
-  std::vector<int> others = text.targets;
-  others.erase(others.begin() + (at - text.targets.begin()));
+  std::vector<int> others = text.views;
+  others.erase(others.begin() + (at - text.views.begin()));
   if (others.empty()) return false;
 
   TextObject moved = text;
@@ -52,14 +54,15 @@ bool rehost(const Map& map, const Parameters& parameters, int id, TextObject& te
   moved.patch = make_text_patch(map, parameters, id, quad);
   if (!textplane::is_ok(moved.patch.status) || !transport_plane(map, text.host, id, &moved.theta, &moved.covariance))
     return false;
-  moved.targets = others;
-  moved.targets.insert(std::upper_bound(moved.targets.begin(), moved.targets.end(), text.host), text.host);
-  const auto most = static_cast<std::size_t>(parameters.text_targets);
-  if (!refine_plane(map, parameters, spread(moved.targets, most), moved.theta, parameters.text_min_zncc, moved))
+  moved.views = others;
+  moved.views.insert(std::upper_bound(moved.views.begin(), moved.views.end(), text.host), text.host);
+  const auto most = static_cast<std::size_t>(parameters.text_views);
+  if (!refine_plane(map, parameters, evenly_spaced(moved.views, most), moved.theta, parameters.text_min_zncc, moved))
     return false;
   // The same key frames speak for either host.
-  const std::vector<int> both = spread(others, most);
-  if (unlikeness(map, moved, both) > parameters.rehost_unlike * unlikeness(map, text, both)) return false;
+  const std::vector<int> both = evenly_spaced(others, most);
+  if (dissimilarity(map, moved, both) > parameters.rehost_max_dissimilarity * dissimilarity(map, text, both))
+    return false;
   text = std::move(moved);
   return true;
 }

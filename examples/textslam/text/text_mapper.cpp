@@ -3,35 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "textplane/features/select.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/plane_fit.hpp"
 #include "textplane/photometry/residual.hpp"
-#include "textplane/solver/plane.hpp"
 #include "textslam/common/statistics.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/culling.hpp"
+#include "textslam/map/observations.hpp"
+#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_words.hpp"
 #include "textslam/text/loose_planes.hpp"
 #include "textslam/text/text_hosting.hpp"
 #include "textslam/text/text_plane.hpp"
 #include "textslam/text/text_surface.hpp"
-#include "textslam/text/text_words.hpp"
 
 namespace textslam {
 namespace {
-
-constexpr double kItsOutline = 0.4;        // IoU of a detection that confirms a text
-constexpr std::size_t kFewestCorners = 6;  // on a text, for its plane
-
-const Vec2* observed_in(const std::vector<PointObservation>& observations, int keyframe) {
-  for (const PointObservation& o : observations)
-    if (o.keyframe == keyframe) return &o.px;
-  return nullptr;
-}
-
-const std::vector<PointObservation>& observations_of(const Map& map, const Track& track) {
-  return track.point >= 0 ? map.point(track.point).observations : track.observations;
-}
 
 double overlap(const Quad<double>& a, const Quad<double>& b) {
   const double inter = std::abs(textplane::area(textplane::intersection(a, b)));
@@ -54,7 +41,7 @@ bool TextMapper::locate(const TextObject& text, const SE3d& T_c_w, const std::ve
     dx.push_back(track.px.x() - host_px->x());
     dy.push_back(track.px.y() - host_px->y());
   }
-  if (dx.size() < 4) return false;
+  if (static_cast<int>(dx.size()) < parameters_.text_carried_corners) return false;
   const Vec2 shift(median(dx), median(dy));
   for (std::size_t i = 0; i < 4; ++i) quad->corner[i] = text.patch.quad.corner[i] + shift;
   return true;
@@ -66,9 +53,9 @@ void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vec
     Quad<double> quad;
     if (text.state == TextState::dropped || !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad)) continue;
     for (const Detection& detection : frame.detections) {
-      if (textplane::iou(quad, detection.quad) < kItsOutline) continue;
+      if (textplane::iou(quad, detection.quad) < parameters_.text_confirm_iou) continue;
       ++text.detections;
-      if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score);
+      if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_);
       break;
     }
   }
@@ -105,7 +92,7 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
     text.patch = make_text_patch(map_, parameters_, id, detection.quad);
     if (!textplane::is_ok(text.patch.status)) continue;
     text.detections = 1;
-    if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score);
+    if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_);
     map_.texts.push_back(std::move(text));
   }
 }
@@ -123,19 +110,20 @@ TextMapper::Corners TextMapper::corners(const TextObject& text, int keyframe, co
   return out;
 }
 
-// The linear system of section IV-B over the corners, with outliers removed by their transfer error. False while there are too
-// few corners or too little parallax.
+// The linear system of section IV-B over the corners, with outliers removed by their transfer error. False while there
+// are too few corners or too little parallax.
 bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks,
                                Vec3* theta) const {
   const SE3d T_t_h = map_.keyframe(keyframe).T_w_c.inverse() * map_.keyframe(text.host).T_w_c;
   auto [host, target] = corners(text, keyframe, tracks);
+  const auto too_few = [&](const auto& rays) { return static_cast<int>(rays.size()) < parameters_.text_min_corners; };
   std::vector<double> parallax;
   for (std::size_t i = 0; i < host.size(); ++i) {
     const Vec3 turned = T_t_h.R * host[i];
     parallax.push_back(degrees_between(turned, target[i]));
   }
-  if (host.size() < kFewestCorners || median(parallax) < parameters_.text_min_parallax) return false;
-  for (int round = 0; round < 4; ++round) {
+  if (too_few(host) || median(parallax) < parameters_.text_min_parallax) return false;
+  for (int round = 0; round < parameters_.text_plane_rounds; ++round) {
     const auto fit = textplane::plane_from_matches(host.data(), target.data(), static_cast<int>(host.size()), T_t_h);
     if (!textplane::is_ok(fit.status)) return false;
     *theta = fit.value;
@@ -146,7 +134,7 @@ bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::
       const bool ahead = q.z() > 1e-6;
       errors.push_back(ahead ? map_.camera.fx * (q.hnormalized() - target[i].hnormalized()).norm() : 1e9);
     }
-    const double limit = std::max(1.5, 2.5 * median(errors));
+    const double limit = std::max(parameters_.text_plane_min_error, parameters_.text_plane_outlier * median(errors));
     std::size_t kept = 0;
     for (std::size_t i = 0; i < host.size(); ++i) {
       if (errors[i] > limit) continue;
@@ -156,14 +144,14 @@ bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::
     if (kept == host.size()) break;
     host.resize(kept);
     target.resize(kept);
-    if (kept < kFewestCorners) return false;
+    if (too_few(host)) return false;
   }
   return theta->allFinite() &&
          textplane::inverse_depth(*theta, map_.camera.unproject(textplane::centroid(text.patch.quad))) > 0;
 }
 
-// By the corners, and the images: the plane that key frame `id` speaks for, and the key frames that agree with it. One that the
-// text has already stays where they are not more: the first was solved with little parallax, and may be no good in later views.
+// The plane by the corners of key frame `id` and the images, and the key frames that agree with it. It replaces an
+// earlier plane where more key frames agree: the first was solved with little parallax, and may not fit later views.
 bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& tracks) {
   TextObject found = text;
   Vec3 theta;
@@ -171,40 +159,35 @@ bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& 
       !refine_plane(map_, parameters_, {id}, theta, parameters_.text_min_zncc, found))
     return false;
   observe_until(found, id);
-  if (text.has_plane() && found.targets.size() <= text.targets.size()) return false;
+  if (text.has_plane() && found.views.size() <= text.views.size()) return false;
   text = std::move(found);
   return true;
 }
 
-// By the map points round a text, whose own corners did not tell, as those of a small one may not. That no key frame agrees yet does
-// not speak against it: later ones may.
+// By the map points round a text whose own corners did not suffice, as on a small text. Key frames need not agree yet:
+// later ones may.
 bool TextMapper::surface_plane(TextObject& text, int id) {
   if (!plane_from_surface(map_, parameters_, text)) return false;
   observe_until(text, id);
   return true;
 }
 
-// The key frames from the host to `id` that agree with a text's new plane; what disagreed with another one is forgotten.
+// The key frames from the host to `id` that agree with a text's new plane. Failures of the old plane are forgotten.
 void TextMapper::observe_until(TextObject& text, int id) {
-  text.targets.clear();
+  text.views.clear();
   for (int other = text.host + 1; other <= id; ++other)
     if (!map_.keyframe(other).culled) observe(text, other, 1);
   text.failures = 0;
 }
 
-// Does key frame `keyframe` show the text where its plane says? `min_share`: of the quad, inside the image. A plane that
-// is still rough asks for all of it: on a part it may agree with the image by chance.
+// Does key frame `keyframe` show the text where its plane says? `min_share`: of the quad, inside the image. For a rough
+// plane it is 1: on a part of the text it may agree with the image by chance.
 void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
   const SE3d T_c_w = map_.keyframe(keyframe).T_w_c.inverse();
   Quad<double> quad;
-  if (facing(map_, text, T_c_w) < std::cos(parameters_.text_max_slant * M_PI / 180)) return;
-  if (!project_text(map_, text, T_c_w, &quad)) return;
-  const double whole = std::abs(textplane::area(quad));
-  if (whole < parameters_.text_min_area / 2) return;
-  const bool in_view =
-      min_share < 1 ? textplane::area(textplane::clip_to_image(quad, map_.width, map_.height)) >= min_share * whole
-                    : textplane::inside_image(quad, map_.width, map_.height, 1.0);
-  if (!in_view) return;
+  if (!is_in_view(map_, parameters_, text, T_c_w, parameters_.text_seen_area * parameters_.text_min_area, min_share,
+                  &quad))
+    return;
   const int level = text.patch.level_count() > 1 ? 1 : 0;
   const auto input = textplane::photometric_input(text.patch, level, map_.keyframe(keyframe).frame.image->view(),
                                                   map_.camera, scale_shift(text, quad));
@@ -213,7 +196,7 @@ void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
                                                    textplane::PhotometricOptions{}, workspace);
   if (!textplane::is_ok(cost.status)) return;
   if (cost.zncc >= parameters_.text_min_zncc) {
-    text.targets.push_back(keyframe);
+    text.views.push_back(keyframe);
     text.failures = 0;
   } else if (cost.zncc < parameters_.text_cull_zncc) {
     ++text.failures;
@@ -225,11 +208,11 @@ void TextMapper::observe_again() {
     if (text.state != TextState::mapped) continue;
     // Where loops are to stay open, a text met again far away must not close them.
     const LocalMap near = parameters_.loop_closure ? LocalMap() : local_map(map_, parameters_, text.host);
-    std::vector<int> before = std::move(text.targets);
-    text.targets.clear();
+    std::vector<int> before = std::move(text.views);
+    text.views.clear();
     for (const int id : map_.keyframe_ids())
       if (id != text.host && near.has_keyframe(id)) observe(text, id, parameters_.text_min_share);
-    if (static_cast<int>(text.targets.size()) + 1 < parameters_.text_min_observations) text.targets = std::move(before);
+    if (static_cast<int>(text.views.size()) + 1 < parameters_.text_min_observations) text.views = std::move(before);
   }
 }
 
@@ -238,11 +221,12 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
   for (TextObject& text : map_.texts) {
     if (text.host == id || text.state == TextState::dropped) continue;
     const bool near = local_.has_text(text.id);
-    const std::size_t before = text.targets.size();
+    const std::size_t before = text.views.size();
     if (text.state == TextState::candidate) {
       if (near && find_plane(text, id, tracks)) {
         text.state = TextState::tentative;
-      } else if (id - text.host > parameters_.text_patience || corners(text, id, tracks).host.size() < kFewestCorners) {
+      } else if (is_overdue(text, parameters_, id) ||
+                 static_cast<int>(corners(text, id, tracks).host.size()) < parameters_.text_min_corners) {
         if (near && surface_plane(text, id))
           text.state = TextState::tentative;
         else
@@ -250,20 +234,16 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
       }
     } else if (near) {
       observe(text, id, 1);
-      if (text.state == TextState::tentative && text.targets.size() == before) find_plane(text, id, tracks);
+      if (text.state == TextState::tentative && text.views.size() == before) find_plane(text, id, tracks);
     }
     if (!text.has_plane()) continue;
-    if (text.targets.size() > before && text.state == TextState::tentative) {
-      refine_plane(map_, parameters_, spread(text.targets, static_cast<std::size_t>(parameters_.text_targets)),
+    if (text.views.size() > before && text.state == TextState::tentative) {
+      refine_plane(map_, parameters_, evenly_spaced(text.views, static_cast<std::size_t>(parameters_.text_views)),
                    text.theta, parameters_.text_cull_zncc, text);
     }
-    const int observations = static_cast<int>(text.targets.size()) + 1;
-    if (text.state == TextState::tentative && observations >= parameters_.text_min_observations &&
-        text.detections >= parameters_.text_min_detections)
-      text.state = TextState::mapped;
-    if (text.failures >= 5 && text.failures > static_cast<int>(text.targets.size())) drop(text);
-    if (text.state == TextState::tentative && id - text.host > 2 * parameters_.text_patience) drop(text);
-    if (text.targets.size() > before) rehost(map_, parameters_, id, text);
+    if (text.state == TextState::tentative && is_proven(text, parameters_)) text.state = TextState::mapped;
+    if (is_contradicted(text, parameters_) || is_overdue(text, parameters_, id)) drop(text);
+    if (text.views.size() > before) rehost(map_, parameters_, id, text);
   }
 }
 

@@ -1,24 +1,24 @@
 // TextMapper: the life of a text object (sections IV-B and V of the paper).
 //
-// Detection in a key frame -> candidate (refused where it meets a known text or the image border) -> its corners are tracked;
-// once they have parallax, theta by the linear system [m']x t m^T theta = -[m']x R m -> photometric refinement against the
-// key frames that see it (where corners are lost before that, theta by the map points round it) -> tentative -> after n_min
-// observations mapped: it takes part in tracking and adjustment, hosted anew where a key frame shows it much better
-// (text_hosting.hpp) -> dropped when the images stop agreeing with it.
+//   candidate  a detection in a key frame, on no known text and off the image border; its corners are tracked
+//   tentative  theta by the linear system [m']x t m^T theta = -[m']x R m once they have parallax, or by the map points round it
+//              where corners are lost before; refined photometrically against the key frames that see it
+//   mapped     after n_min observations: takes part in tracking and adjustment; changes its host where a key frame shows it
+//              much better (text_hosting.hpp)
+//   dropped    by the rules of culling.hpp
 #ifndef TEXTSLAM_TEXT_TEXT_MAPPER_HPP
 #define TEXTSLAM_TEXT_TEXT_MAPPER_HPP
 
 #include <vector>
 
-#include "textslam/common/parameters.hpp"
 #include "textslam/map/local_map.hpp"
-#include "textslam/map/map.hpp"
+#include "textslam/track/track.hpp"
 
 namespace textslam {
 
 class TextMapper {
  public:
-  /// Texts outside `local` are left alone until they come into it, all but observe_again(): where they seem to be says little.
+  /// Texts outside `local` wait until they come into it, as they may have drifted; observe_again() takes all.
   TextMapper(Map& map, const LocalMap& local, const Parameters& parameters)
       : map_(map), local_(local), parameters_(parameters) {}
 

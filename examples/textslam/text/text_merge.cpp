@@ -5,12 +5,12 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
-#include "textslam/text/text_words.hpp"
+#include "textslam/map/culling.hpp"
+#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_words.hpp"
 
 namespace textslam {
 namespace {
-
-constexpr double kDeviations = 3;
 
 // b's plane beside a's, in a's host.
 bool planes_agree(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b) {
@@ -23,12 +23,12 @@ bool planes_agree(const Map& map, const Parameters& parameters, const TextObject
   const Vec3 normal_a = textplane::plane_normal(a.theta), normal_b = textplane::plane_normal(moved.theta);
   const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
   const double angle_sigma = std::hypot(normal_sigma(a), normal_sigma(moved));
-  if (!(angle <= parameters.merge_angle * M_PI / 180 + kDeviations * angle_sigma)) return false;
+  if (!(angle <= radians(parameters.merge_angle) + parameters.merge_sigmas * angle_sigma)) return false;
 
   const Vec3 m = map.camera.unproject(textplane::centroid(a.patch.quad));
   const double rho_a = textplane::inverse_depth(a.theta, m), rho_b = textplane::inverse_depth(moved.theta, m);
   const double rho_sigma = std::sqrt(std::max(0.0, m.dot((a.covariance + moved.covariance) * m)));
-  return std::abs(rho_a - rho_b) <= parameters.merge_depth * std::abs(rho_a) + kDeviations * rho_sigma;
+  return std::abs(rho_a - rho_b) <= parameters.merge_depth * std::abs(rho_a) + parameters.merge_sigmas * rho_sigma;
 }
 
 bool overlaps_in_host(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b) {
@@ -40,29 +40,26 @@ bool overlaps_in_host(const Map& map, const Parameters& parameters, const TextOb
 
 }  // namespace
 
-bool words_agree(const TextObject& a, const TextObject& b) {
-  const std::string word_a = a.word(), word_b = b.word();
-  return !is_read(word_a) || !is_read(word_b) || likeness(word_a, word_b) >= kSameWord;
-}
-
-void add_sightings(TextObject& kept, const TextObject& other, int first_keyframe) {
-  kept.targets.push_back(first_keyframe + other.host);
-  for (const int id : other.targets) kept.targets.push_back(first_keyframe + id);
-  for (const auto& [word, count] : other.votes) vote(&kept.votes, word, count);
+void add_observations_of(const TextObject& other, int first_keyframe, const Parameters& parameters, TextObject& kept) {
+  kept.views.push_back(first_keyframe + other.host);
+  for (const int id : other.views) kept.views.push_back(first_keyframe + id);
+  for (const auto& [word, count] : other.votes) vote(&kept.votes, word, count, parameters);
   kept.detections += other.detections;
 }
 
 bool same_text(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b) {
-  return words_agree(a, b) && overlaps_in_host(map, parameters, a, b) && overlaps_in_host(map, parameters, b, a) &&
-         planes_agree(map, parameters, a, b) && planes_agree(map, parameters, b, a);
+  return words_agree(a.word(), b.word(), parameters) && overlaps_in_host(map, parameters, a, b) &&
+         overlaps_in_host(map, parameters, b, a) && planes_agree(map, parameters, a, b) &&
+         planes_agree(map, parameters, b, a);
 }
 
-void merge_texts(Map& map, int kept, int other) {
-  TextObject &to = map.texts[static_cast<std::size_t>(kept)], &from = map.texts[static_cast<std::size_t>(other)];
-  add_sightings(to, from, 0);
-  std::sort(to.targets.begin(), to.targets.end());
-  to.targets.erase(std::unique(to.targets.begin(), to.targets.end()), to.targets.end());
-  to.targets.erase(std::remove(to.targets.begin(), to.targets.end(), to.host), to.targets.end());
+void merge_texts(Map& map, const Parameters& parameters, int a, int b) {
+  if (map.text(b).views.size() > map.text(a).views.size()) std::swap(a, b);
+  TextObject &to = map.text(a), &from = map.text(b);
+  add_observations_of(from, 0, parameters, to);
+  std::sort(to.views.begin(), to.views.end());
+  to.views.erase(std::unique(to.views.begin(), to.views.end()), to.views.end());
+  to.views.erase(std::remove(to.views.begin(), to.views.end(), to.host), to.views.end());
   to.failures = 0;
   drop(from);
 }
@@ -73,8 +70,7 @@ int merge_duplicate_texts(Map& map, const Parameters& parameters) {
     for (std::size_t j = i + 1; j < map.texts.size(); ++j) {
       const TextObject &a = map.texts[i], &b = map.texts[j];
       if (a.state != TextState::mapped || b.state != TextState::mapped || !same_text(map, parameters, a, b)) continue;
-      const bool second = b.targets.size() > a.targets.size();
-      merge_texts(map, second ? b.id : a.id, second ? a.id : b.id);
+      merge_texts(map, parameters, a.id, b.id);
       ++merged;
     }
   return merged;

@@ -1,11 +1,10 @@
 #include "textslam/text/text_plane.hpp"
 
-#include <cmath>
-
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/solver/plane.hpp"
+#include "textslam/map/text_geometry.hpp"
 
 namespace textslam {
 
@@ -35,11 +34,9 @@ bool refine_plane(const Map& map, const Parameters& parameters, const std::vecto
   textplane::PlaneOptions options;
   const auto fit = textplane::refine_plane(text.patch, theta, targets.data(), static_cast<int>(targets.size()),
                                            map.camera, options, workspace);
-  if (!textplane::is_ok(fit.status) || fit.zncc < min_zncc) return false;
-  const Vec3 ray = map.camera.unproject(textplane::centroid(text.patch.quad)).normalized();
-  if (-textplane::plane_normal(fit.theta).dot(ray) < std::cos(parameters.text_max_slant * M_PI / 180)) return false;
-  for (const Vec2& corner : text.patch.quad.corner)
-    if (!(textplane::inverse_depth(fit.theta, map.camera.unproject(corner)) > 0)) return false;
+  if (!textplane::is_ok(fit.status) || fit.zncc < min_zncc ||
+      !is_plausible_plane(map, parameters, text.patch.quad, fit.theta))
+    return false;
   text.theta = fit.theta;
   text.covariance = fit.covariance;
   text.zncc = fit.zncc;

@@ -1,12 +1,11 @@
-// What a text object is made of: its patch, and its plane, refined against the key frames that show it, and as another key frame has
-// it; and how well an image agrees with them.
+// What a text object is made of: its patch, and its plane, refined against the key frames that show it, and as another
+// key frame has it; and how well an image agrees with them.
 #ifndef TEXTSLAM_TEXT_TEXT_PLANE_HPP
 #define TEXTSLAM_TEXT_TEXT_PLANE_HPP
 
 #include <vector>
 
 #include "textplane/photometry/residual_types.hpp"
-#include "textslam/common/parameters.hpp"
 #include "textslam/map/map.hpp"
 
 namespace textslam {
@@ -14,9 +13,9 @@ namespace textslam {
 /// The pixels of a text with this quad in key frame `id`.
 textplane::TextPatch make_text_patch(const Map& map, const Parameters& parameters, int id, const Quad<double>& quad);
 
-/// Theta, covariance and ZNCC of a text by photometric refinement against these key frames, from `theta`. False, and the text
-/// as it was, where the images agree by less than `min_zncc`, or the plane is too slanted or crosses the quad's rays behind
-/// the camera.
+/// Theta, covariance and ZNCC of a text by photometric refinement against these key frames, from `theta`. False, and
+/// the text as it was, where the images agree by less than `min_zncc`, or the plane is too slanted or crosses the
+/// quad's rays behind the camera.
 bool refine_plane(const Map& map, const Parameters& parameters, const std::vector<int>& keyframes, const Vec3& theta,
                   double min_zncc, TextObject& text);
 
@@ -24,8 +23,8 @@ bool refine_plane(const Map& map, const Parameters& parameters, const std::vecto
 textplane::PhotometricCost compare_text(const Map& map, const TextObject& text, int level, const Pyramid& image,
                                         const SE3d& T_c_w, int shift, textplane::PhotometricWorkspace& workspace);
 
-/// A plane in the frame of key frame `from`, with its covariance, in that of `to`. False, and both as they were, where `to`
-/// does not see its front.
+/// A plane in the frame of key frame `from`, with its covariance, in that of `to`. False, and both as they were, where
+/// `to` does not see its front.
 bool transport_plane(const Map& map, int from, int to, Vec3* theta, Eigen::Matrix3d* covariance);
 
 }  // namespace textslam

@@ -6,21 +6,18 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad_projection.hpp"
 #include "textplane/photometry/sample.hpp"
-#include "textslam/text/text_words.hpp"
+#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_words.hpp"
 
 namespace textslam {
 namespace {
-
-constexpr double kMargin = 0.25;    // of the height, around the rectangle: what a reader may want beside the text
-constexpr double kLongest = 40;     // heights: a longer one is no line of text
-constexpr double kLargestStep = 1;  // px of a pyramid level from a pixel of the picture to the next
 
 // The upright rectangle in the host's frame: corner and its sides, each as long as the rectangle.
 struct Rectangle3 {
   Vec3 corner, along, down;
 };
 
-bool upright_rectangle(const Map& map, const TextObject& text, Rectangle3* out) {
+bool upright_rectangle(const Map& map, const TextObject& text, double max_length, Rectangle3* out) {
   std::array<Vec3, 4> p;
   if (!textplane::is_ok(textplane::quad_points(text.patch.quad, map.camera, text.theta, &p))) return false;
   const Vec3 right = (p[1] - p[0] + p[2] - p[3]).normalized();
@@ -34,7 +31,7 @@ bool upright_rectangle(const Map& map, const TextObject& text, Rectangle3* out) 
     high_y = std::max(high_y, down.dot(d));
   }
   *out = {p[0] + low_x * right + low_y * down, (high_x - low_x) * right, (high_y - low_y) * down};
-  return out->along.allFinite() && out->down.norm() > 0 && out->along.norm() < kLongest * out->down.norm();
+  return out->along.allFinite() && out->down.norm() > 0 && out->along.norm() < max_length * out->down.norm();
 }
 
 double sharpness_of(const Image<std::uint8_t>& picture) {
@@ -59,14 +56,15 @@ TextReader::Reading read_either_way(TextReader& reader, const SquareView& view) 
 
 }  // namespace
 
-SquareView square_view(const Map& map, const TextObject& text, int id, int height) {
+SquareView square_view(const Map& map, const TextObject& text, int id, const Parameters& parameters) {
+  const int height = parameters.reading_height;
   SquareView view;
   Rectangle3 rectangle;
-  if (!upright_rectangle(map, text, &rectangle)) return view;
+  if (!upright_rectangle(map, text, parameters.reading_max_length, &rectangle)) return view;
   const SE3d T_k_h = map.T_c_h(map.keyframe(id).T_w_c.inverse(), text.host);
   const double step = rectangle.down.norm() / height;
   const int width = std::max(1, static_cast<int>(std::lround(rectangle.along.norm() / step)));
-  const int margin = static_cast<int>(std::lround(kMargin * height));
+  const int margin = static_cast<int>(std::lround(parameters.reading_margin * height));
   const Vec3 dx = T_k_h.R * rectangle.along / width, dy = T_k_h.R * rectangle.down / height;
   const Vec3 first = T_k_h * rectangle.corner + (0.5 - margin) * (dx + dy);  // centre of the picture's first pixel
   const Vec3 centre = first + 0.5 * (width + 2 * margin) * dx + 0.5 * (height + 2 * margin) * dy;
@@ -75,7 +73,7 @@ SquareView square_view(const Map& map, const TextObject& text, int id, int heigh
   const Pyramid& image = *map.keyframe(id).frame.image;
   const double px_a_step = map.camera.fx * step / centre.z();
   int level = 0;
-  while (level + 1 < image.levels() && std::ldexp(px_a_step, -level) > kLargestStep) ++level;
+  while (level + 1 < image.levels() && std::ldexp(px_a_step, -level) > parameters.reading_max_step) ++level;
   const ImageView8 pixels = image.level(level);
   const auto place = [&](double x, double y, Vec2* px) {
     const Vec3 p = first + x * dx + y * dy;
@@ -109,12 +107,12 @@ SquareView square_view(const Map& map, const TextObject& text, int id, int heigh
 void read_texts(Map& map, const Parameters& parameters, TextReader& reader) {
   for (TextObject& text : map.texts) {
     if (text.state != TextState::mapped) continue;
-    std::vector<int> keyframes = text.targets;
+    std::vector<int> keyframes = text.views;
     keyframes.push_back(text.host);
     std::vector<SquareView> views;
     for (const int id : keyframes) {
       if (facing(map, text, map.keyframe(id).T_w_c.inverse()) <= 0) continue;
-      views.push_back(square_view(map, text, id, parameters.reading_height));
+      views.push_back(square_view(map, text, id, parameters));
     }
     std::stable_sort(views.begin(), views.end(),
                      [](const SquareView& a, const SquareView& b) { return a.sharpness > b.sharpness; });
@@ -124,7 +122,7 @@ void read_texts(Map& map, const Parameters& parameters, TextReader& reader) {
       if (!(view.sharpness > 0)) continue;
       const TextReader::Reading reading = read_either_way(reader, view);
       if (is_read(reading.text))
-        vote(&text.votes, reading.text, reading.score * view.sharpness / views.front().sharpness);
+        vote(&text.votes, reading.text, reading.score * view.sharpness / views.front().sharpness, parameters);
     }
   }
 }

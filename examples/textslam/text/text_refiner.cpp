@@ -8,13 +8,14 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textslam/common/statistics.hpp"
+#include "textslam/map/culling.hpp"
+#include "textslam/map/text_geometry.hpp"
 #include "textslam/text/jackknife.hpp"
 #include "textslam/text/text_surface.hpp"
 
 namespace textslam {
 namespace {
 
-constexpr int kReach = 8;                // px around a quad that are filtered
 constexpr double kSampling = 1.0 / 6.0;  // px^2: mean variance of bilinear interpolation
 
 // Moves the sides of a quad outwards by `margin` px.
@@ -42,13 +43,13 @@ bool affine_at(const Pinhole<double>& camera, const Vec3& theta, const SE3d& T_t
 }  // namespace
 
 std::vector<TextRefiner::View> TextRefiner::views_of(const TextObject& text) const {
-  std::vector<int> keyframes = text.targets;
+  std::vector<int> keyframes = text.views;
   keyframes.push_back(text.host);
   std::vector<View> views;
   for (const int id : keyframes) {
     View view{id, map_.keyframe(id).T_w_c.inverse(), {}, 0};
     if (!project_text(map_, text, view.T_c_w, &view.quad) ||
-        facing(map_, text, view.T_c_w) < std::cos(parameters_.text_max_slant * M_PI / 180) ||
+        is_too_slanted(parameters_, facing(map_, text, view.T_c_w)) ||
         !textplane::inside_image(view.quad, map_.width, map_.height, parameters_.refine_margin + 1))
       continue;
     view.area = std::abs(textplane::area(view.quad));
@@ -71,9 +72,10 @@ bool TextRefiner::add_target(const textplane::TextPatch& patch, const Vec3& thet
   const std::size_t slot = targets_.size();
   if (filtered_.size() <= slot) filtered_.emplace_back(map_.width, map_.height);
   const textplane::Bounds<double> box = textplane::bounds(view.quad);
+  const int reach = parameters_.refine_reach;
   filter_(map_.keyframe(view.keyframe).frame.image->level(0), textplane::BlurKernel(match.target),
-          static_cast<int>(box.min.x()) - kReach, static_cast<int>(box.min.y()) - kReach,
-          static_cast<int>(box.max.x()) + kReach, static_cast<int>(box.max.y()) + kReach, filtered_[slot].view());
+          static_cast<int>(box.min.x()) - reach, static_cast<int>(box.min.y()) - reach,
+          static_cast<int>(box.max.x()) + reach, static_cast<int>(box.max.y()) + reach, filtered_[slot].view());
   target.image.levels = 1;
   target.image.level[0] = filtered_[slot].view();
   patches_.push_back(patch);
@@ -83,24 +85,25 @@ bool TextRefiner::add_target(const textplane::TextPatch& patch, const Vec3& thet
   return true;
 }
 
-// What moved while the shutter was open, or is half hidden, is less like the host than the others are.
-bool TextRefiner::drop_unlike(const Vec3& theta) {
-  std::vector<double> unlike;
+// Views that are blurred by motion or half hidden are less similar to the host than the others.
+bool TextRefiner::drop_dissimilar(const Vec3& theta) {
+  std::vector<double> dissimilarity;
   for (const textplane::PlaneTarget& target : targets_) {
     const auto input = textplane::photometric_input(*target.patch, 0, target.image, map_.camera);
     const auto cost = textplane::evaluate(input, theta, target.T_t_h, textplane::PhotometricOptions{}, photometric_);
-    unlike.push_back(textplane::is_ok(cost.status) ? 1 - cost.zncc : 2);
+    dissimilarity.push_back(textplane::is_ok(cost.status) ? 1 - cost.zncc : 2);
   }
-  const double limit = parameters_.refine_unlike * median(unlike);
+  const double limit = parameters_.refine_max_dissimilarity * median(dissimilarity);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < targets_.size(); ++i)
-    if (unlike[i] <= limit) targets_[kept++] = targets_[i];
+    if (dissimilarity[i] <= limit) targets_[kept++] = targets_[i];
   const bool dropped = kept < targets_.size();
   targets_.resize(kept);
   return dropped;
 }
 
-// How far the views pull the plane apart: by errors of their poses, by what shines, by neighbouring pixels that err together.
+// How far the views pull the plane apart: by errors of their poses, by what shines, by neighbouring pixels that err
+// together.
 Eigen::Matrix3d TextRefiner::disagreement(const Vec3& theta) {
   std::vector<GroupEquations> views;
   for (const textplane::PlaneTarget& target : targets_) {
@@ -129,7 +132,7 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
   std::vector<int> others;
   for (std::size_t i = 0; i < views.size(); ++i)
     if (views[i].keyframe != host.keyframe) others.push_back(static_cast<int>(i));
-  for (const int i : spread(others, static_cast<std::size_t>(parameters_.refine_targets)))
+  for (const int i : evenly_spaced(others, static_cast<std::size_t>(parameters_.refine_views)))
     add_target(patch, theta, host, views[static_cast<std::size_t>(i)]);
   if (targets_.empty()) return false;
   for (std::size_t i = 0; i < targets_.size(); ++i) targets_[i].patch = &patches_[i];
@@ -144,7 +147,7 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
   };
   auto fit = fit_to_targets(theta);
   if (!textplane::is_ok(fit.status)) return false;
-  if (drop_unlike(fit.theta)) fit = fit_to_targets(fit.theta);
+  if (drop_dissimilar(fit.theta)) fit = fit_to_targets(fit.theta);
   if (!textplane::is_ok(fit.status) || fit.zncc < parameters_.text_min_zncc) return false;
   textplane::Matrix3<double> J;
   out->theta = textplane::reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
@@ -161,17 +164,17 @@ void TextRefiner::refine(TextObject& text) {
   for (std::size_t i = 0; i < views.size(); ++i)
     if (views[i].area >= parameters_.refine_area * largest) hosts.push_back(static_cast<int>(i));
   std::vector<Estimate> estimates;
-  for (const int i : spread(hosts, static_cast<std::size_t>(parameters_.refine_hosts))) {
+  for (const int i : evenly_spaced(hosts, static_cast<std::size_t>(parameters_.refine_hosts))) {
     Estimate e;
     if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
   }
   if (estimates.empty()) return;
-  // A host that was blurred itself is like none of its targets.
+  // A host that is blurred itself is similar to none of its targets.
   double most = 0;
   for (const Estimate& e : estimates) most = std::max(most, e.zncc);
   estimates.erase(
       std::remove_if(estimates.begin(), estimates.end(),
-                     [&](const Estimate& e) { return 1 - e.zncc > parameters_.refine_unlike * (1 - most); }),
+                     [&](const Estimate& e) { return 1 - e.zncc > parameters_.refine_max_dissimilarity * (1 - most); }),
       estimates.end());
   const double n = static_cast<double>(estimates.size());
   Vec3 mean = Vec3::Zero();
@@ -182,7 +185,7 @@ void TextRefiner::refine(TextObject& text) {
   text.theta = mean;
   text.covariance = covariance;
   fit_to_surface(map_, parameters_, text);
-  if (!(normal_sigma(text) <= parameters_.refine_max_sigma * M_PI / 180)) drop(text);
+  if (is_uncertain(text, parameters_)) drop(text);
 }
 
 void TextRefiner::refine() {

@@ -1,10 +1,10 @@
 // TextRefiner: the last word on the planes of texts, once the poses of the key frames are known.
 //
-// Each text is compared between key frames that show it, from several hosts, with all its pixels, each pair of views brought to
-// the same blur first (textplane/photometry/blur.hpp). What a host's own sampling makes of narrow strokes differs from host to
-// host, so their planes are averaged; how far they scatter goes into the covariance, and so does how far the views of a host
-// pull its plane apart (jackknife.hpp). In the end the map points of the surface that a text lies on have their say
-// (text_surface.hpp).
+// Each text is compared between key frames that show it, from several hosts, with all its pixels, each pair of views
+// brought to the same blur first (textplane/photometry/blur.hpp). What a host's own sampling makes of narrow strokes
+// differs from host to host, so their planes are averaged; how far they scatter goes into the covariance, and so does
+// how far the views of a host pull its plane apart (jackknife.hpp). In the end the map points of the surface that a
+// text lies on have their say (text_surface.hpp).
 #ifndef TEXTSLAM_TEXT_TEXT_REFINER_HPP
 #define TEXTSLAM_TEXT_TEXT_REFINER_HPP
 
@@ -12,7 +12,6 @@
 
 #include "textplane/photometry/blur.hpp"
 #include "textplane/solver/plane.hpp"
-#include "textslam/common/parameters.hpp"
 #include "textslam/map/map.hpp"
 
 namespace textslam {
@@ -21,8 +20,8 @@ class TextRefiner {
  public:
   TextRefiner(Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
 
-  /// Theta and covariance of every mapped text; drops those whose normal stays unknown, the surface included. A text that too
-  /// few key frames show whole keeps what it has.
+  /// Theta and covariance of every mapped text; drops those whose normal stays unknown, the surface included. A text
+  /// that too few key frames show whole keeps what it has.
   void refine();
 
  private:
@@ -41,7 +40,7 @@ class TextRefiner {
   std::vector<View> views_of(const TextObject& text) const;
   bool estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out);
   bool add_target(const textplane::TextPatch& patch, const Vec3& theta, const View& host, const View& view);
-  bool drop_unlike(const Vec3& theta);
+  bool drop_dissimilar(const Vec3& theta);
   Eigen::Matrix3d disagreement(const Vec3& theta);
   void refine(TextObject& text);
 

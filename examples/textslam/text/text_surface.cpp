@@ -8,15 +8,12 @@
 #include "textplane/geometry/quad.hpp"
 #include "textplane/geometry/quad_projection.hpp"
 #include "textslam/common/statistics.hpp"
+#include "textslam/map/text_geometry.hpp"
 
 namespace textslam {
 namespace {
 
-constexpr int kRounds = 20;
-constexpr double kDeviations = 3;                  // beyond them a point is of another thing
-constexpr double kAnyTurn = 0.6, kAnyDepth = 0.1;  // radians, share: sigmas where a plane is a guess
-constexpr double kTolerance =
-    1e-12;  // of a pivot: a plane known in one direction much better than in another is still known
+constexpr double kMinPivot = 1e-12;  // a plane known much better in one direction than in another is still known
 
 // Of a point by its observations, along a direction in the world; not positive where they do not tell.
 double variance_along(const Map& map, const MapPoint& point, const Vec3& direction, double sigma_px) {
@@ -74,30 +71,31 @@ std::vector<SurfacePoint> points_beside(const Map& map, const Parameters& parame
 
 bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vec3& centre, const Parameters& parameters,
                     Vec3* theta, Eigen::Matrix3d* covariance) {
-  const textplane::Ldlt<double, 3> prior(*covariance, kTolerance);
+  const textplane::Ldlt<double, 3> prior(*covariance, kMinPivot);
   if (!prior.ok()) return false;
   const Eigen::Matrix3d known = prior.inverse();
-  const Eigen::Matrix3d bend = turned_about(*theta, centre, parameters.surface_bend * M_PI / 180);
+  const Eigen::Matrix3d bend = turned_about(*theta, centre, radians(parameters.surface_bend));
   Vec3 x = *theta;
   Eigen::Matrix3d C = *covariance;
+  const double sigmas = parameters.surface_sigmas;
   double used = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < parameters.surface_rounds; ++round) {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Vec3 gradient = Vec3::Zero();
     used = 0;
     for (const SurfacePoint& point : points) {
       const double error = 1 - x.dot(point.p), variance = x.squaredNorm() * point.sigma * point.sigma;
-      const double unlike = error * error / (kDeviations * kDeviations * (variance + point.p.dot(C * point.p)));
-      if (!(unlike < 1)) continue;
-      const double weight = (1 - unlike) * (1 - unlike);
+      const double squared = error * error / (sigmas * sigmas * (variance + point.p.dot(C * point.p)));
+      if (!(squared < 1)) continue;
+      const double weight = (1 - squared) * (1 - squared);
       information += weight / variance * point.p * point.p.transpose();
       gradient += weight / variance * error * point.p;
       used += weight;
     }
-    // What the points have in common makes them weaker together, (information^-1 + bend)^-1, where neither need be regular.
+    // The bend is common to all points: (information^-1 + bend)^-1, in a form where neither need be regular.
     const Eigen::Matrix3d together = (Eigen::Matrix3d::Identity() + information * bend).inverse();
     const Eigen::Matrix3d both = known + together * information;
-    const textplane::Ldlt<double, 3> system(0.5 * (both + both.transpose()), kTolerance);
+    const textplane::Ldlt<double, 3> system(0.5 * (both + both.transpose()), kMinPivot);
     if (!system.ok()) return false;
     x += system.solve(known * (*theta - x) + together * gradient);
     C = system.inverse();
@@ -132,9 +130,10 @@ bool plane_from_surface(const Map& map, const Parameters& parameters, TextObject
   guess.patch.quad = text.patch.quad;
   guess.theta = centre / centre.squaredNorm();
   guess.covariance =
-      turned_about(guess.theta, centre, kAnyTurn) + kAnyDepth * kAnyDepth * guess.theta * guess.theta.transpose();
+      turned_about(guess.theta, centre, parameters.surface_guess_turn) +
+      parameters.surface_guess_depth * parameters.surface_guess_depth * guess.theta * guess.theta.transpose();
   if (!fit_to_surface(points_beside(map, parameters, guess), centre, parameters, &guess.theta, &guess.covariance) ||
-      !(normal_sigma(guess) <= parameters.surface_max_sigma * M_PI / 180))
+      !(normal_sigma(guess) <= radians(parameters.surface_max_sigma)))
     return false;
   text.theta = guess.theta;
   text.covariance = guess.covariance;

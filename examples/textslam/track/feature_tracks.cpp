@@ -9,21 +9,19 @@
 namespace textslam {
 namespace {
 
-constexpr int kTextCell = 6;    // px between the corners of a text
-constexpr int kFineLevels = 2;  // pyramid levels that a good guess needs
-
 textplane::KltOptions klt_options(const Parameters& parameters) {
   textplane::KltOptions options;
-  options.radius = parameters.klt_half_window;
+  options.radius = parameters.klt_radius;
   options.levels = parameters.pyramid_levels;
   options.max_forward_backward = parameters.max_forward_backward;
   options.min_zncc = parameters.min_track_zncc;
   return options;
 }
 
-// Good guesses need the fine levels alone; what fails there is looked for from the coarsest on.
+// Good guesses need the fine levels alone; what fails there is searched for from the coarsest on.
 std::vector<textplane::KltResult> follow(const Frame& from, const Frame& to, const std::vector<Vec2f>& start,
-                                         const std::vector<Vec2f>& guesses, textplane::KltOptions options) {
+                                         const std::vector<Vec2f>& guesses, const textplane::KltOptions& options,
+                                         int fine_levels) {
   const textplane::PyramidView from_view = from.image->view(), to_view = to.image->view();
   std::vector<textplane::KltResult> results(start.size());
   if (guesses.empty()) {
@@ -32,7 +30,7 @@ std::vector<textplane::KltResult> follow(const Frame& from, const Frame& to, con
     return results;
   }
   textplane::KltOptions fine = options;
-  fine.levels = std::min(kFineLevels, options.levels);
+  fine.levels = std::min(fine_levels, options.levels);
   textplane::track_klt(from_view, to_view, start.data(), guesses.data(), static_cast<int>(start.size()), fine,
                        results.data());
   for (std::size_t i = 0; i < start.size(); ++i)
@@ -48,7 +46,8 @@ void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>
   if (tracks.empty()) return;
   std::vector<Vec2f> start;
   for (const Track& track : tracks) start.push_back(track.px);
-  const std::vector<textplane::KltResult> results = follow(from, to, start, guesses, klt_options(parameters));
+  const std::vector<textplane::KltResult> results =
+      follow(from, to, start, guesses, klt_options(parameters), parameters.klt_fine_levels);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (!textplane::is_ok(results[i].status)) continue;
@@ -62,12 +61,12 @@ void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>
 void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double>>& quads, const Parameters& parameters,
                  std::vector<Track>& tracks) {
   const textplane::ImageView8 image = frame.image->level(0);
-  const int border = parameters.klt_half_window + 2;
+  const int border = parameters.klt_radius + 2;
   std::vector<textplane::Corner> corners;
   const int lowest = parameters.min_fast_threshold;
   textplane::detect_fast(image, std::min(parameters.fast_threshold, lowest), true, corners);
-  textplane::keep_enough(&corners, std::max(parameters.fast_threshold, lowest), lowest, 4 * parameters.max_tracks,
-                         [](int threshold) { return threshold / 2; });
+  textplane::keep_enough(&corners, std::max(parameters.fast_threshold, lowest), lowest,
+                         parameters.corner_choice * parameters.max_tracks, [](int threshold) { return threshold / 2; });
   const auto inside = [&](const Vec2f& px) {
     return px.x() >= static_cast<float>(border) && px.y() >= static_cast<float>(border) &&
            px.x() < static_cast<float>(image.width() - border) && px.y() < static_cast<float>(image.height() - border);
@@ -87,8 +86,8 @@ void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double
     for (const textplane::Corner& corner : corners)
       if (inside({corner.x, corner.y}) && textplane::contains(quad, Vec2(corner.x, corner.y)))
         in_quad.push_back(corner);
-    textplane::select_spread(in_quad, image.width(), image.height(), kTextCell, parameters.text_corners, occupied,
-                             in_quad);
+    textplane::select_spread(in_quad, image.width(), image.height(), parameters.text_corner_cell,
+                             parameters.text_corners, occupied, in_quad);
     for (const textplane::Corner& corner : in_quad) add({corner.x, corner.y});
   }
 

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "textslam/common/parameters.hpp"
-#include "textslam/map/map.hpp"
+#include "textslam/track/track.hpp"
 
 namespace textslam {
 

@@ -9,9 +9,9 @@ std::vector<SeenPoint> seen_points(const std::vector<Track>& tracks, std::size_t
   for (const Track& track : tracks)
     if (track.point >= 0 && track.inlier) all.push_back({track.point, track.px});
   if (all.size() <= most) return all;
-  std::vector<SeenPoint> thinned;
-  for (std::size_t i = 0; i < most; ++i) thinned.push_back(all[i * all.size() / most]);
-  return thinned;
+  std::vector<SeenPoint> chosen;
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(all[i * all.size() / most]);
+  return chosen;
 }
 
 bool refit_pose(const Map& map, const Parameters& parameters, const std::vector<SeenPoint>& seen, SE3d* T_c_w) {
@@ -29,7 +29,7 @@ bool refit_pose(const Map& map, const Parameters& parameters, const std::vector<
                                              *T_c_w, options, workspace, nullptr, chi2.data());
   if (!textplane::is_ok(result.status)) return false;
   int inliers = 0;
-  for (const float c : chi2) inliers += c >= 0 && c <= 2 * parameters.outlier_chi2 ? 1 : 0;
+  for (const float c : chi2) inliers += is_pose_inlier(parameters, c) ? 1 : 0;
   if (inliers < parameters.refit_min_points) return false;
   *T_c_w = textplane::renormalised(result.T_t_w);
   return true;

@@ -1,12 +1,11 @@
-// Pose refit: the poses of all frames once the map is final. A frame between key frames was placed against the map of its time;
-// here it is placed again, from the map points that it saw, against what became of them.
+// Pose refit: a frame between key frames was placed against the map of its time. Once the map is final it is placed
+// again, by the map points that it saw.
 #ifndef TEXTSLAM_TRACK_POSE_REFIT_HPP
 #define TEXTSLAM_TRACK_POSE_REFIT_HPP
 
 #include <vector>
 
-#include "textslam/common/parameters.hpp"
-#include "textslam/map/map.hpp"
+#include "textslam/track/track.hpp"
 
 namespace textslam {
 
@@ -16,11 +15,16 @@ struct SeenPoint {
   Vec2f px;
 };
 
-/// The inliers of the tracks, evenly thinned to `most`.
+/// Is a point an inlier of a frame's pose, by the chi-square of its reprojection error; negative where it has none?
+inline bool is_pose_inlier(const Parameters& parameters, float chi2) {
+  return chi2 >= 0 && chi2 <= parameters.pose_outlier_factor * parameters.outlier_chi2;
+}
+
+/// The inliers of the tracks, at most `most`, evenly spaced.
 std::vector<SeenPoint> seen_points(const std::vector<Track>& tracks, std::size_t most);
 
-/// The world-to-camera pose that fits what the frame saw, from a start. False where too few of the points are left or fit: the
-/// start then is the best there is.
+/// The world-to-camera pose that fits what the frame saw, from a start. False where too few of the points are left or
+/// fit; the pose then stays as it was.
 bool refit_pose(const Map& map, const Parameters& parameters, const std::vector<SeenPoint>& seen, SE3d* T_c_w);
 
 }  // namespace textslam

@@ -1,10 +1,12 @@
 // Rotation between two frames by aligning their coarsest pyramid levels: the prediction that fast turns need.
 //
-// The whole image is one text patch on the plane at infinity (theta = 0, H = R), so the library's own kernel does it.
+// The whole image is one text patch on the plane at infinity (theta = 0, H = R), so the library's own kernel aligns it.
 #ifndef TEXTSLAM_TRACK_ROTATION_PRIOR_HPP
 #define TEXTSLAM_TRACK_ROTATION_PRIOR_HPP
 
-#include "textslam/map/map.hpp"
+#include "textslam/common/geometry.hpp"
+#include "textslam/common/parameters.hpp"
+#include "textslam/input/frame.hpp"
 
 namespace textslam {
 
@@ -15,7 +17,7 @@ struct RotationPrior {
 
 /// Rotation that takes directions of frame a to frame b, found from `start`.
 RotationPrior align_rotation(const Frame& a, const Frame& b, const Pinhole<double>& camera,
-                             const Eigen::Matrix3d& start);
+                             const Eigen::Matrix3d& start, const Parameters& parameters);
 
 }  // namespace textslam
 

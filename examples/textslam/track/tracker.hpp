@@ -1,17 +1,17 @@
-// Tracker: the pose of a frame against the map. It reads the map and never changes it, so the same code follows the video
-// forward, fills in the frames before the map began, and tries a lost frame against an old key frame.
+// Tracker: the pose of a frame against the map. It reads the map and never changes it, so the same code follows the
+// video forward, fills in the frames before the map began, and tries a lost frame against an old key frame.
 //
 // A frame goes through: prediction (constant velocity, rotation corrected by whole-image alignment) -> KLT of the corners
-// -> pose from points -> map points that were lost sight of or drifted, found again through their key frame's patch ->
-// pose from points and text together, coarse to fine.
+// -> pose from points -> search for the other map points, and for those that drifted, by their key frame's patch -> pose
+// from points and text together, coarse to fine.
 #ifndef TEXTSLAM_TRACK_TRACKER_HPP
 #define TEXTSLAM_TRACK_TRACKER_HPP
 
 #include <vector>
 
-#include "textslam/common/parameters.hpp"
 #include "textslam/map/local_map.hpp"
-#include "textslam/map/map.hpp"
+#include "textslam/track/point_search.hpp"
+#include "textslam/track/track.hpp"
 
 namespace textslam {
 
@@ -20,7 +20,7 @@ struct TrackReport {
   SE3d T_c_w;
   int points = 0;            ///< Map points tracked.
   int inliers = 0;           ///< Of them, consistent with the pose.
-  int texts = 0;             ///< Text objects that took part with a good ZNCC.
+  int texts = 0;             ///< Texts that took part with a good ZNCC.
   std::vector<int> visible;  ///< Ids of points that should be seen.
   std::vector<int> found;    ///< Ids of points that were.
   double klt_ms = 0, pose_ms = 0, reobserve_ms = 0;
@@ -30,13 +30,15 @@ class Tracker {
  public:
   Tracker(const Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
 
-  /// The part of the map that points and texts are taken from; null, as at first: all of it. It must outlive the tracker.
+  /// The part of the map that points and texts are taken from; null, as at first: all of it. It must outlive the
+  /// tracker.
   void look_for(const LocalMap* local) { local_ = local; }
-  /// Begins at a frame of known pose with tracks whose positions are in that frame.
+  /// Begins at a frame of known pose, at rest, with tracks whose positions are in that frame.
   void start(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tracks);
   /// The next frame. On failure the tracks are those that survived and the pose is the prediction.
   TrackReport track(const Frame& frame);
-  /// After the map was adjusted: the pose of the last frame in it, and what lengths around the frame were multiplied by.
+  /// After the map was adjusted: the pose of the last frame in it, and what lengths around the frame were multiplied
+  /// by.
   void correct(const SE3d& T_c_w, double scale = 1);
 
   std::vector<Track>& tracks() { return tracks_; }
@@ -48,9 +50,14 @@ class Tracker {
     bool ok = false;
     int points = 0, inliers = 0, texts = 0;
   };
+  struct Candidate {
+    int point;
+    PointPrediction prediction;
+  };
 
-  SE3d predict(const Frame& frame) const;
+  SE3d follow_corners(const Frame& frame);
   void reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report);
+  void relocate(const Frame& frame, const Candidate& candidate);
   Fit fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w);
   bool looks_for_point(int id) const { return !map_.point(id).bad && (!local_ || local_->has_point(id)); }
 
@@ -63,12 +70,6 @@ class Tracker {
   bool moving_ = false;
   std::vector<Track> tracks_;
 };
-
-/// Tracks at the points that key frame `id` observes: what a tracker that starts there follows.
-std::vector<Track> tracks_of_keyframe(const Map& map, int id);
-
-/// A second's-thousandth clock for timings.
-double now_ms();
 
 }  // namespace textslam
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 #include "textslam/track/tracker.hpp"
 
 namespace textslam {

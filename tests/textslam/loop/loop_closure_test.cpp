@@ -9,7 +9,7 @@
 #include "textslam/loop/loop_alignment.hpp"
 #include "textslam/loop/loop_closure.hpp"
 #include "textslam/loop/pose_graph.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 
 namespace textslam {
 namespace loop_closure_test {
@@ -238,7 +238,7 @@ TEST_F(LoopClosureTest, DriftIsSpreadAndEverythingFollows) {
   const double before = error(loop.keyframe);
   ASSERT_GT(before, 0.2);
   const double share = (map.keyframe(loop.keyframe).T_w_c.t - map.keyframe(loop.met).T_w_c.t).norm() /
-                       way_between(map, loop.met, loop.keyframe);
+                       path_length_between(map, loop.met, loop.keyframe);
   const std::vector<SE3d> poses = [&] {
     std::vector<SE3d> all;
     for (const KeyFrame& keyframe : map.keyframes) all.push_back(keyframe.T_w_c);
@@ -248,7 +248,7 @@ TEST_F(LoopClosureTest, DriftIsSpreadAndEverythingFollows) {
   const TextObject text = map.texts[0];
 
   const LoopCorrection correction = close_loop(map, parameters, loop);
-  ASSERT_TRUE(correction.spread);
+  ASSERT_TRUE(correction.corrected);
   const double growth = std::pow(kGrowth, kRound);
   EXPECT_NEAR(correction.found.scale, 1 / growth, 0.005);
   EXPECT_NEAR(correction.found.translation, share, 0.1 * share);
@@ -340,7 +340,7 @@ TEST_F(LoopClosureTest, LittleDriftIsLeftToTheAdjustments) {
   parameters.loop_max_shift = 1e4;
   const Map before = map;
   const LoopCorrection correction = close_loop(map, parameters, loop);
-  EXPECT_FALSE(correction.spread);
+  EXPECT_FALSE(correction.corrected);
   for (std::size_t k = 0; k < map.keyframes.size(); ++k) {
     EXPECT_EQ(correction.scales[k], 1);
     EXPECT_EQ((map.keyframes[k].T_w_c.t - before.keyframes[k].T_w_c.t).norm(), 0);

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "textslam/loop/loop_closure.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 #include "textslam/track/tracker.hpp"
 
 namespace textslam {
@@ -35,7 +35,7 @@ class LocalMapTest : public testing::Test {
     text.id = static_cast<int>(map.texts.size());
     text.state = state;
     text.host = host;
-    text.targets = targets;
+    text.views = targets;
     map.texts.push_back(text);
   }
   static std::vector<int> keyframes(const LocalMap& local) {

@@ -27,7 +27,7 @@ Map map_of_one_text() {
   text.id = 0;
   text.state = TextState::mapped;
   text.host = 0;
-  text.targets = {1, 2};
+  text.views = {1, 2};
   const Vec3 corners[4] = {{-0.3, -0.1, 3}, {0.3, -0.1, 3}, {0.3, 0.1, 3}, {-0.3, 0.1, 3}};
   for (std::size_t i = 0; i < 4; ++i) text.patch.quad.corner[i] = map.camera.project(corners[i]);
   text.theta = Vec3(0, 0, 1.0 / 3);

@@ -9,7 +9,7 @@
 #include "renderer/render_sequence.hpp"
 #include "textslam/report/evaluate_text.hpp"
 #include "textslam/report/outputs.hpp"
-#include "textslam/system.hpp"
+#include "textslam/system/system.hpp"
 
 namespace textslam {
 namespace late_detections_test {

@@ -8,7 +8,7 @@
 #include "io/image_file.hpp"
 #include "io/io_support.hpp"
 #include "renderer/render_sequence.hpp"
-#include "textslam/system.hpp"
+#include "textslam/system/system.hpp"
 
 namespace textslam {
 namespace live_world_test {

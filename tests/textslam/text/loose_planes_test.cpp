@@ -7,7 +7,7 @@
 #include <random>
 
 #include "textplane/geometry/plane.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 
 namespace textslam {
 namespace loose_planes_test {
@@ -129,7 +129,7 @@ TEST_F(LoosePlanesTest, ObjectLivesFromCandidateToMapped) {
   for (int observations = 2; observations < parameters.text_min_observations; ++observations) {
     update_loose_planes(map, parameters, add_keyframe());
     ASSERT_EQ(text().state, TextState::tentative);
-    EXPECT_EQ(static_cast<int>(text().targets.size()) + 1, observations);
+    EXPECT_EQ(static_cast<int>(text().views.size()) + 1, observations);
     EXPECT_LT(degrees_between(-text().theta, normal), 1e-6);
   }
   text().detections = parameters.text_min_detections - 1;
@@ -143,9 +143,9 @@ TEST_F(LoosePlanesTest, ObjectLivesFromCandidateToMapped) {
 TEST_F(LoosePlanesTest, KeyFramesWithoutItsPointsDoNotObserve) {
   add_keyframe();
   update_loose_planes(map, parameters, add_keyframe());
-  ASSERT_EQ(text().targets.size(), 1u);
+  ASSERT_EQ(text().views.size(), 1u);
   update_loose_planes(map, parameters, add_keyframe(map.points.size()));
-  EXPECT_EQ(text().targets.size(), 1u);
+  EXPECT_EQ(text().views.size(), 1u);
 }
 
 TEST_F(LoosePlanesTest, RefreshFollowsThePointsAndKeepsWhatItCannotFitAnew) {

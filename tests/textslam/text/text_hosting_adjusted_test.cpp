@@ -1,6 +1,6 @@
 // A text gets another host while the adjustment of the map is under way: the adjusted plane follows it there.
 #include "textslam/adjust/adjustment.hpp"
-#include "textslam/map/point_mapper.hpp"
+#include "textslam/map/observations.hpp"
 #include "textslam/text/text_hosting_support.hpp"
 
 namespace textslam {

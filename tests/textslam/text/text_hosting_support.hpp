@@ -54,11 +54,11 @@ class TextHostingTest : public testing::Test {
     text.host = 0;
     text.patch = make_text_patch(map, parameters, 0, quad_in(map.keyframe(0).T_w_c));
     text.theta = map.keyframe(0).T_w_c.R.transpose() * Vec3(0, 0, 1.0 / 3);
-    text.targets = {1, 2, 3, 4, 5};
+    text.views = {1, 2, 3, 4, 5};
     text.votes["EXIT"] = 3;
     text.detections = 6;
     map.texts.push_back(text);
-    EXPECT_TRUE(refine_plane(map, parameters, text.targets, text.theta, 0.9, map.texts[0]));
+    EXPECT_TRUE(refine_plane(map, parameters, text.views, text.theta, 0.9, map.texts[0]));
   }
 
   // Beside the axis by x, walked up to the wall by z, and turned to the sign's middle.
@@ -108,7 +108,7 @@ class TextHostingTest : public testing::Test {
   // One that the text has as a target.
   int add_target(const SE3d& T_w_c, int blur = 0) {
     const int id = add_keyframe(T_w_c, blur);
-    text().targets.push_back(id);
+    text().views.push_back(id);
     return id;
   }
 
@@ -131,7 +131,7 @@ class TextHostingTest : public testing::Test {
   }
   void expect_unchanged(const TextObject& before) {
     EXPECT_EQ(text().host, before.host);
-    EXPECT_EQ(text().targets, before.targets);
+    EXPECT_EQ(text().views, before.views);
     EXPECT_EQ(text().theta, before.theta);
     EXPECT_EQ(text().covariance, before.covariance);
     EXPECT_EQ(text().zncc, before.zncc);

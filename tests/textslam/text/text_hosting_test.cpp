@@ -56,7 +56,7 @@ TEST_F(TextHostingTest, ItStaysTheSignThatItWas) {
   const TextObject before = text();
   ASSERT_TRUE(rehost(map, parameters, id, text()));
   EXPECT_EQ(text().host, id);
-  EXPECT_EQ(text().targets, (std::vector<int>{0, 1, 2, 3, 4, 5})) << "the old host among them";
+  EXPECT_EQ(text().views, (std::vector<int>{0, 1, 2, 3, 4, 5})) << "the old host among them";
   EXPECT_EQ(text().state, TextState::mapped);
   EXPECT_EQ(text().votes, before.votes);
   EXPECT_EQ(text().detections, before.detections);
@@ -76,7 +76,7 @@ TEST_F(TextHostingTest, AViewNearbyKnowsThePlaneBetter) {
     if (i > 0) begin();
     const int id = add_target(at(0.1, 1.6));
     TextObject first = text();
-    ASSERT_TRUE(refine_plane(map, parameters, first.targets, first.theta, 0.5, first)) << "it has the view, too";
+    ASSERT_TRUE(refine_plane(map, parameters, first.views, first.theta, 0.5, first)) << "it has the view, too";
     ASSERT_TRUE(rehost(map, parameters, id, text()));
     first_error += angle_error(first) / kNoises;
     near_error += angle_error(text()) / kNoises;
@@ -90,11 +90,11 @@ TEST_F(TextHostingTest, OnlyMappedTextsAndOnlyWhereTheyWereSeen) {
   text().state = TextState::tentative;
   expect_refused(id, "not mapped");
   text().state = TextState::mapped;
-  text().targets.pop_back();
+  text().views.pop_back();
   expect_refused(id, "no target");
-  text().targets = {id};
+  text().views = {id};
   expect_refused(id, "nothing else to compare it with");
-  text().targets = {1, 2, id};
+  text().views = {1, 2, id};
   EXPECT_TRUE(rehost(map, parameters, id, text()));
 }
 
@@ -133,9 +133,9 @@ TEST_F(TextHostingTest, ABlurredViewIsNoHost) {
   const int blurred = add_target(at(0.1, 1.6), 4), sharp = add_target(at(0.1, 1.6));
   expect_refused(blurred, "blurred");
   TextObject anyhow = text();
-  parameters.rehost_unlike = 100;
+  parameters.rehost_max_dissimilarity = 100;
   EXPECT_TRUE(rehost(map, parameters, blurred, anyhow)) << "nothing else is wrong with it";
-  parameters.rehost_unlike = Parameters().rehost_unlike;
+  parameters.rehost_max_dissimilarity = Parameters().rehost_max_dissimilarity;
   EXPECT_TRUE(rehost(map, parameters, sharp, text()));
 }
 
@@ -154,7 +154,7 @@ TEST_F(TextHostingTest, TheMapperHostsAnewAsTheCameraWalksUp) {
     const int id = add_keyframe(at(0.15 * (z - 3), z));
     mapper.update(id, {});
     ASSERT_EQ(text().state, TextState::mapped);
-    const auto& targets = text().targets;
+    const auto& targets = text().views;
     ASSERT_EQ(targets.size(), map.keyframes.size() - 1) << "all the others show it";
     ASSERT_TRUE(std::is_sorted(targets.begin(), targets.end()));
     ASSERT_EQ(std::count(targets.begin(), targets.end(), text().host), 0);

@@ -28,7 +28,7 @@ class TextMergeTest : public testing::Test {
     text.id = static_cast<int>(map.texts.size());
     text.state = TextState::mapped;
     text.host = host;
-    text.targets = targets;
+    text.views = targets;
     if (!word.empty()) text.votes[word] = 2;
     text.detections = 5;
     const SE3d T_h_w = map.keyframe(host).T_w_c.inverse();
@@ -79,11 +79,11 @@ TEST_F(TextMergeTest, TheOneObservedMoreIsKeptAndGetsAll) {
   text(few).failures = text(many).failures = 2;
   EXPECT_EQ(merge_duplicate_texts(map, parameters), 1);
   EXPECT_EQ(text(few).state, TextState::dropped);
-  EXPECT_TRUE(text(few).targets.empty()) << "what was seen of it is given back";
+  EXPECT_TRUE(text(few).views.empty()) << "what was seen of it is given back";
   EXPECT_EQ(text(apart).state, TextState::mapped);
   const TextObject& kept = text(many);
   EXPECT_EQ(kept.state, TextState::mapped);
-  EXPECT_EQ(kept.targets, (std::vector<int>{0, 2, 3, 4, 5})) << "each once, and not its own host";
+  EXPECT_EQ(kept.views, (std::vector<int>{0, 2, 3, 4, 5})) << "each once, and not its own host";
   EXPECT_EQ(kept.word(), "EXIT");
   EXPECT_EQ(kept.detections, 10);
   EXPECT_EQ(kept.failures, 0);
@@ -97,7 +97,7 @@ TEST_F(TextMergeTest, ThreeBecomeOneAndUnfinishedOnesStay) {
   text(add(1, -0.4, "EXIT", {2})).state = TextState::tentative;
   EXPECT_EQ(merge_duplicate_texts(map, parameters), 2);
   EXPECT_EQ(text(a).state, TextState::mapped);
-  EXPECT_EQ(text(a).targets, (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(text(a).views, (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(text(a).votes.at("EXIT"), 6);
   EXPECT_EQ(text(3).state, TextState::tentative);
 }

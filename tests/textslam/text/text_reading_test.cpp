@@ -32,7 +32,7 @@ class TextReading : public testing::Test {
     text.id = 0;
     text.state = TextState::mapped;
     text.host = 0;
-    text.targets = {1, 2};
+    text.views = {1, 2};
     const Vec3 normal = wall.R * Vec3(0, 0, -1);
     text.theta = textplane::plane_from_normal<double>(normal, -normal.dot(wall.centre));
     // A box round a sheared word: its sides are not at right angles on the wall.
@@ -61,7 +61,7 @@ TEST_F(TextReading, ASquareViewShowsTheWallAsItIs) {
   constexpr int kHeight = 40;
   for (const int id : {0, 1, 2}) {
     SCOPED_TRACE(id);
-    const SquareView view = square_view(map, text, id, kHeight);
+    const SquareView view = square_view(map, text, id, Parameters{});
     ASSERT_GT(view.picture.width(), 0);
     const auto& c = view.quad.corner;
     EXPECT_EQ((c[3] - c[0]).norm(), kHeight);
@@ -78,9 +78,9 @@ TEST_F(TextReading, ASquareViewShowsTheWallAsItIs) {
 
 TEST_F(TextReading, WhatAnImageCutsOffIsNotShown) {
   map.keyframes[1].T_w_c = {Eigen::Matrix3d::Identity(), Vec3(2, 0, 0)};
-  EXPECT_EQ(square_view(map, text, 1, 40).picture.width(), 0);
+  EXPECT_EQ(square_view(map, text, 1, Parameters{}).picture.width(), 0);
   map.keyframes[1].T_w_c = {Eigen::Matrix3d::Identity(), Vec3(0, 0, 6)};
-  EXPECT_EQ(square_view(map, text, 1, 40).picture.width(), 0) << "behind the camera";
+  EXPECT_EQ(square_view(map, text, 1, Parameters{}).picture.width(), 0) << "behind the camera";
 }
 
 // Reads what stands upright better than what is upside down; counts.

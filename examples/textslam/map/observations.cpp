@@ -1,0 +1,56 @@
+#include "textslam/map/observations.hpp"
+
+#include <algorithm>
+
+#include "textslam/common/statistics.hpp"
+
+namespace textslam {
+
+void add_observation(Map& map, int point, int keyframe, const Vec2& px) {
+  map.point(point).observations.push_back({keyframe, px});
+  map.keyframe(keyframe).points.push_back(point);
+}
+
+void remove_observation(Map& map, int point, int keyframe) {
+  auto& observations = map.point(point).observations;
+  observations.erase(std::remove_if(observations.begin(), observations.end(),
+                                    [&](const PointObservation& o) { return o.keyframe == keyframe; }),
+                     observations.end());
+  auto& points = map.keyframe(keyframe).points;
+  points.erase(std::remove(points.begin(), points.end(), point), points.end());
+  if (observations.size() < 2) drop_point(map, point);
+}
+
+void drop_point(Map& map, int point) {
+  MapPoint& dropped = map.point(point);
+  dropped.bad = true;
+  for (const PointObservation& o : dropped.observations) {
+    auto& points = map.keyframe(o.keyframe).points;
+    points.erase(std::remove(points.begin(), points.end(), point), points.end());
+  }
+  dropped.observations.clear();
+  dropped.observations.shrink_to_fit();  // most points of a long run are bad in the end
+}
+
+const Vec2* observed_in(const std::vector<PointObservation>& observations, int keyframe) {
+  for (const PointObservation& o : observations)
+    if (o.keyframe == keyframe) return &o.px;
+  return nullptr;
+}
+
+std::vector<int> shared_points(const Map& map, const std::vector<int>& points) {
+  std::vector<int> shared(map.keyframes.size(), 0);
+  for (const int id : points)
+    for (const PointObservation& o : map.point(id).observations) ++shared[static_cast<std::size_t>(o.keyframe)];
+  return shared;
+}
+
+double median_depth(const Map& map, int id) {
+  const KeyFrame& keyframe = map.keyframe(id);
+  const SE3d T_c_w = keyframe.T_w_c.inverse();
+  std::vector<double> depths;
+  for (const int point : keyframe.points) depths.push_back((T_c_w * map.point(point).p_w).z());
+  return median(std::move(depths));
+}
+
+}  // namespace textslam

@@ -1,0 +1,119 @@
+#include "textslam/relocalise/relocalisation.hpp"
+
+#include <algorithm>
+
+#include "textplane/geometry/quad.hpp"
+#include "textslam/map/text_geometry.hpp"
+#include "textslam/track/rotation_prior.hpp"
+
+namespace textslam {
+namespace {
+
+Relocalisation relocalisation_of(Tracker& tracker, TrackReport report) {
+  Relocalisation out;
+  out.ok = report.ok;
+  out.T_c_w = report.T_c_w;
+  out.tracks = std::move(tracker.tracks());
+  out.report = std::move(report);
+  return out;
+}
+
+// Inlier points that lie on no mapped text.
+int points_off_texts(const Map& map, const Relocalisation& found) {
+  std::vector<Quad<double>> quads;
+  for (const TextObject& text : map.texts) {
+    Quad<double> quad;
+    if (text.state == TextState::mapped && project_text(map, text, found.T_c_w, &quad)) quads.push_back(quad);
+  }
+  int count = 0;
+  for (const Track& track : found.tracks) {
+    const Vec2 px = track.px.cast<double>();
+    const bool on_text = std::any_of(quads.begin(), quads.end(),
+                                     [&](const Quad<double>& quad) { return textplane::contains(quad, px); });
+    count += track.point >= 0 && track.inlier && !on_text ? 1 : 0;
+  }
+  return count;
+}
+
+// A wrong pose would spoil the map, and another lost frame costs little.
+bool holds(const Map& map, const Parameters& parameters, const Relocalisation& found) {
+  const int expected = std::min(static_cast<int>(found.report.visible.size()), parameters.max_reobserved);
+  if (!found.ok || found.report.inliers < parameters.relocalise_min_share * expected) return false;
+  return found.report.texts >= parameters.enough_texts ||
+         (found.report.inliers >= parameters.relocalise_inlier_factor * parameters.min_inliers &&
+          points_off_texts(map, found) >= parameters.min_inliers);
+}
+
+Relocalisation relocalise_by_keyframes(const Map& map, const Parameters& parameters, const Frame& frame) {
+  struct Candidate {
+    int keyframe;
+    double zncc;
+  };
+  std::vector<Candidate> candidates;
+  for (const int id : map.keyframe_ids()) {
+    const RotationPrior prior =
+        align_rotation(map.keyframe(id).frame, frame, map.camera, Eigen::Matrix3d::Identity(), parameters);
+    if (prior.zncc > parameters.relocalise_min_image_zncc) candidates.push_back({id, prior.zncc});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.zncc > b.zncc; });
+  if (static_cast<int>(candidates.size()) > parameters.relocalise_candidates)
+    candidates.resize(static_cast<std::size_t>(parameters.relocalise_candidates));
+
+  Relocalisation best;
+  for (const Candidate& candidate : candidates) {
+    const KeyFrame& keyframe = map.keyframe(candidate.keyframe);
+    Tracker tracker(map, parameters);
+    tracker.start(keyframe.frame, keyframe.T_w_c.inverse(), tracks_of_keyframe(map, candidate.keyframe));
+    TrackReport report = tracker.track(frame);
+    if (!report.ok || report.inliers <= best.report.inliers) continue;
+    best = relocalisation_of(tracker, std::move(report));
+  }
+  // From so far away many tracks go wrong together; a search from the pose alone does not inherit that.
+  if (best.ok) best = observe_from(map, parameters, frame, best.T_c_w);
+  if (!holds(map, parameters, best)) return {};
+  return best;
+}
+
+}  // namespace
+
+Relocalisation observe_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w) {
+  Relocalisation best;
+  SE3d guess = T_c_w;
+  for (int round = 0; round < parameters.relocalise_rounds; ++round) {
+    Tracker tracker(map, parameters);
+    tracker.start(frame, guess, {});
+    TrackReport report = tracker.track(frame);
+    if (!report.ok || report.inliers + report.texts <= best.report.inliers + best.report.texts) break;
+    guess = report.T_c_w;
+    best = relocalisation_of(tracker, std::move(report));
+  }
+  return best;
+}
+
+Relocalisation recognise_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w) {
+  Relocalisation found = observe_from(map, parameters, frame, T_c_w);
+  if (!holds(map, parameters, found)) return {};
+  return found;
+}
+
+Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
+                                   const std::vector<WordMatch>& ways) {
+  for (const WordMatch words : ways) {
+    for (const TextHypothesis& hypothesis : text_hypotheses(map, parameters, frame, words)) {
+      Relocalisation found = recognise_from(map, parameters, frame, hypothesis.T_c_w);
+      if (found.ok) return found;
+    }
+  }
+  return {};
+}
+
+Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame) {
+  if (parameters.mode == Mode::text) {
+    Relocalisation found = relocalise_by_texts(map, parameters, frame, {WordMatch::same, WordMatch::other});
+    if (found.ok) return found;
+  }
+  return relocalise_by_keyframes(map, parameters, frame);
+}
+
+}  // namespace textslam

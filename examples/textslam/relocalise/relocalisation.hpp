@@ -1,0 +1,39 @@
+// Relocalisation: the pose of a frame after tracking was lost, from the signs that it shows and from the key frames
+// that look most like it.
+#ifndef TEXTSLAM_RELOCALISE_RELOCALISATION_HPP
+#define TEXTSLAM_RELOCALISE_RELOCALISATION_HPP
+
+#include <vector>
+
+#include "textslam/relocalise/text_hypotheses.hpp"
+#include "textslam/track/tracker.hpp"
+
+namespace textslam {
+
+struct Relocalisation {
+  bool ok = false;  ///< The frame was recognised; else nothing below counts.
+  SE3d T_c_w;
+  std::vector<Track> tracks;  ///< Map points found in the frame: what a tracker that starts there follows.
+  TrackReport report;
+};
+
+/// The frame as seen from about T_c_w: texts and map points are looked for where that pose expects them, and the pose
+/// is fitted to them.
+Relocalisation observe_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
+
+/// The same, refused where the pose does not hold. It holds where the image shows enough of the points that it should
+/// see, and two texts agree with it or enough points lie off the signs: the same sign may hang in several places.
+Relocalisation recognise_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
+
+/// The first pose that holds of those that the frame's detections suggest, compared with the texts in one way after
+/// another.
+Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
+                                   const std::vector<WordMatch>& ways);
+
+/// Tries the poses that the frame's detections suggest (mode text). Where none holds, tries the key frames whose
+/// coarsest images correlate best with the frame's.
+Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RELOCALISE_RELOCALISATION_HPP

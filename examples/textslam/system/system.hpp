@@ -1,0 +1,143 @@
+// System: monocular SLAM with points and planar text, one frame at a time.
+//
+// Frame -> (initialiser | tracker | relocalisation) -> key frame? -> points, text, local adjustment. No random draws,
+// and one thread but for the adjustment in real time (adjuster.hpp): without that the same frames give the same bytes.
+// Detections may come with their frame or after it (add_detections()). Redundant key frames are culled (culling.hpp):
+// the map grows with the ground seen, not with time.
+//
+// One map is worked on at a time. After a long loss it is stored, and another begins. A lost frame is searched for in
+// the stored maps, too, and a key frame that shows a stored map joins the two (system_maps.cpp). In the end the map
+// with most frames is the result.
+#ifndef TEXTSLAM_SYSTEM_SYSTEM_HPP
+#define TEXTSLAM_SYSTEM_SYSTEM_HPP
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "io/evaluate.hpp"
+#include "textslam/adjust/adjuster.hpp"
+#include "textslam/detect/text_detector.hpp"
+#include "textslam/init/initialiser.hpp"
+#include "textslam/loop/loop_closure.hpp"
+#include "textslam/text/text_mapper.hpp"
+#include "textslam/track/pose_refit.hpp"
+
+namespace textslam {
+
+/// A loop that was closed.
+struct LoopRecord {
+  int frame = -1;          ///< Index of the frame at which it was closed,
+  int met_frame = -1;      ///< and of the key frame that it met.
+  std::string word;        ///< Of a text that is in both parts; empty where points alone closed it.
+  bool corrected = false;  ///< Else there was too little drift.
+  Drift found, left;
+};
+
+enum class FrameState {
+  waiting,  ///< No map yet.
+  tracked,
+  lost,
+};
+
+/// What became of a frame.
+struct FrameRecord {
+  double timestamp = 0;
+  FrameState state = FrameState::waiting;
+  int map = -1;  ///< Number of the map that it was tracked in; in the end those of other maps than the result are lost.
+  int keyframe = -1;  ///< The key frame that the pose is relative to.
+  SE3d T_k_c;         ///< Camera to that key frame.
+  SE3d T_w_c_live;    ///< Camera to the live world as known when the frame was processed; tracked frames alone.
+  bool live = false;  ///< Tracked in the map when it came, not filled in or joined afterwards.
+  int points = 0, texts = 0;
+  std::vector<SeenPoint> seen;  ///< Between key frames: what the pose rests on.
+  double detect_ms = 0, track_ms = 0, klt_ms = 0, pose_ms = 0, reobserve_ms = 0, map_ms = 0, adjust_ms = 0;
+};
+
+class System {
+ public:
+  System(const Pinhole<double>& camera, int width, int height, const Parameters& parameters);
+
+  /// Takes the next frame; indices count up from 0. `detect_ms` is what the detector took, for the record.
+  const FrameRecord& process(const Frame& frame, double detect_ms = 0);
+
+  /// What a detector on a thread of its own found in an earlier frame, by its index. In a key frame of the map new
+  /// texts begin with it; in another frame tracked in the map it counts for known texts. Detections in another map, or
+  /// in a culled key frame, are ignored. Only between two calls of process(), and before finish().
+  void add_detections(int frame, std::vector<Detection> detections, double detect_ms);
+
+  /// Gives poses to frames before the map began or was found again, by tracking them backwards from the frame after
+  /// them. `load` returns the frame of an index again.
+  void fill_in(const std::function<Frame(int)>& load);
+
+  /// The map with most frames becomes the result; the adjustment over all its key frames.
+  void finish();
+
+  /// After finish(): reads the mapped texts, see text_reading.hpp.
+  void read_texts(TextReader& reader);
+
+  /// The map that is worked on, in the end the result.
+  const Map& map() const { return map_; }
+  /// Frames tracked in each map, those of map() first, then by size.
+  std::vector<std::size_t> map_frames() const;
+  const std::deque<FrameRecord>& records() const { return records_; }
+  const std::vector<LoopRecord>& loops() const { return loops_; }
+  /// The map's world to the live world, in which live poses are given. The live world stays where it is, while each
+  /// adjustment moves the oldest key frames, which fix position, direction and scale of the monocular map. This
+  /// similarity fits today's poses of all frames tracked so far to their live poses.
+  const Similarity& live_world() const { return live_world_; }
+  /// Final pose of a tracked frame.
+  SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
+
+ private:
+  bool track(const Frame& frame, FrameRecord& record);
+  void follow(const Frame& frame, FrameRecord& record);
+  void lose(FrameRecord& record);
+  void begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecord& record);
+  void begin_tracking(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tracks);
+  bool keyframe_needed(const Frame& frame) const;
+  void add_keyframe(const Frame& frame, FrameRecord& record);
+  void update_texts(const Frame& frame, std::vector<Track>& tracks);
+  void cull_keyframes();
+  void take_over(const Adjuster::Collected& adjusted);
+  void map_changed(const SE3d& T_c_w, FrameRecord* newest, double scale = 1);
+  void set_pose(FrameRecord& record, const SE3d& T_c_w);
+  void align_live_world();
+  void refit(FrameRecord& record) const;
+
+  // system_detections.cpp
+  void host_late(int id);
+
+  // system_loops.cpp
+  void close_loops(FrameRecord& record);
+  void apply(const LoopCorrection& correction);
+
+  // system_maps.cpp
+  bool recover(const Frame& frame, FrameRecord& record);
+  void store_map();
+  void take_map(std::size_t stored);
+  void join_stored(const Frame& frame, FrameRecord& record);
+  void join(std::size_t stored, const MapLink& link);
+  void keep_largest();
+
+  Parameters parameters_;
+  Map map_;
+  LocalMap local_;           // around the newest key frame
+  std::vector<Map> stored_;  // in the order in which they were left
+  int maps_ = 0;             // begun so far
+  Initialiser initialiser_;
+  TextMapper text_mapper_;
+  Adjuster adjuster_;
+  std::unique_ptr<Tracker> tracker_;  // null until the map begins
+  std::deque<FrameRecord> records_;   // grows without copies of itself
+  std::vector<LoopRecord> loops_;
+  Similarity live_world_;         // see live_world()
+  int last_keyframe_ = -1;        // id of the newest
+  int last_keyframe_points_ = 0;  // tracked in it
+  int lost_frames_ = 0;           // in a row
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_SYSTEM_SYSTEM_HPP

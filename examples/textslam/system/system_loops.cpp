@@ -1,0 +1,52 @@
+// System, the part that closes loops.
+#include "textslam/adjust/adjustment.hpp"
+#include "textslam/system/system.hpp"
+#include "textslam/text/text_merge.hpp"
+
+namespace textslam {
+
+// Updates what records and tracks hold of the map after a loop changed it.
+void System::apply(const LoopCorrection& correction) {
+  for (FrameRecord& record : records_) {
+    if (record.map != map_.number || record.keyframe < 0) continue;
+    record.T_k_c.t *= correction.scales[static_cast<std::size_t>(record.keyframe)];
+    for (SeenPoint& seen : record.seen) seen.point = correction.points[static_cast<std::size_t>(seen.point)];
+  }
+  std::vector<Track>& tracks = tracker_->tracks();
+  for (Track& track : tracks)
+    if (track.point >= 0) track.point = correction.points[static_cast<std::size_t>(track.point)];
+  erase_bad_tracks(map_, tracks);
+}
+
+// The key frame just added may show a part of the map that has drifted away.
+void System::close_loops(FrameRecord& record) {
+  Loop loop = find_loop(map_, local_, parameters_);
+  if (!loop.ok) return;
+  // In real time an adjustment may be under way. It is waited for; where it moved the map, the loop is searched for
+  // again.
+  const Adjuster::Collected adjusted = adjuster_.settle(map_);
+  take_over(adjusted);
+  if (adjusted.changed) loop = find_loop(map_, local_, parameters_);
+  if (!loop.ok) return;
+  LoopRecord closed;
+  closed.frame = map_.keyframe(loop.keyframe).frame.index;
+  closed.met_frame = map_.keyframe(loop.met).frame.index;
+  if (!loop.link.texts.empty()) closed.word = map_.text(loop.link.texts.front().first).word();
+  const LoopCorrection correction = close_loop(map_, parameters_, loop);
+  closed.corrected = correction.corrected;
+  closed.found = correction.found;
+  if (parameters_.mode == Mode::text) merge_duplicate_texts(map_, parameters_);
+  if (correction.corrected) {
+    adjust_all(map_, parameters_, parameters_.final_iterations);
+    if (parameters_.mode == Mode::text) text_mapper_.observe_again();
+  } else {
+    adjust_local(map_, parameters_);
+  }
+  apply(correction);
+  closed.left = drift_left(map_, parameters_, loop);
+  loops_.push_back(closed);
+  map_changed(map_.keyframe(last_keyframe_).T_w_c.inverse(), &record,
+              correction.scales[static_cast<std::size_t>(last_keyframe_)]);
+}
+
+}  // namespace textslam

@@ -1,0 +1,126 @@
+// System, the part that deals with more than one map: what becomes of a map that is lost, and how frames come back to
+// it.
+#include <algorithm>
+#include <map>
+
+#include "textslam/adjust/adjustment.hpp"
+#include "textslam/loop/map_join.hpp"
+#include "textslam/relocalise/relocalisation.hpp"
+#include "textslam/system/system.hpp"
+
+namespace textslam {
+
+void System::store_map() {
+  take_over(adjuster_.settle(map_));
+  if (!map_.keyframes.empty()) stored_.push_back(std::move(map_));
+  map_.clear();
+  local_ = {};
+  tracker_.reset();
+  initialiser_.forget();
+  lost_frames_ = 0;
+}
+
+// A stored map is worked on again.
+void System::take_map(std::size_t stored) {
+  Map taken = std::move(stored_[stored]);
+  stored_.erase(stored_.begin() + static_cast<std::ptrdiff_t>(stored));
+  store_map();
+  map_ = std::move(taken);
+  last_keyframe_ = map_.newest_keyframe();
+  map_changed({}, nullptr);
+}
+
+bool System::recover(const Frame& frame, FrameRecord& record) {
+  Relocalisation found;
+  if (!map_.keyframes.empty()) found = relocalise(map_, parameters_, frame);
+  // The map left last is the likeliest.
+  for (std::size_t i = stored_.size(); i > 0 && !found.ok; --i) {
+    found = relocalise(stored_[i - 1], parameters_, frame);
+    if (found.ok) take_map(i - 1);
+  }
+  if (!found.ok) return false;
+  record.points = found.report.inliers;
+  record.texts = found.report.texts;
+  last_keyframe_points_ = found.report.inliers;
+  // The motion since the last frame is not known: the tracker starts without a velocity.
+  local_ = local_map(map_, parameters_, found.report.found);
+  begin_tracking(frame, found.T_c_w, std::move(found.tracks));
+  return true;
+}
+
+// The key frame just added may show a stored map. Then the map that is worked on moves into it.
+void System::join_stored(const Frame& frame, FrameRecord& record) {
+  for (std::size_t i = stored_.size(); i > 0; --i) {
+    const Relocalisation seen = relocalise(stored_[i - 1], parameters_, frame);
+    if (!seen.ok) continue;
+    take_over(adjuster_.settle(map_));
+    const MapLink link = link_maps(stored_[i - 1], map_, parameters_, seen);
+    if (!link.ok) continue;
+    join(i - 1, link);
+    const SE3d T_c_w = map_.keyframe(last_keyframe_).T_w_c.inverse();
+    begin_tracking(frame, T_c_w, std::vector<Track>(std::move(tracker_->tracks())));
+    return map_changed(T_c_w, &record);
+  }
+}
+
+void System::join(std::size_t stored, const MapLink& link) {
+  Map joined = std::move(stored_[stored]);
+  stored_.erase(stored_.begin() + static_cast<std::ptrdiff_t>(stored));
+  const JoinedIds ids = join_maps(joined, map_, link, parameters_);
+  const auto point_in_joined = [&](int id) { return ids.points[static_cast<std::size_t>(id)]; };
+  for (FrameRecord& record : records_) {
+    if (record.map != map_.number) continue;
+    record.map = joined.number;
+    record.keyframe += ids.first_keyframe;
+    record.T_k_c.t *= link.S_a_b.scale;
+    record.live = false;
+    for (SeenPoint& seen : record.seen) seen.point = point_in_joined(seen.point);
+    record.seen.erase(
+        std::remove_if(record.seen.begin(), record.seen.end(), [](const SeenPoint& seen) { return seen.point < 0; }),
+        record.seen.end());
+  }
+  std::vector<Track>& tracks = tracker_->tracks();
+  for (Track& track : tracks) {
+    if (track.point >= 0) track.point = point_in_joined(track.point);
+    for (PointObservation& o : track.observations) o.keyframe += ids.first_keyframe;
+  }
+  map_ = std::move(joined);
+  last_keyframe_ += ids.first_keyframe;
+
+  adjust_all(map_, parameters_, parameters_.final_iterations);
+  if (parameters_.mode == Mode::text) text_mapper_.observe_again();
+  erase_bad_tracks(map_, tracks);
+}
+
+std::vector<std::size_t> System::map_frames() const {
+  std::map<int, std::size_t> counts;
+  for (const FrameRecord& record : records_)
+    if (record.map >= 0) ++counts[record.map];
+  std::vector<std::size_t> frames;
+  for (const auto& [number, count] : counts)
+    if (number != map_.number) frames.push_back(count);
+  std::sort(frames.rbegin(), frames.rend());
+  if (counts.count(map_.number) > 0) frames.insert(frames.begin(), counts[map_.number]);
+  return frames;
+}
+
+void System::keep_largest() {
+  std::map<int, int> counts;
+  for (const FrameRecord& record : records_)
+    if (record.map >= 0) ++counts[record.map];
+  std::size_t largest = stored_.size();
+  int most = map_.keyframes.empty() ? 0 : counts[map_.number];
+  for (std::size_t i = 0; i < stored_.size(); ++i)
+    if (counts[stored_[i].number] > most) {
+      most = counts[stored_[i].number];
+      largest = i;
+    }
+  if (largest < stored_.size()) take_map(largest);
+  for (FrameRecord& record : records_) {
+    if (record.state != FrameState::tracked || record.map == map_.number) continue;
+    record.state = FrameState::lost;
+    record.live = false;
+  }
+}
+
+}  // namespace textslam

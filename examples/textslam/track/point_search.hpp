@@ -1,0 +1,27 @@
+// Search for a map point in a frame: where it should be, and where its key-frame patch is found.
+#ifndef TEXTSLAM_TRACK_POINT_SEARCH_HPP
+#define TEXTSLAM_TRACK_POINT_SEARCH_HPP
+
+#include "textslam/map/map.hpp"
+
+namespace textslam {
+
+/// A map point as a frame should see it.
+struct PointPrediction {
+  const PointObservation* host = nullptr;  ///< In the key frame that saw the point most nearly from here.
+  Vec2 px;
+  Eigen::Matrix2f A;  ///< px displacement in the host per px in the frame, of a fronto-parallel patch.
+};
+
+/// False where the frame at T_c_w, with its camera at `centre`, cannot see the point, or too differently from all key
+/// frames.
+bool predict_point(const Map& map, const Parameters& parameters, const MapPoint& point, const SE3d& T_c_w,
+                   const Vec3& centre, PointPrediction* out);
+
+/// Finds the host's patch in the frame from the start *px (level 0), on levels `coarsest` to 0.
+bool find_point(const Map& map, const Parameters& parameters, const PointPrediction& prediction, const Frame& frame,
+                int coarsest, Vec2f* px);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_TRACK_POINT_SEARCH_HPP
