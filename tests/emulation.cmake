@@ -1,12 +1,12 @@
-# Targets that this machine lacks, or has beyond what is wanted: an old CPU under qemu-user, and AVX-512 on emulated intrinsics.
-# ctest -L emulation runs them alone.
+# SIMD targets other than this machine's: an old CPU under qemu-user, and AVX-512 on emulated intrinsics. ctest -L
+# emulation runs them alone.
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" OR CMAKE_CROSSCOMPILING)
   return()
 endif()
 
-# Kernels and solvers on a CPU without AVX, as they are built for this machine, on the target that such a CPU has: the scalar one
-# is no other there than here. One test for ctest each: starting the emulator takes longer than most of their tests. (Features
-# run on the kernels alone, but on images for which the emulator is too slow.)
+# Kernels and solvers on a CPU without AVX, on its target sse41; scalar is the same there as here. A whole program is
+# one test for ctest, as starting the emulator takes longer than most tests. (Features use the kernels alone, on images
+# too large for it.)
 find_program(TEXTPLANE_QEMU_X86_64 qemu-x86_64)
 if(TEXTPLANE_QEMU_X86_64)
   set(rooms simd vectors photometry)

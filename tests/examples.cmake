@@ -1,10 +1,11 @@
 # Tests of the example programs and of what they are made of. Their names begin with `examples.`.
 
-# The adjustment and the detector beside tracking, with the files that they need and no more: ThreadSanitizer takes a minute
-# for each.
+# The adjustment and the detector beside tracking, with the files that they need and no more: ThreadSanitizer takes a
+# minute for each.
 if(TEXTPLANE_TEST_TIER STREQUAL "threads")
   set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread map/map map/observations
-    map/text_geometry map/text_words text/text_plane track/feature_tracks track/point_search track/rotation_prior track/track track/tracker)
+    map/text_geometry map/text_words text/text_plane track/feature_tracks track/point_search track/rotation_prior track/track
+    track/tracker)
   list(TRANSFORM alone REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/examples/textslam/\\1.cpp")
   add_executable(adjuster_alone_test textslam/adjust/adjuster_test.cpp textslam/detect/detection_thread_test.cpp ${alone})
   target_include_directories(adjuster_alone_test PRIVATE ${PROJECT_SOURCE_DIR}/examples)
@@ -18,20 +19,21 @@ if(NOT TEXTPLANE_BUILD_EXAMPLES)
   return()
 endif()
 
-# Sanitizers see a room and a corridor: the renderer's other kinds differ in numbers. They skip whole runs and statistics.
-textplane_add_tests(io LIBRARIES textplane_io TIERS first_look sanitizers)
+# Sanitizers see a room and a corridor: the renderer's other kinds differ in numbers. They skip whole runs and
+# statistics.
+textplane_add_tests(io LIBRARIES textplane_plugins TIERS first_look sanitizers)
 textplane_add_tests(renderer LIBRARIES textplane_renderer TIERS first_look sanitizers EXCEPT
   sanitizers "RendererGeometry\\.EveryPixelShowsTheNearestSurfaceOnItsRay|RendererTruth\\.SignsPosesAndCamera"
   sanitizers "Kinds/EveryKind\\.RendersFramesThatATrackerCanUse/(lights|notext|rapid|room_still|sparse)")
 textplane_add_tests(planar LIBRARIES textplane_textslam TIERS first_look sanitizers)
-textplane_add_tests(textslam LIBRARIES textplane_textslam TIERS first_look sanitizers EXCEPT
+textplane_add_tests(textslam LIBRARIES textplane_plugins TIERS first_look sanitizers EXCEPT
   sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms|LateDetections\\." first_look "LateDetections\\.")
 
 add_test(NAME examples.rooms COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/examples/textslam
   -P ${CMAKE_CURRENT_SOURCE_DIR}/textslam/rooms.cmake)
 textplane_label(examples.rooms textslam first_look)
 
-# Tests that start a program, one executable a file: its tests share one rendered sequence, so they are one test for ctest, too.
+# Tests that start a program, one executable a file. The tests of a file share one rendered sequence, so they are one test for ctest.
 # textplane_add_program_test(NAME [TIER...])
 function(textplane_add_program_test name)
   textplane_in_tier(wanted ${ARGN})
@@ -56,6 +58,7 @@ textplane_add_program_test(textslam_outputs_test first_look)
 textplane_add_program_test(textslam_recovery_test)
 textplane_add_program_test(textslam_report_test)
 textplane_add_program_test(textslam_run_test first_look)
+textplane_add_program_test(textslam_unusual_input_test first_look sanitizers)
 
 # The numbered examples: each runs, and a number that it prints is checked.
 function(textplane_test_example name text bound)
@@ -93,8 +96,8 @@ if(TARGET foreign_tracker)
   textplane_label(examples.foreign_tracker programs)
 endif()
 
-# The script of the experiments, with a stand-in for textslam; readers of other libraries on textslam's outputs; and the report in a
-# browser, where there is one: the pages that textslam_report_test made.
+# The script of the experiments, with a stand-in for textslam; readers of other libraries on textslam's outputs; and the
+# report in a browser, where there is one: the pages that textslam_report_test made.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(NOT Python3_FOUND)
   return()

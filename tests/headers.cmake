@@ -1,5 +1,5 @@
-# What including a header must not do (manners_test.py), what must not compile and why, and that every adapter compiles alone and twice where its library is,
-# and that a fixed target is the only one.
+# What including a header must not do (manners_test.py); what must not compile; that every adapter compiles alone and
+# twice if its library is there; that a unit with a fixed SIMD target has the kernels of no other.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
   add_test(NAME headers.manners COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/manners_test.py ${PROJECT_SOURCE_DIR})

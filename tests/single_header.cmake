@@ -9,8 +9,8 @@ if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
   textplane_label(single_header.script first_look sanitizers)
 endif()
 
-# Headers that forward to it, found before those of include/. Adapters are no part of it, and a test that brings a kernel of its own
-# takes the list of regions from include/.
+# Headers that forward to it, found before those of include/. It has no adapters, and tests with kernels of their own
+# take the list of regions from include/.
 if(TEXTPLANE_TEST_SINGLE_HEADER)
   set(forward ${CMAKE_CURRENT_BINARY_DIR}/single_header)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/textplane/*.hpp)

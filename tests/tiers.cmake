@@ -1,5 +1,6 @@
-# Tiers: the sets of tests that scripts/test runs. A test names its tiers where it is declared; they and its room, the first word
-# of its name, are its labels for ctest: `ctest -L '^first_look$'`. A test without a tier runs where all tests do.
+# Tiers: the sets of tests that scripts/test runs. A test names its tiers where it is declared; they and its room, the
+# first word of its name, are its labels for ctest: `ctest -L '^first_look$'`. A test without a tier runs where all
+# tests do.
 #   first_look  scripts/test, minutes
 #   sanitizers  AddressSanitizer and UndefinedBehaviorSanitizer
 #   threads     ThreadSanitizer
@@ -21,9 +22,9 @@ function(textplane_label test)
   set_property(TEST ${test} APPEND PROPERTY LABELS ${room} ${ARGN})
 endfunction()
 
-# textplane_discover_tests(PROGRAM ROOM [LABELS LABEL...] [TIERS TIER...] [EXCEPT TIER REGEX...]): the tests of a program of
-# GoogleTest. Those whose names match a REGEX of EXCEPT are not of that TIER. ctest sets the labels: GoogleTest's module takes no
-# lists as properties.
+# textplane_discover_tests(PROGRAM ROOM [LABELS LABEL...] [TIERS TIER...] [EXCEPT TIER REGEX...]): the tests of a
+# program of GoogleTest. Those whose names match a REGEX of EXCEPT are not of that TIER. ctest sets the labels:
+# GoogleTest's module takes no lists as properties.
 function(textplane_discover_tests program room)
   cmake_parse_arguments(tests "" "" "LABELS;TIERS;EXCEPT" ${ARGN})
   gtest_discover_tests(${program} TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)

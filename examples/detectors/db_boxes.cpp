@@ -16,7 +16,8 @@ double mean_inside(const cv::Mat& probability, const std::vector<cv::Point>& out
   return cv::mean(probability(box), mask)[0];
 }
 
-// The rectangle's corners from the text's top left: its axis nearest to the horizontal is the text's, unless it is tall.
+// Corners from the text's top left. The text runs along the axis nearest to the horizontal, or downwards if the box is
+// tall.
 Quad<double> oriented(const cv::RotatedRect& rectangle, double grow) {
   const double turn = static_cast<double>(rectangle.angle) * CV_PI / 180;
   Vector2<double> along(std::cos(turn), std::sin(turn)), down(-along.y(), along.x());

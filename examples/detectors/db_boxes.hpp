@@ -16,8 +16,8 @@ struct DbParameters {
   double min_side = 3;           ///< px of the map, before it grows.
 };
 
-/// `probability`: CV_32F. Boxes in px of the map, rectangles of least area around the cores and grown; along the text, which
-/// is taken to run to the right, or downwards where the box is half as high again as it is wide. In the order of OpenCV's contours.
+/// `probability`: CV_32F. Rectangles of least area around the cores, grown, in px of the map and in the order of
+/// OpenCV's contours. Text is assumed to run to the right, or downwards if the box is 1.5 times as high as wide.
 std::vector<Detection> decode_db(const cv::Mat& probability, const DbParameters& parameters);
 
 }  // namespace textslam

@@ -7,7 +7,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "detectors/plugins.hpp"
 #include "detectors/quiet_opencv.hpp"
 #include "io/input_error.hpp"
 
@@ -20,7 +19,7 @@ constexpr int kTryOut = 64;  // px
 struct Channel {
   double scale, shift;
 };
-// What the networks were trained with, blue first: (v / 255 - mean) / deviation for DB, v - mean for EAST, whose red is first.
+// As in training: (v / 255 - mean) / deviation, blue first, for DB; v - mean, red first, for EAST.
 constexpr std::array<Channel, 3> kDbChannels = {
     {{1 / (255 * 0.229), -0.485 / 0.229}, {1 / (255 * 0.224), -0.456 / 0.224}, {1 / (255 * 0.225), -0.406 / 0.225}}};
 constexpr std::array<Channel, 3> kEastChannels = {{{1, -123.68}, {1, -116.78}, {1, -103.94}}};
@@ -121,8 +120,8 @@ std::vector<Detection> DnnDetector::detect(const FrameRef& frame, ImageView8 raw
   return found;
 }
 
-std::unique_ptr<TextDetector> make_dnn_detector(const std::string& model) {
-  return std::make_unique<DnnDetector>(model.empty() ? TEXTSLAM_DEFAULT_MODEL : model);
+std::unique_ptr<TextDetector> make_dnn_detector(const DetectorOptions& options, const Sequence&) {
+  return std::make_unique<DnnDetector>(options.model.empty() ? TEXTSLAM_DEFAULT_MODEL : options.model);
 }
 
 }  // namespace textslam

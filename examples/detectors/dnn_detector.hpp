@@ -1,4 +1,4 @@
-// DnnDetector: text quads by a network that OpenCV runs, of one of two kinds that its outputs tell apart:
+// DnnDetector: text quads by a network that OpenCV runs. Its outputs tell its kind:
 //
 //   DB    one output, the probability map at the size of the input (PP-OCR's detectors; scripts/get-detector gets one)
 //   EAST  two outputs at a quarter of it, score and geometry (frozen_east_text_detection.pb)
@@ -7,6 +7,7 @@
 #ifndef TEXTSLAM_DETECTORS_DNN_DETECTOR_HPP
 #define TEXTSLAM_DETECTORS_DNN_DETECTOR_HPP
 
+#include <memory>
 #include <opencv2/dnn/dnn.hpp>
 #include <string>
 #include <vector>
@@ -26,12 +27,12 @@ struct DnnParameters {
 
 class DnnDetector final : public TextDetector {
  public:
-  /// `model`: any file that cv::dnn::readNet() knows. Throws InputError that names it where it is missing, does not load, does
-  /// not run, or has other outputs.
+  /// `model`: any file that cv::dnn::readNet() knows. Throws InputError with its name if it is missing, does not load
+  /// or run, or has other outputs.
   explicit DnnDetector(const std::string& model, const DnnParameters& parameters = {});
 
-  /// Text kUnreadText, score in [0, 1]. The networks know colours: the frame's file is read again for them, where it is an image
-  /// of this size. Nothing in an invalid view.
+  /// Text kUnreadText, score in [0, 1]. The networks use colour, so an image file of this size is read again in colour.
+  /// Empty for an invalid view.
   std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) override;
 
   bool is_east() const { return outputs_.size() == 2; }
@@ -46,6 +47,9 @@ class DnnDetector final : public TextDetector {
   cv::Size loaded_for_;               // of the input
   std::vector<std::string> outputs_;  // of EAST the score first
 };
+
+/// With `options.model`, or the model that scripts/get-detector makes. Throws as DnnDetector().
+std::unique_ptr<TextDetector> make_dnn_detector(const DetectorOptions& options, const Sequence& sequence);
 
 }  // namespace textslam
 

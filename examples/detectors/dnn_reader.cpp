@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "detectors/line_picture.hpp"
-#include "detectors/plugins.hpp"
 #include "detectors/quiet_opencv.hpp"
 #include "io/input_error.hpp"
 #include "io/text_file.hpp"
@@ -87,13 +86,13 @@ TextReader::Reading DnnReader::read(ImageView8 raw_image, const Quad<double>& qu
   return reading;
 }
 
-std::unique_ptr<TextReader> make_dnn_reader(const std::string& model) {
-  return std::make_unique<DnnReader>(model.empty() ? TEXTSLAM_DEFAULT_READER : model);
+std::unique_ptr<TextReader> make_dnn_reader(const DetectorOptions& options) {
+  return std::make_unique<DnnReader>(options.words_model.empty() ? TEXTSLAM_DEFAULT_READER : options.words_model);
 }
 
-bool has_default_dnn_reader() {
+bool is_dnn_reader_ready(const DetectorOptions& options) {
   std::error_code error;
-  return std::filesystem::is_regular_file(TEXTSLAM_DEFAULT_READER, error);
+  return !options.words_model.empty() || std::filesystem::is_regular_file(TEXTSLAM_DEFAULT_READER, error);
 }
 
 }  // namespace textslam

@@ -1,8 +1,10 @@
-// DnnReader: the words of quads by a recogniser that OpenCV runs, a network with CTC's output (PP-OCR's; scripts/get-detector
-// --reader obtains one): [1, steps, letters], blank first, then the letters of the list beside the model, then the space.
+// DnnReader: the words of quads by a recogniser that OpenCV runs: a network with CTC output, such as PP-OCR's
+// (scripts/get-detector --reader). The output is [1, steps, letters]: the blank, the letters of the list beside the
+// model, the space.
 #ifndef TEXTSLAM_DETECTORS_DNN_READER_HPP
 #define TEXTSLAM_DETECTORS_DNN_READER_HPP
 
+#include <memory>
 #include <opencv2/dnn/dnn.hpp>
 #include <string>
 #include <vector>
@@ -18,15 +20,15 @@ struct DnnReaderParameters {
   double min_confidence = 0.5;  ///< 0 to 1: mean probability of the letters.
 };
 
-/// CTC's best path: of each step the likeliest class; what is said again, and the blank (class 0), go. `probability`: steps x
-/// classes, row by row. `letters` are classes 1 and on, the last class is the space.
+/// CTC's best path: the likeliest class of each step, without repetitions and blanks (class 0). `probability`: steps x
+/// classes, row by row. `letters` are the classes from 1 on; the last class is the space.
 TextReader::Reading decode_ctc(const float* probability, int steps, int classes,
                                const std::vector<std::string>& letters);
 
 class DnnReader final : public TextReader {
  public:
-  /// The list of letters, one a line, is `model` with the ending .txt. Throws InputError that names what is missing, does not
-  /// load, does not run, or does not fit.
+  /// The list of letters, one a line, is `model` with the ending .txt. Throws InputError with the name of a file that
+  /// is missing, does not load or run, or does not fit.
   explicit DnnReader(const std::string& model, const DnnReaderParameters& parameters = {});
 
   Reading read(ImageView8 raw_image, const Quad<double>& quad) override;
@@ -38,6 +40,11 @@ class DnnReader final : public TextReader {
   cv::dnn::Net net_;
   std::vector<std::string> letters_;
 };
+
+/// With `options.words_model`, or the model that scripts/get-detector --reader makes. Throws as DnnReader().
+std::unique_ptr<TextReader> make_dnn_reader(const DetectorOptions& options);
+/// Whether a model is named, or that one is there.
+bool is_dnn_reader_ready(const DetectorOptions& options);
 
 }  // namespace textslam
 

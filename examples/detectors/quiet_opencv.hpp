@@ -1,4 +1,4 @@
-// QuietOpenCv: OpenCV tells of errors on standard error as well as by exceptions; while one of these lives, by exceptions alone.
+// QuietOpenCv: while one exists, OpenCV reports errors by exceptions alone, not on standard error too.
 #ifndef TEXTSLAM_DETECTORS_QUIET_OPENCV_HPP
 #define TEXTSLAM_DETECTORS_QUIET_OPENCV_HPP
 

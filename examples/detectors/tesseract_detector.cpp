@@ -9,7 +9,6 @@
 #include <dlfcn.h>
 
 #include "detectors/line_picture.hpp"
-#include "detectors/plugins.hpp"
 #include "io/input_error.hpp"
 
 namespace textslam {
@@ -24,8 +23,8 @@ struct Word {
   double slope;                  // radians, of its base line
 };
 
-// Tesseract's own threads wait for each other, spinning, on images of this size. OpenMP sets their number for the calling thread;
-// which OpenMP it is, is Tesseract's affair.
+// On images of this size Tesseract's OpenMP threads only spin. The number is set through whichever OpenMP Tesseract
+// loaded.
 void use_one_thread() {
   if (void* set = dlsym(RTLD_DEFAULT, "omp_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
 }
@@ -52,7 +51,7 @@ std::vector<Word> words_of(tesseract::TessBaseAPI& api, double min_confidence) {
   return words;
 }
 
-// The rectangle along the base line whose bounding box is the word's. Beyond 35 degrees it is no longer well told by that box.
+// The rectangle along the base line that has the word's bounding box. Beyond 35 degrees that box hardly determines it.
 Quad<double> along_base_line(const Word& word) {
   const double w = word.right - word.left, h = word.bottom - word.top;
   double c = std::cos(word.slope), s = std::abs(std::sin(word.slope));
@@ -128,7 +127,9 @@ TextReader::Reading Tesseract::read(ImageView8 raw_image, const Quad<double>& qu
   return reading;
 }
 
-std::unique_ptr<TextDetector> make_tesseract_detector() { return std::make_unique<Tesseract>(); }
-std::unique_ptr<TextReader> make_tesseract_reader() { return std::make_unique<Tesseract>(); }
+std::unique_ptr<TextDetector> make_tesseract_detector(const DetectorOptions&, const Sequence&) {
+  return std::make_unique<Tesseract>();
+}
+std::unique_ptr<TextReader> make_tesseract_reader(const DetectorOptions&) { return std::make_unique<Tesseract>(); }
 
 }  // namespace textslam

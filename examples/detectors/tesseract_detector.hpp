@@ -1,7 +1,7 @@
 // Text by Tesseract: quads with words from a whole image, and the words of quads that another detector found.
 //
-// A word counts as read from min_confidence on, and where it has two letters or digits at least: what Tesseract makes of
-// other texture is mostly short and doubtful.
+// A word needs min_confidence and at least two letters or digits: what Tesseract reads in texture is short and
+// uncertain.
 #ifndef TEXTSLAM_DETECTORS_TESSERACT_DETECTOR_HPP
 #define TEXTSLAM_DETECTORS_TESSERACT_DETECTOR_HPP
 
@@ -40,6 +40,10 @@ class Tesseract final : public TextDetector, public TextReader {
   TesseractParameters parameters_;
   std::unique_ptr<tesseract::TessBaseAPI> api_;
 };
+
+/// Throw InputError where Tesseract has no data for the language.
+std::unique_ptr<TextDetector> make_tesseract_detector(const DetectorOptions& options, const Sequence& sequence);
+std::unique_ptr<TextReader> make_tesseract_reader(const DetectorOptions& options);
 
 }  // namespace textslam
 

@@ -1,5 +1,5 @@
-// A video file as a source of frames. The reader is a plug-in (examples/video, -DTEXTSLAM_VIDEO=ON) on libavformat, libavcodec and
-// libswscale; a build without it says how to get it.
+// A video file as a source of frames. Its reader is a plug-in (examples/video, -DTEXTSLAM_VIDEO=ON) that main()
+// registers; a program without one says how to build it.
 #ifndef TEXTSLAM_IO_VIDEO_FILE_HPP
 #define TEXTSLAM_IO_VIDEO_FILE_HPP
 
@@ -19,16 +19,21 @@ class VideoFile {
   virtual ~VideoFile() = default;
   /// Seconds from the first frame, strictly increasing; one a frame, at least one.
   virtual const std::vector<double>& times() const = 0;
-  /// The frame as grey values, upright as the file says it is to be shown. Quick in the order of time, and against it. Throws
-  /// InputError (file, no line) where it does not decode.
+  /// The frame as grey values, upright as the file says it is to be shown. Quick in the order of time, and against it.
+  /// Throws InputError (file, no line) where it does not decode.
   virtual Image<std::uint8_t> load(std::size_t index) = 0;
 };
 
-/// Whether the plug-in was built.
+using VideoOpener = std::unique_ptr<VideoFile> (*)(const std::string& path);
+
+/// From now on open_video() calls `open`. Not beside other threads.
+void register_video(VideoOpener open);
+
+/// Whether a reader is registered.
 bool has_video();
 
-/// Decodes the file once, to know its frames; those that are damaged are left out. Throws InputError for what is no video, and for
-/// any file where the plug-in was not built, saying how to build it.
+/// Decodes the file once to learn its frames, and leaves out damaged ones. Throws InputError for what is no video, and
+/// for any file where no reader is registered: the message says how to build one.
 std::unique_ptr<VideoFile> open_video(const std::string& path);
 
 }  // namespace textslam

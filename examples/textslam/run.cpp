@@ -25,7 +25,7 @@ namespace {
 
 using RawImage = DetectionThread::RawImage;
 
-// Loads, detects and undistorts; frame indices count from the run's first frame. detect() may be called by another thread.
+// Loads, detects and undistorts. Frame indices count from the run's first frame. Another thread may call detect().
 class FrameSource {
  public:
   FrameSource(const Sequence& sequence, const RunOptions& options)
@@ -36,6 +36,7 @@ class FrameSource {
         detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)),
         reader_(options.parameters.mode == Mode::points ? nullptr : make_reader(options.detector)) {}
 
+  double timestamp(int index) const { return sequence_.frames[at(index)].timestamp; }
   RawImage load(int index) const {
     return std::make_shared<const Image<std::uint8_t>>(load_frame(sequence_, at(index)));
   }
@@ -45,7 +46,7 @@ class FrameSource {
   Frame frame(int index, const Image<std::uint8_t>& raw) const {
     Frame frame;
     frame.index = index;
-    frame.timestamp = sequence_.frames[at(index)].timestamp;
+    frame.timestamp = timestamp(index);
     frame.image = pyramid(raw);
     return frame;
   }
@@ -71,8 +72,8 @@ class FrameSource {
   std::unique_ptr<TextReader> reader_;
 };
 
-// Real time: frames come when their time stamps say, counted from the first. One that is late is worked on at once; none is
-// left out.
+// Real time: frames come at their time stamps, counted from the first. A late one is processed at once; none is
+// skipped.
 class Clock {
  public:
   explicit Clock(bool real_time) : real_time_(real_time) {}
@@ -99,7 +100,8 @@ class Clock {
   std::vector<double> latency_ms_;
 };
 
-// Detection in step with the frames, or, in real time, beside them: files are read in no time, and stay in step.
+// Detection before each frame, or, in real time, on a thread beside tracking. Reading files takes no time and stays in
+// step.
 class Detections {
  public:
   Detections(FrameSource& source, const RunOptions& options) : source_(source) {
@@ -149,7 +151,7 @@ class Detections {
   std::unique_ptr<DetectionThread> thread_;
 };
 
-// Broken input ends a step but not the run: what was computed is written. The first message is the one reported.
+// Broken input ends a step but not the run: what was computed is written. The first message is reported.
 template <class Step>
 void keep_going(RunResult& result, Step step) {
   try {
@@ -159,47 +161,57 @@ void keep_going(RunResult& result, Step step) {
   }
 }
 
-}  // namespace
-
-RunResult run(const RunOptions& options) {
-  const Sequence sequence = read_sequence(options.sequence, options.input);
+// How many frames the options ask for.
+int count_frames(const Sequence& sequence, const RunOptions& options) {
   const int count = static_cast<int>(sequence.frames.size());
   const int last = options.last < 0 ? count - 1 : options.last;
   if (options.first < 0 || options.first > last || last >= count)
     throw InputError(sequence.images_file, 0,
                      "frames " + std::to_string(options.first) + " to " + std::to_string(last) +
                          " asked for, but it has 0 to " + std::to_string(count - 1));
+  return last - options.first + 1;
+}
+
+// Takes the frames one by one, until the last or a signal.
+void track_frames(const RunOptions& options, int total, FrameSource& source, Clock& clock, Detections& detections,
+                  System& system, RunResult& result) {
+  Progress progress("tracking");
+  for (int index = 0; index < total && !result.interrupted; ++index) {
+    clock.wait_for(source.timestamp(index));
+    const RawImage raw = source.load(index);
+    Frame frame = source.frame(index, *raw);
+    const double detect_ms = detections.before(frame, *raw, system);
+    const FrameRecord& record = system.process(frame, detect_ms);
+    clock.done();
+    detections.after(index, raw, system.map());
+    progress.show(static_cast<std::size_t>(index + 1), static_cast<std::size_t>(total),
+                  std::string(to_string(record.state)) + ", " + std::to_string(record.points) + " points, " +
+                      std::to_string(record.texts) + " texts");
+    if (options.json_lines) print_line(frame_line(index, record, system.map()));
+    if (interrupted() == 0 || index + 1 == total) continue;
+    result.interrupted = true;
+    result.error = "interrupted after frame " + std::to_string(index) + "; what was computed is in " + options.output;
+  }
+}
+
+}  // namespace
+
+RunResult run(const RunOptions& options) {
+  const Sequence sequence = read_sequence(options.sequence, options.input);
+  const int total = count_frames(sequence, options);
   FrameSource source(sequence, options);
   create_output_folder(options.output);
 
   RunResult result;
-  const int total = last - options.first + 1;
   System system(sequence.camera.pinhole(), sequence.camera.width, sequence.camera.height, options.parameters);
   Clock clock(options.parameters.real_time);
   Detections detections(source, options);
-  keep_going(result, [&] {
-    Progress progress("tracking");
-    for (int index = 0; index < total && !result.interrupted; ++index) {
-      clock.wait_for(sequence.frames[static_cast<std::size_t>(options.first + index)].timestamp);
-      const RawImage raw = source.load(index);
-      Frame frame = source.frame(index, *raw);
-      const double detect_ms = detections.before(frame, *raw, system);
-      const FrameRecord& record = system.process(frame, detect_ms);
-      clock.done();
-      detections.after(index, raw, system.map());
-      progress.show(static_cast<std::size_t>(index + 1), static_cast<std::size_t>(total),
-                    std::string(to_string(record.state)) + ", " + std::to_string(record.points) + " points, " +
-                        std::to_string(record.texts) + " texts");
-      if (options.json_lines) print_line(frame_line(index, record, system.map()));
-      if (interrupted() == 0 || index + 1 == total) continue;
-      result.interrupted = true;
-      result.error = "interrupted after frame " + std::to_string(index) + "; what was computed is in " + options.output;
-    }
-  });
+  keep_going(result, [&] { track_frames(options, total, source, clock, detections, system, result); });
   detections.end();
   system.finish();
   source.read_texts(system);
   keep_going(result, [&] { system.fill_in([&](int index) { return source.frame(index, *source.load(index)); }); });
+
   RunSummary& summary = result.summary;
   summary = summarise(system, sequence, static_cast<std::size_t>(total));
   summary.latency_ms = clock.latency_ms();

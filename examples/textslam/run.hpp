@@ -14,9 +14,9 @@ namespace textslam {
 
 struct RunOptions {
   std::string sequence, output;
-  SequenceOptions input;  ///< What the sequence does not say itself.
+  SequenceOptions input;  ///< What the sequence itself does not say.
   DetectorOptions detector;
-  std::shared_ptr<TextDetector> own_detector;  ///< In place of `detector`, where there is one.
+  std::shared_ptr<TextDetector> own_detector;  ///< If set, in place of `detector`.
   int first = 0;                               ///< Index of the first frame.
   int last = -1;                               ///< Index of the last frame; -1: the sequence's last.
   Parameters parameters;
@@ -28,11 +28,11 @@ struct RunOptions {
 struct RunResult {
   RunSummary summary;
   std::string report;        ///< Path of the report; empty where there is none.
-  std::string error;         ///< Empty, or one line about what ended the run early; what came before is written.
+  std::string error;         ///< Empty, or one line: what ended the run early. What came before is written.
   bool interrupted = false;  ///< By a signal: see io/interrupt.hpp.
 };
 
-/// Throws InputError where nothing could be computed at all, std::runtime_error where the output cannot be written.
+/// Throws InputError if nothing could be computed, std::runtime_error if the output cannot be written.
 RunResult run(const RunOptions& options);
 
 }  // namespace textslam

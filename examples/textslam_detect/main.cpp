@@ -1,5 +1,5 @@
-// textslam-detect: runs a text detector alone, writes what it finds in the format that `--detector files` reads, and counts
-// how much of it is right.
+// textslam-detect: runs a text detector alone, writes its quads in the format of `--detector files`, and compares them
+// with the truth.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -9,6 +9,7 @@
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
+#include "plugins/plugins.hpp"
 #include "textslam/detect/detector_options.hpp"
 #include "textslam/report/progress.hpp"
 
@@ -76,6 +77,7 @@ int execute(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  textslam::register_plugins();
   try {
     return execute(argc, argv);
   } catch (const textslam::InputError& error) {

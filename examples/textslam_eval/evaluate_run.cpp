@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The stems of the frames in the list of any layout: what names their files in truth/quads. The images themselves may be gone.
+// The stems of the frames, which name their files in truth/quads, from the list of any layout. The images may be gone.
 std::vector<std::string> frame_stems(const std::string& truth) {
   EurocFiles euroc;
   std::vector<FrameRef> frames;

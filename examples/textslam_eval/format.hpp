@@ -1,7 +1,7 @@
-// Evaluations as text for a terminal, as Markdown tables, and as CSV. All three hold the same numbers under the same names.
+// Evaluations as text for a terminal, as Markdown tables and as CSV, with the same numbers under the same names.
 //
-// Lengths are in the unit of the truth (m), angles in degrees, shares between 0 and 1. What is not known is empty in CSV and
-// `-` elsewhere; where the trajectory could not be aligned, `status` says why and the errors are not known.
+// Lengths are in the unit of the truth (m), angles in degrees, shares from 0 to 1. Unknown values are empty in CSV and
+// `-` elsewhere. If the trajectory could not be aligned, `status` says why and the errors are unknown.
 #ifndef TEXTSLAM_EVAL_FORMAT_HPP
 #define TEXTSLAM_EVAL_FORMAT_HPP
 

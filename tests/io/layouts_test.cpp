@@ -1,60 +1,13 @@
-// What a sequence can be besides a folder with a list: EuRoC's layout, a folder of images, a video; cameras from an angle;
-// ICDAR's names of detections. And what is wrong with each, in one line.
+// What a sequence can be besides a folder with a list: a folder of images, a video; cameras from an angle; ICDAR's
+// names of detections. And what is wrong with each, in one line. EuRoC's layout: euroc_test.cpp.
 #include <cmath>
 
 #include "io/detections.hpp"
-#include "io/euroc.hpp"
-#include "io/image_file.hpp"
-#include "io/io_support.hpp"
-#include "io/sequence.hpp"
+#include "io/layouts_support.hpp"
+#include "plugins/plugins.hpp"
 
 namespace textslam {
 namespace io_layouts_test {
-
-const char* const kSensor =
-    "# General sensor definitions.\n"
-    "sensor_type: camera\n"
-    "comment: VI-Sensor cam0\n"
-    "T_BS:\n"
-    "  cols: 4\n"
-    "  rows: 4\n"
-    "  data: [0.0, -1.0, 0.0, 0.5,\n"
-    "         1.0, 0.0, 0.0, -0.25,\n"
-    "         0.0, 0.0, 1.0, 0.125,\n"
-    "         0.0, 0.0, 0.0, 1.0]\n"
-    "rate_hz: 20\n"
-    "resolution: [8, 6]\n"
-    "camera_model: pinhole\n"
-    "intrinsics: [458.654, 457.296, 367.215, 248.375] #fu, fv, cu, cv\n"
-    "distortion_model: radial-tangential\n"
-    "distortion_coefficients: [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05]\n";
-
-class LayoutTest : public testing::Test {
- protected:
-  std::string image(const std::string& name, std::uint8_t value = 100, int width = 8, int height = 6) {
-    return folder.write(name, encode_png(Image<std::uint8_t>(width, height, value).view()));
-  }
-  void make_euroc() {
-    folder.write("mav0/cam0/sensor.yaml", kSensor);
-    folder.write("mav0/cam0/data.csv",
-                 "#timestamp [ns],filename\r\n1403636579763555584,1403636579763555584.png\r\n"
-                 "1403636579813555456,1403636579813555456.png\r\n");
-    image("mav0/cam0/data/1403636579763555584.png", 1);
-    image("mav0/cam0/data/1403636579813555456.png", 2);
-  }
-  // An error in reading the folder, at this file and line.
-  void expect_bad(const std::string& file, int line, const std::string& part, const SequenceOptions& options = {}) {
-    expect_input_error([&] { read_sequence(folder.path(), options); }, file.empty() ? folder.path() : folder.path(file),
-                       line, part);
-  }
-  static SequenceOptions fov(double degrees) {
-    SequenceOptions options;
-    options.fov = degrees;
-    return options;
-  }
-
-  TemporaryFolder folder;
-};
 
 TEST(NaturalOrder, IsThatOfPersons) {
   // 01.png and 1.png have the same value: the bytes decide.
@@ -101,7 +54,8 @@ TEST_F(LayoutTest, FolderOfImagesInNaturalOrder) {
   EXPECT_EQ(read_sequence(folder.path(), options).frames[3].timestamp, 3 / 12.5);
 }
 
-// By hand: half the image's width, 4 px, is seen under half the angle; the outermost edges lie half a pixel outside the centres.
+// By hand: half the image's width, 4 px, is seen under half the angle; the outermost edges lie half a pixel outside the
+// centres.
 TEST_F(LayoutTest, CameraFromAnAngle) {
   image("a.png");
   const Sequence sequence = read_sequence(folder.path(), fov(90));
@@ -176,109 +130,6 @@ TEST_F(LayoutTest, ListWithoutCalibration) {
   expect_bad("rgb.txt", 0, "its frames have times: leave out --fps", options);
 }
 
-TEST_F(LayoutTest, Euroc) {
-  make_euroc();
-  folder.write("mav0/state_groundtruth_estimate0/data.csv",
-               "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v\r\n"
-               "1403636579763555584,4.5,-1.5,0.75,0,1,0,0,9\r\n");
-  for (const char* name : {"", "mav0"}) {
-    const Sequence sequence = read_sequence(folder.path(name));
-    ASSERT_EQ(sequence.frames.size(), 2u);
-    EXPECT_EQ(sequence.frames[0].timestamp, 1403636579.763555584);
-    EXPECT_EQ(sequence.frames[1].line, 3);
-    EXPECT_EQ(sequence.frames[1].stem, "1403636579813555456");
-    EXPECT_EQ(load_frame(sequence, 1)(0, 0), 2);
-    EXPECT_EQ(sequence.camera.width, 8);
-    EXPECT_EQ(sequence.camera.height, 6);
-    EXPECT_EQ(sequence.camera.fps, 20);
-    EXPECT_EQ(sequence.camera.pinhole().fx, 458.654);
-    EXPECT_EQ(sequence.camera.pinhole().fy, 457.296);
-    EXPECT_EQ(sequence.camera.pinhole().cx, 367.215);
-    EXPECT_EQ(sequence.camera.pinhole().cy, 248.375);
-    EXPECT_EQ(lens_of(sequence.camera).k1, -0.28340811);
-    EXPECT_EQ(lens_of(sequence.camera).k2, 0.07395907);
-    EXPECT_EQ(lens_of(sequence.camera).p1, 0.00019359);
-    EXPECT_EQ(lens_of(sequence.camera).p2, 1.76187114e-05);
-    EXPECT_EQ(lens_of(sequence.camera).k3, 0);
-    // The body is turned by half a turn about x: (x, y, z) -> (x, -y, -z), and the camera sits at (0.5, -0.25, 0.125) in it.
-    ASSERT_EQ(sequence.groundtruth.size(), 1u);
-    EXPECT_EQ(sequence.groundtruth[0].timestamp, sequence.frames[0].timestamp);
-    const SE3d& T_w_c = sequence.groundtruth[0].T_w_c;
-    EXPECT_LT((T_w_c.t - Vector3<double>(5, -1.25, 0.625)).norm(), 1e-12) << T_w_c.t;
-    // The camera's x axis is the body's y: the world's -y.
-    EXPECT_LT((T_w_c.R.col(0) - Vector3<double>(0, -1, 0)).norm(), 1e-12) << T_w_c.R;
-  }
-}
-
-TEST_F(LayoutTest, EurocListThatIsWrong) {
-  make_euroc();
-  const std::string list = "mav0/cam0/data.csv";
-  const auto expect_list = [&](const std::string& text, int line, const std::string& part) {
-    folder.write(list, text);
-    expect_bad(list, line, part);
-  };
-  expect_list("#t\n1000,a.png\n1.5e3,b.png\n", 3, "a whole number of nanoseconds, not '1.5e3'");
-  expect_list("#t\n1000,a.png\n1000,b.png\n", 3, "times must increase: '1000'");
-  expect_list("99999999999999999999,a.png\n", 1, "a whole number of nanoseconds");
-  expect_list("1000\n", 1, "expected 'timestamp,file name'");
-  expect_list("1000,\n", 1, "expected 'timestamp,file name'");
-  expect_list("1000,a.png,b.png\n", 1, "expected 'timestamp,file name'");
-  expect_list("#t\n", 0, "names no image");
-  folder.write(list, "1000,a.png\n2000,1403636579813555456.png\n");
-  const Sequence sequence = read_sequence(folder.path());
-  expect_input_error([&] { load_frame(sequence, 0); }, folder.path(list), 1, "No such file");
-  EXPECT_NO_THROW(load_frame(sequence, 1));
-  image("mav0/cam0/data/a.png", 1, 9, 6);
-  expect_input_error([&] { load_frame(sequence, 0); }, folder.path(list), 1, "is 9 x 6 px, sensor.yaml says 8 x 6");
-  std::filesystem::remove(folder.path(list));
-  expect_bad(list, 0, "No such file");
-}
-
-TEST_F(LayoutTest, EurocCameraThatIsWrong) {
-  const auto expect_sensor = [&](const std::string& text, int line, const std::string& part) {
-    const std::string path = folder.write("sensor.yaml", text);
-    expect_input_error([&] { read_euroc_camera(path); }, path, line, part);
-  };
-  expect_sensor("", 0, "expected 'key: value' lines");
-  expect_sensor("a: [1, 2\nb: 3\n", 2, "this is no YAML");
-  expect_sensor("a: \"\\\x01\"\n", 1, "this is no YAML: 'unknown escape character: ?'");
-  expect_sensor(replaced(kSensor, "resolution: [8, 6]\n", ""), 0, "the key resolution is missing");
-  expect_sensor(replaced(kSensor, "[8, 6]", "[8, 6.5]"), 12, "whole numbers of at most 16384");
-  expect_sensor(replaced(kSensor, "[8, 6]", "8"), 12, "resolution should be 2 numbers in brackets");
-  expect_sensor(replaced(kSensor, "458.654", "-458.654"), 14, "intrinsics should be positive");
-  expect_sensor(replaced(kSensor, "458.654", "nan"), 14, "intrinsics should be a finite number, not 'nan'");
-  expect_sensor(replaced(kSensor, "458.654", "[1]"), 14, "intrinsics should be a number");
-  expect_sensor(replaced(kSensor, ", 248.375", ""), 14, "intrinsics should be 4 numbers");
-  expect_sensor(replaced(kSensor, "pinhole", "omni"), 13, "camera_model should be pinhole, not 'omni'");
-  expect_sensor(replaced(kSensor, "radial-tangential", "equidistant"), 15,
-                "should be radial-tangential or none, not 'equidistant'");
-  expect_sensor(replaced(kSensor, "-0.28340811, ", ""), 16, "distortion_coefficients should be 4 to 5 numbers");
-  expect_sensor(replaced(kSensor, "rate_hz: 20", "rate_hz: 0"), 11, "rate_hz should be positive");
-  expect_sensor(replaced(kSensor, "0.0, 0.0, 1.0, 0.125", "0.0, 0.0, 2.0, 0.125"), 7, "a rotation and a translation");
-  expect_sensor(replaced(kSensor, "0.0, 0.0, 1.0, 0.125", "0.0, 0.0, -1.0, 0.125"), 7, "a rotation and a translation");
-  expect_sensor(replaced(kSensor, "data: [", "date: ["), 5, "T_BS should have rows, cols and data");
-  const std::string none =
-      replaced(replaced(kSensor, "radial-tangential", "none"), "distortion_coefficients", "unused");
-  EXPECT_TRUE(read_euroc_camera(folder.write("sensor.yaml", none)).model.is_pinhole());
-}
-
-TEST_F(LayoutTest, EurocTruthThatIsWrong) {
-  make_euroc();
-  const std::string truth = "mav0/state_groundtruth_estimate0/data.csv";
-  folder.write(truth, "#t\n1000,0,0,0,1,0,0\n");
-  expect_bad(truth, 2, "a pose has 8 columns");
-  folder.write(truth, "1000,0,0,0,1,0,0,0\n1000,0,0,0,1,0,0,0\n");
-  expect_bad(truth, 2, "times must increase");
-  folder.write(truth, "1000,0,0,0,1,1,0,0\n");
-  expect_bad(truth, 1, "unit length");
-  folder.write(truth, "1000,0,zero,0,1,0,0,0\n");
-  expect_bad(truth, 1, "y should be a finite number, not 'zero'");
-  // Without a sensor.yaml the camera has no place in the body.
-  std::filesystem::remove(folder.path("mav0/cam0/sensor.yaml"));
-  EXPECT_TRUE(read_sequence(folder.path(), fov(60)).groundtruth.empty());
-  expect_bad("mav0/cam0/sensor.yaml", 0, "No such file: give --camera FILE");
-}
-
 TEST_F(LayoutTest, DetectionsByTheNamesOfIcdar) {
   const std::string box = "1,1,5,1,5,3,1,3,";
   image("img_1.png");
@@ -326,6 +177,7 @@ TEST_F(LayoutTest, Video) {
   std::string bytes = "YUV4MPEG2 W8 H6 F25:1 Ip A1:1 Cmono\n";
   for (int i = 0; i < 5; ++i) bytes += "FRAME\n" + std::string(48, static_cast<char>(40 + 10 * i));
   const std::string video = folder.write("a film.y4m", bytes);
+  register_plugins();
   if (!has_video()) {
     expect_input_error([&] { read_sequence(video, fov(60)); }, video, 0, "configure with -DTEXTSLAM_VIDEO=ON");
     return;

@@ -10,8 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Truth: four poses at distance 1 from the origin, on the axes of x and y, none turned. The run stretches the two on the axis
-// of x to 1.1, shrinks those on the axis of y to 0.9, and turns the last one by 9 degrees about its own place.
+// Truth: four poses at distance 1 from the origin, on the axes of x and y, none turned. The run stretches the two on
+// the axis of x to 1.1, shrinks those on the axis of y to 0.9, and turns the last one by 9 degrees about its own place.
 constexpr const char* kTruth = "0 1 0 0 0 0 0 1\n1 0 1 0 0 0 0 1\n2 -1 0 0 0 0 0 1\n3 0 -1 0 0 0 0 1\n";
 std::string estimate() {
   const double half = 4.5 / 57.295779513082320877;
@@ -36,8 +36,9 @@ class TextslamEval : public testing::Test {
     folder_.write("run/trajectory.txt", estimate());
     folder_.write("truth/groundtruth.txt", kTruth);
   }
-  // Ten frames show five signs, one less shows a sixth, which therefore does not count. Four of the five are mapped, 0.01 to
-  // 0.04 beside their place and turned by 0.9 to 3.9 degrees, one with a wrong word; one text is where no sign is.
+  // Ten frames show five signs, one less shows a sixth, which therefore does not count. Four of the five are mapped,
+  // 0.01 to 0.04 beside their place and turned by 0.9 to 3.9 degrees, one with a wrong word; one text is where no sign
+  // is.
   void add_signs() {
     std::string signs, texts, images;
     for (int i = 0; i < 6; ++i) signs += (i > 0 ? ",\n" : "") + sign(i, "SIGN" + std::to_string(i), 10 * i, 0, 0);
@@ -92,7 +93,8 @@ class TextslamEval : public testing::Test {
 };
 
 TEST_F(TextslamEval, TrajectoryByHandWithoutScale) {
-  // By symmetry nothing moves, each pose is off by 0.1, and each step, between neighbours at a right angle, by 0.1 both ways.
+  // By symmetry nothing moves, each pose is off by 0.1, and each step, between neighbours at a right angle, by 0.1 both
+  // ways.
   expect_numbers(csv({"--scale", "se3"}),
                  {{"poses", 4},
                   {"pairs", 4},

@@ -1,4 +1,5 @@
-// The camera walks round a room and comes back: the program closes the loop, says what it found, and leaves it open when told.
+// The camera walks round a room and comes back: the program closes the loop, says what it found, and leaves it open
+// when told.
 #include <nlohmann/json.hpp>
 
 #include "programs/textslam_support.hpp"

@@ -1,5 +1,5 @@
-// Sequences in which the camera is taken elsewhere in the dark: the program comes back into its map, joins maps of one room,
-// and says so where parts of a sequence have nothing to do with each other.
+// Sequences in which the camera is taken elsewhere in the dark: the program comes back into its map, joins maps of one
+// room, and says so where parts of a sequence have nothing to do with each other.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -110,8 +110,8 @@ TEST_F(TextslamRecovery, ComesBackIntoItsMap) {
   EXPECT_LE(with_gap, 2 * ate());
 }
 
-// Without text and from so different a view the first map is not recognised, and a second one begins; on its way back the
-// camera meets the first.
+// Without text and from so different a view the first map is not recognised, and a second one begins; on its way back
+// the camera meets the first.
 TEST_F(TextslamRecovery, MapsOfOneRoomBecomeOne) {
   append(1, 0, 44);
   append_dark(32);

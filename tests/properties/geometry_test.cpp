@@ -321,8 +321,8 @@ RC_GTEST_PROP(Zncc, IsBoundedSymmetricAndBlindToGainAndBias, ()) {
 }  // namespace
 }  // namespace textplane_test
 
-// The same states from run to run, unless RC_PARAMS asks for others: RC_PARAMS='seed=7 max_success=100000 noshrink=1' draws
-// more. Nothing is shrunk: a pose of smaller numbers is no simpler, and to try them all takes long.
+// The same states from run to run, unless RC_PARAMS asks for others: RC_PARAMS='seed=7 max_success=100000 noshrink=1'
+// draws more. Nothing is shrunk: a pose of smaller numbers is no simpler, and to try them all takes long.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   setenv("RC_PARAMS", "seed=20 max_success=100 noshrink=1", 0);

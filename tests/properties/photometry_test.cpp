@@ -1,5 +1,5 @@
-// Laws of the photometric cost and its normal equations, at drawn cameras, planes, poses, textures and numbers of pixels, on
-// a drawn target of the machine.
+// Laws of the photometric cost and its normal equations, at drawn cameras, planes, poses, textures and numbers of
+// pixels, on a drawn target of the machine.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -204,8 +204,8 @@ RC_GTEST_PROP(Photometry, APatchIsTheSumOfItsParts, ()) {
   RC_ASSERT(std::abs(all.s * all.s - squares) <= 1e-4 * squares + 1e-2);
 }
 
-// (t, theta) -> (s t, theta / s): the same rays. The kernels see the same homography, so powers of two change no bit of the
-// cost; gradients scale as their parameters do.
+// (t, theta) -> (s t, theta / s): the same rays. The kernels see the same homography, so powers of two change no bit of
+// the cost; gradients scale as their parameters do.
 RC_GTEST_PROP(Photometry, TheUnitOfLengthIsNotSeen, ()) {
   Drawn s;
   const TargetScope scope(any_target());
@@ -226,8 +226,8 @@ RC_GTEST_PROP(Photometry, TheUnitOfLengthIsNotSeen, ()) {
   RC_ASSERT(close<9>(after, before, scale));
 }
 
-// b = J^T W r with d cost = 2 b . dp, for every parameter of both poses and the plane; by the double reference, whose cost can
-// be differentiated numerically. That the kernels have the reference's sums is another test.
+// b = J^T W r with d cost = 2 b . dp, for every parameter of both poses and the plane; by the double reference, whose
+// cost can be differentiated numerically. That the kernels have the reference's sums is another test.
 RC_GTEST_PROP(Photometry, BIsHalfTheGradientOfTheCost, ()) {
   Drawn s;
   s.options.normalisation = tp::Normalisation::exact;

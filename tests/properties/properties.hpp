@@ -1,5 +1,5 @@
-// What the property tests draw their states from: RapidCheck's random source, so that a failure prints the RC_PARAMS with which
-// the same states are drawn again.
+// What the property tests draw their states from: RapidCheck's random source, so that a failure prints the RC_PARAMS
+// with which the same states are drawn again.
 #ifndef TEXTPLANE_TESTS_PROPERTIES_PROPERTIES_HPP
 #define TEXTPLANE_TESTS_PROPERTIES_PROPERTIES_HPP
 
@@ -14,10 +14,12 @@
 namespace textplane_test {
 namespace tp = textplane;
 
-/// An integer in [low, high]. RapidCheck's own ranges grow with the number of cases; here all of it comes from the first on.
+/// An integer in [low, high]. RapidCheck's own ranges grow with the number of cases; here all of it comes from the
+/// first on.
 inline int integer(int low, int high) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1)); }
 
-/// Within [low, high]; now and then a bound, or zero where that is inside, since that is where formulas change branches.
+/// Within [low, high]; now and then a bound, or zero where that is inside, since that is where formulas change
+/// branches.
 inline double number(double low, double high) {
   switch (integer(0, 23)) {
     case 0: return low;

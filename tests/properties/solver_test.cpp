@@ -1,5 +1,5 @@
-// Laws of the solvers at drawn problems: accepted steps lower the cost, what is best seen is returned, the unit of length and the
-// order of terms do not matter, and the reduced system is the full one.
+// Laws of the solvers at drawn problems: accepted steps lower the cost, what is best seen is returned, the unit of
+// length and the order of terms do not matter, and the reduced system is the full one.
 #include <cmath>
 #include <memory>
 #include <vector>

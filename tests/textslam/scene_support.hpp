@@ -20,7 +20,8 @@ inline double uniform(std::mt19937& random, double low, double high) {
 
 inline Pinhole<double> camera() { return {kFocal, kFocal, 319.5, 239.5}; }
 
-// World points in view of a camera at the origin that looks along z: in a volume 2 to 6 units away, or on a slanted plane.
+// World points in view of a camera at the origin that looks along z: in a volume 2 to 6 units away, or on a slanted
+// plane.
 inline std::vector<Vec3> scene(int n, bool planar, std::mt19937& random) {
   std::vector<Vec3> points;
   for (int i = 0; i < n; ++i) {

@@ -1,5 +1,5 @@
-// Kernels and solvers from many threads, each with a workspace of its own, on one image, one patch and one prepared object: the
-// same bits as from one thread. Built with ThreadSanitizer by the preset `tsan`.
+// Kernels and solvers from many threads, each with a workspace of its own, on one image, one patch and one prepared
+// object: the same bits as from one thread. Built with ThreadSanitizer by the preset `tsan`.
 #include <gtest/gtest.h>
 
 #include <atomic>

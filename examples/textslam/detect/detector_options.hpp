@@ -8,7 +8,10 @@
 
 namespace textslam {
 
+/// The plug-ins are registered.
 inline void add_detector_options(CLI::App& app, DetectorOptions& options) {
+  std::vector<std::string> words = {"auto", "none"};
+  for (const std::string& name : reader_names()) words.push_back(name);
   app.add_option("--detector", options.name,
                  "files: the sequence's detections; classical: built in; dnn, tesseract: plug-ins")
       ->check(CLI::IsMember(detector_names()))
@@ -19,7 +22,7 @@ inline void add_detector_options(CLI::App& app, DetectorOptions& options) {
   app.add_option("--words", options.words,
                  "Who reads what a detector left unread, and the texts of the map; auto: after dnn the recogniser dnn, "
                  "where its model is, else tesseract; after tesseract that")
-      ->check(CLI::IsMember({"auto", "none", "dnn", "tesseract"}))
+      ->check(CLI::IsMember(words))
       ->capture_default_str();
   app.add_option("--words-model", options.words_model,
                  "Network of --words dnn, a recogniser with its list of letters beside it (.txt); by default "

@@ -1,8 +1,8 @@
 #include "textslam/detect/text_detector.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
-#include "detectors/plugins.hpp"
 #include "io/input_error.hpp"
 #include "textslam/detect/classical_detector.hpp"
 
@@ -42,56 +42,92 @@ class ReadingDetector final : public TextDetector {
   std::unique_ptr<TextReader> reader_;
 };
 
-[[noreturn]] void refuse(const std::string& option, const std::string& switch_name, const std::string& package) {
-  throw InputError(option, 0,
-                   "this build lacks the plug-in; configure with -D" + switch_name + "=ON (Debian: " + package + ")");
+std::vector<DetectorPlugin>& detectors() {
+  static std::vector<DetectorPlugin> plugins = {
+      {"files",
+       [](const DetectorOptions&, const Sequence& sequence) { return std::make_unique<FileDetector>(sequence); },
+       {}},
+      {"classical", [](const DetectorOptions&, const Sequence&) { return std::make_unique<ClassicalDetector>(); }, {}}};
+  return plugins;
 }
 
-std::unique_ptr<TextDetector> make_found(const DetectorOptions& options, const Sequence& sequence) {
-  if (options.name == "files") return std::make_unique<FileDetector>(sequence);
-  if (options.name == "classical") return std::make_unique<ClassicalDetector>();
-  if (options.name == "dnn") {
-    if (!kHasDnn) refuse("--detector dnn", "TEXTSLAM_DNN", "libopencv-dev");
-    return make_dnn_detector(options.model);
-  }
-  if (options.name == "tesseract") {
-    if (!kHasTesseract) refuse("--detector tesseract", "TEXTSLAM_TESSERACT", "libtesseract-dev tesseract-ocr-eng");
-    return make_tesseract_detector();
-  }
+std::vector<ReaderPlugin>& readers() {
+  static std::vector<ReaderPlugin> plugins;
+  return plugins;
+}
+
+template <class Plugin>
+std::vector<std::string> names(const std::vector<Plugin>& plugins) {
+  std::vector<std::string> out;
+  for (const Plugin& plugin : plugins) out.push_back(plugin.name);
+  return out;
+}
+
+template <class Plugin>
+Plugin* find(std::vector<Plugin>& plugins, const std::string& name) {
+  const auto found = std::find_if(plugins.begin(), plugins.end(), [&](const Plugin& p) { return p.name == name; });
+  return found == plugins.end() ? nullptr : &*found;
+}
+
+template <class Plugin>
+Plugin& find(std::vector<Plugin>& plugins, const std::string& name, const char* kind) {
+  if (Plugin* const found = find(plugins, name)) return *found;
   std::string known;
-  for (const std::string& name : detector_names()) known += (known.empty() ? "" : ", ") + name;
-  throw std::invalid_argument("unknown detector '" + options.name + "'; known: " + known);
+  for (const std::string& other : names(plugins)) known += (known.empty() ? "" : ", ") + other;
+  throw std::invalid_argument("unknown " + std::string(kind) + " '" + name + "'; known: " + known);
+}
+
+template <class Plugin>
+void add(std::vector<Plugin>& plugins, Plugin plugin) {
+  if (Plugin* const same = find(plugins, plugin.name)) {
+    *same = std::move(plugin);
+  } else {
+    plugins.push_back(std::move(plugin));
+  }
+}
+
+// The reader of --words auto; "none" where nobody reads.
+std::string chosen_reader(const DetectorOptions& options) {
+  for (const std::string& name : find(detectors(), options.name, "detector").readers) {
+    const ReaderPlugin* const reader = find(readers(), name);
+    if (reader != nullptr && (!reader->ready || reader->ready(options))) return name;
+  }
+  return "none";
 }
 
 }  // namespace
 
-const std::vector<std::string>& detector_names() {
-  static const std::vector<std::string> names = {"files", "classical", "dnn", "tesseract"};
-  return names;
+void register_detector(DetectorPlugin plugin) { add(detectors(), std::move(plugin)); }
+void register_reader(ReaderPlugin plugin) { add(readers(), std::move(plugin)); }
+
+void register_missing(const std::string& name, const std::string& option, const std::string& packages) {
+  const std::string how = "this build lacks the plug-in; configure with -D" + option + "=ON (Debian: " + packages + ")";
+  register_detector({name,
+                     [=](const DetectorOptions&, const Sequence&) -> std::unique_ptr<TextDetector> {
+                       throw InputError("--detector " + name, 0, how);
+                     },
+                     {}});
+  register_reader(
+      {name,
+       [=](const DetectorOptions&) -> std::unique_ptr<TextReader> { throw InputError("--words " + name, 0, how); },
+       [](const DetectorOptions&) { return false; }});
 }
 
+std::vector<std::string> detector_names() { return names(detectors()); }
+std::vector<std::string> reader_names() { return names(readers()); }
+
 std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, const Sequence& sequence) {
-  std::unique_ptr<TextDetector> detector = make_found(options, sequence);
-  if (options.name == "tesseract" && options.words == "auto") return detector;  // it reads itself
+  const DetectorPlugin& plugin = find(detectors(), options.name, "detector");
+  std::unique_ptr<TextDetector> detector = plugin.make(options, sequence);
+  if (plugin.reads && options.words == "auto") return detector;
   std::unique_ptr<TextReader> reader = make_reader(options);
   if (!reader) return detector;
   return std::make_unique<ReadingDetector>(std::move(detector), std::move(reader));
 }
 
 std::unique_ptr<TextReader> make_reader(const DetectorOptions& options) {
-  std::string reader = options.words;
-  if (reader == "auto") {
-    const bool by_network = options.name == "dnn" && (has_default_dnn_reader() || !options.words_model.empty());
-    const bool by_tesseract = (options.name == "dnn" || options.name == "tesseract") && kHasTesseract;
-    reader = by_network ? "dnn" : by_tesseract ? "tesseract" : "none";
-  }
-  if (reader == "none") return nullptr;
-  if (reader == "dnn") {
-    if (!kHasDnn) refuse("--words dnn", "TEXTSLAM_DNN", "libopencv-dev");
-    return make_dnn_reader(options.words_model);
-  }
-  if (!kHasTesseract) refuse("--words tesseract", "TEXTSLAM_TESSERACT", "libtesseract-dev tesseract-ocr-eng");
-  return make_tesseract_reader();
+  const std::string name = options.words == "auto" ? chosen_reader(options) : options.words;
+  return name == "none" ? nullptr : find(readers(), name, "reader").make(options);
 }
 
 }  // namespace textslam

@@ -3,6 +3,7 @@
 #ifndef TEXTSLAM_DETECT_TEXT_DETECTOR_HPP
 #define TEXTSLAM_DETECT_TEXT_DETECTOR_HPP
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,21 +35,39 @@ class TextReader {
 struct DetectorOptions {
   std::string name = "files";  ///< One of detector_names().
   std::string model;           ///< Of `dnn`; empty: where scripts/get-detector puts it.
-  std::string words = "auto";  ///< Who reads: "none", "dnn", "tesseract", or "auto", see make_reader().
+  std::string words = "auto";  ///< Who reads: "none", one of reader_names(), or "auto", see make_reader().
   std::string words_model;     ///< Of the reader `dnn`; empty: where scripts/get-detector --reader puts it.
 };
 
-/// "files" (the sequence's own detections, by any external detector), "classical" (built in, no model), "dnn" (a
-/// network through OpenCV) and "tesseract"; the last two are plug-ins that a build may lack.
-const std::vector<std::string>& detector_names();
+/// A detector by its name. "files" (the sequence's own detections, by any external detector) and "classical" (built in,
+/// no model) are always there. Others are plug-ins that main() registers: examples/plugins.
+struct DetectorPlugin {
+  std::string name;
+  std::function<std::unique_ptr<TextDetector>(const DetectorOptions&, const Sequence&)> make;
+  std::vector<std::string> readers;  ///< --words auto: the first of them that is ready reads after this detector.
+  bool reads = false;                ///< --words auto: its own detections are read as they come.
+};
+struct ReaderPlugin {
+  std::string name;
+  std::function<std::unique_ptr<TextReader>(const DetectorOptions&)> make;
+  /// Whether --words auto may choose it; null: always.
+  std::function<bool(const DetectorOptions&)> ready = nullptr;
+};
+/// One of the same name is replaced. Not beside other threads.
+void register_detector(DetectorPlugin plugin);
+void register_reader(ReaderPlugin plugin);
+/// A plug-in that detects and reads, but was not built: asking for it throws InputError with CMake's `option` and
+/// Debian's `packages`.
+void register_missing(const std::string& name, const std::string& option, const std::string& packages);
 
-/// The sequence must outlive the detector. Throws InputError where the plug-in was not built, saying how to build it,
-/// and for a model that is missing or wrong; std::invalid_argument that lists the names for any other name.
+std::vector<std::string> detector_names();
+std::vector<std::string> reader_names();
+
+/// The sequence must outlive the detector. Throws InputError where the plug-in was not built, and for a model that is
+/// missing or wrong; std::invalid_argument that lists the names for any other name.
 std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, const Sequence& sequence);
 
-/// Who reads what is unread, and the texts of the map; null: nobody. "auto": after `dnn` the recogniser, where its
-/// model is, else Tesseract where it was built; after `tesseract` that; else nobody. Throws InputError as
-/// make_detector() does.
+/// Who reads what is unread, and the texts of the map; null: nobody. Throws as make_detector().
 std::unique_ptr<TextReader> make_reader(const DetectorOptions& options);
 
 }  // namespace textslam

@@ -1,5 +1,5 @@
-// The texts of the map as an output: in the world frame, and against the exact signs of a rendered sequence. Runs after the
-// map is final; the system never sees the truth.
+// The texts of the final map in the world frame, and against the exact signs of a rendered sequence. The system never
+// sees the truth.
 #ifndef TEXTSLAM_REPORT_EVALUATE_TEXT_HPP
 #define TEXTSLAM_REPORT_EVALUATE_TEXT_HPP
 

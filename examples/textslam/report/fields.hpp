@@ -1,4 +1,5 @@
-// A record as its outputs show it. A field is described once: its name in the file, its name on the report's page, its value.
+// A record as its outputs show it. Each field is described once: its name in the file, its name on the report's page,
+// its value.
 #ifndef TEXTSLAM_REPORT_FIELDS_HPP
 #define TEXTSLAM_REPORT_FIELDS_HPP
 

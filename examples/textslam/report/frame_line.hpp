@@ -11,9 +11,9 @@ namespace textslam {
 const char* to_string(FrameState state);
 
 /// {"frame", "timestamp", "state", "points", "texts", "keyframe", "map_keyframes", "pose", "ms"}, without a line end:
-/// `pose` is [x, y, z, qx, qy, qz, qw], camera to world, as known live, null where there is none; `keyframe`: it became
-/// one; `map_keyframes`: how many the map holds; `ms`: what detection, tracking and mapping took. What the end of the run
-/// changes is in the output files alone.
+/// `pose`: [x, y, z, qx, qy, qz, qw], camera to world, as known live, or null; `keyframe`: whether it became one;
+/// `map_keyframes`: how many the map holds; `ms`: time of detection, tracking and mapping. Poses that change later are
+/// in the output files.
 std::string frame_line(int index, const FrameRecord& record, const Map& map);
 
 /// {"summary": metrics.json}, without a line end.

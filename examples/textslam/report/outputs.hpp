@@ -10,8 +10,8 @@
 //   metrics.json         counts; errors where ground truth exists
 //   report.html          all of it to look at, see report.hpp; its block `run` differs between two equal runs
 //
-// Where parts of a sequence were mapped apart and never joined, the outputs are those of the map with most frames, and the
-// frames of the others count as lost; metrics.json says so.
+// If parts of a sequence were mapped separately and never joined, the outputs are those of the map with most frames,
+// the frames of the others count as lost, and metrics.json lists the maps.
 #ifndef TEXTSLAM_REPORT_OUTPUTS_HPP
 #define TEXTSLAM_REPORT_OUTPUTS_HPP
 
@@ -22,9 +22,9 @@
 
 namespace textslam {
 
-/// Writes every file but the report into `folder`, which exists. Where one cannot be written, the others are, and then the first error is
-/// thrown: std::runtime_error.
-/// `image`: the file of a frame that was processed, in the sequence's folder, by its index.
+/// Writes every file but the report into `folder`, which exists. If one fails, the others are written, then the first
+/// error is thrown: std::runtime_error. `image`: a processed frame's file in the sequence's folder, by the frame's
+/// index.
 void write_outputs(const std::string& folder, const System& system, const RunSummary& summary,
                    const std::function<std::string(int)>& image);
 

@@ -1,8 +1,8 @@
-// report.html: one page that shows what a run made of a sequence, without a network. The page is examples/viewer, which is
-// built into the program, with two blocks of JSON:
+// report.html: one page that shows a run, without a network. The page is examples/viewer, built into the program, with
+// two blocks of JSON:
 //
 //   <script id="data">  the map, the frames, the parameters: the same bytes whenever the run is the same
-//   <script id="run">   what may differ between equal runs: the command line, where the sequence lies, the SIMD target, and the
+//   <script id="run">   what may differ between equal runs: the command line, the sequence's folder, the SIMD target, the
 //                       milliseconds
 //
 // What is in them: summary.hpp, text_map.hpp, report_data.hpp, report_frames.hpp, report_parameters.hpp, timing.hpp.

@@ -1,5 +1,5 @@
-// What the report shows beside its pictures: the map, the trajectory, numbers by frame. All in the map's world frame and unit;
-// the truth is brought there by the inverse of the alignment.
+// What the report shows beside its pictures: the map, the trajectory, numbers by frame, all in the map's world frame
+// and unit. The inverse of the alignment brings the truth there.
 #ifndef TEXTSLAM_REPORT_REPORT_DATA_HPP
 #define TEXTSLAM_REPORT_REPORT_DATA_HPP
 
@@ -13,13 +13,13 @@ namespace textslam {
 
 constexpr std::size_t kReportPoints = 20000;  ///< Map points shown; of more, evenly spaced.
 
-/// {"points":[x,y,z,...], "keyframes":[{"frame","pose"}], "trajectory":[pose or null, a frame], "truth":[[x,y,z] or null, a
-/// frame], "signs":[{"id","word","corners"}]}. Truth and signs are empty where they are not known.
+/// {"points":[x,y,z,...], "keyframes":[{"frame","pose"}], "trajectory":[pose or null by frame], "truth":[[x,y,z] or
+/// null by frame], "signs":[{"id","word","corners"}]}. Truth and signs are empty if unknown.
 Json world_json(const System& system, const Sequence& sequence, const RunSummary& summary,
                 const std::vector<TrueSign>& signs);
 
 /// By frame: {"time", "state":"w|t|f|l" (waiting, tracked, filled in afterwards, lost), "points", "texts", "error",
-/// "error_live" (units of the truth), "cost", "cost_live" (px rms of what the frame's pose rests on, in the final map)}.
+/// "error_live" (in units of the truth), "cost", "cost_live" (px rms of the frame's points in the final map)}.
 Json series_json(const System& system, const Sequence& sequence, const RunSummary& summary);
 
 }  // namespace textslam

@@ -16,22 +16,22 @@ namespace textslam {
 /// The image of a frame that was processed, undistorted; the frame's index counts from the run's first.
 using ImageSource = std::function<std::shared_ptr<const Pyramid>(int)>;
 
-// Bounds on the size of the report. A frame's picture takes up to 4/3 of kFrameBytes in it, its marks about 10 kB; map points 30 B each.
+// Bounds on the size of the report. A frame takes up to 4/3 kFrameBytes and 10 kB of marks, a map point 30 B.
 constexpr std::size_t kReportFrames = 300;      ///< Pictures; of a longer run, evenly spaced.
 constexpr int kFrameSide = 320;                 ///< px, the longer side of a picture at most.
 constexpr std::size_t kFrameBytes = 22 << 10;   ///< Of a picture's JPEG.
 constexpr std::size_t kTextureBytes = 3 << 19;  ///< Of the JPEGs of all texts.
 constexpr int kTextureSide = 192;               ///< px.
 
-/// JPEG of the image, its longer side at most kFrameSide, in the best quality that kFrameBytes allow.
+/// JPEG of the image, its longer side at most kFrameSide, at the best quality that fits kFrameBytes.
 std::string frame_jpeg(const Pyramid& image);
 
 /// JPEG of the text seen from the front: its quad of the host key frame, rectified through its plane.
 std::string text_jpeg(const Map& map, const TextObject& text);
 
-/// The frames shown, [{"frame", "image", "detections":[{"quad","text"}], "points":[x,y,...], "texts":[{"id","quad","zncc"}]}]:
-/// px of the whole image, the texts of the final map under the frame's final pose. `detections`: by the
-/// frames that may be shown; of these, those that were processed are.
+/// The frames shown: [{"frame", "image", "detections":[{"quad","text"}], "points":[x,y,...],
+/// "texts":[{"id","quad","zncc"}]}], px of the whole image; the texts of the final map under the frame's final pose.
+/// Shown are the processed frames among the keys of `detections`.
 Json frames_json(const System& system, const Parameters& parameters,
                  const std::map<int, std::vector<Detection>>& detections, const ImageSource& image);
 

@@ -1,5 +1,5 @@
-// The numbers of a run, for metrics.json, the report and the table on the terminal. A new one is a line in add_...() of summary.cpp, and
-// a tile in examples/viewer/provenance.js where the page is to show it.
+// The numbers of a run, for metrics.json, the report and the table on the terminal. A new number is a line in
+// summary.cpp; a line in examples/viewer/provenance.js shows it at the top of the report.
 #ifndef TEXTSLAM_REPORT_SUMMARY_HPP
 #define TEXTSLAM_REPORT_SUMMARY_HPP
 
@@ -19,8 +19,8 @@ struct RunSummary {
   int first_tracked_live = -1;  ///< Index of the frame at which the map began.
   std::size_t keyframes = 0, points = 0, texts = 0;
   std::vector<LoopRecord> loops;
-  std::vector<std::size_t> map_frames;  ///< Of each map, that of the outputs first; several: they were never joined.
-  double approximate_fov = 0;           ///< Degrees, of a camera without calibration; 0: it is calibrated.
+  std::vector<std::size_t> map_frames;  ///< Of each separate map, that of the outputs first.
+  double approximate_fov = 0;           ///< Degrees, of a guessed camera; 0: it is calibrated.
   bool has_detections = false;          ///< The sequence has.
   bool has_truth = false;
   TrajectoryEvaluation trajectory, live;
@@ -36,14 +36,14 @@ bool is_aligned(const RunSummary& summary);
 std::vector<StampedPose> final_trajectory(const System& system);
 std::vector<StampedPose> live_trajectory(const System& system);
 
-/// Compares the trajectories with ground truth where the sequence has it; `text` is left to the caller. `frames`: how many
-/// the run was to process.
+/// Compares the trajectories with ground truth if the sequence has it; leaves `text` to the caller. `frames`: how many
+/// the run was asked to process.
 RunSummary summarise(const System& system, const Sequence& sequence, std::size_t frames);
 
-/// Each number once: metrics.json, the report's summary, and the table.
+/// The numbers for metrics.json (file), the report (page) and the terminal (table).
 Fields describe(const RunSummary& summary);
 
-/// What the user should know beyond the table, lines without their ends; empty where all is well.
+/// What the user should know beyond the table: lines without their ends.
 std::vector<std::string> warnings(const RunSummary& summary);
 
 }  // namespace textslam

@@ -2,9 +2,9 @@
 //
 //   {"texts": [{"id", "text", "score", "readings": {word: votes}, "position", "normal", "image", "quad", "timestamp"}]}
 //
-// Position is the centre of the text's quad, both in the world frame. `image` is the one among the key frames that
-// observe the text which shows it largest, slant counted: its file in the sequence's folder, and there the quad in
-// undistorted px. `score` is the share of the votes that the text's own word has; each reading votes with its score.
+// `position`, the centre of the text's quad, and `normal` are in the world frame. `image` is the file, in the
+// sequence's folder, of the key frame that shows the text largest; `quad` is where, in undistorted px. Each reading
+// votes with its score for its word; `score` is the share of the text's own word.
 #ifndef TEXTSLAM_REPORT_TEXT_INDEX_HPP
 #define TEXTSLAM_REPORT_TEXT_INDEX_HPP
 
@@ -28,7 +28,7 @@ struct IndexedText {
   double timestamp = 0;
 };
 
-/// The key frame, host or observer, that shows most of the text's area, all of it inside the image where there is such a one.
+/// The key frame, host or observer, that shows the text's largest area; one that shows all of the text comes first.
 int best_view(const Map& map, const TextObject& text, Quad<double>* quad);
 
 /// The mapped texts. `image`: the file of a frame that was processed, by its index.
@@ -38,9 +38,9 @@ std::string text_index_json(const std::vector<IndexedText>& texts);
 /// Throws InputError where the file is missing or not such a text.
 std::vector<IndexedText> read_text_index(const std::string& path);
 
-/// Texts that have `word` in their own word or in a reading, letters' case aside: first those that are the word, then those
-/// whose own word holds it, then those that were read so at times, last those with a reading like it (word_similarity() of a half);
-/// among equals by score.
+/// Texts that match `word`, whatever the case of letters: first texts of that word, then texts whose word holds it,
+/// then texts with a reading that holds it, then texts with a similar reading (word_similarity() of kSameWord). Equals are
+/// ordered by score.
 std::vector<IndexedText> query(const std::vector<IndexedText>& texts, const std::string& word);
 
 /// Between the normals of two texts, degrees.

@@ -1,5 +1,5 @@
-// The text map as outputs: text_map.json, text_map.ply, and the texts of the report. A field of a text is a line of describe() in
-// text_map.cpp, and a column of examples/viewer/table.js where the page is to show it.
+// The text map as outputs: text_map.json, text_map.ply, and the texts of the report. A new field of a text is a line in
+// text_map.cpp; a line in examples/viewer/table.js shows it as a column.
 #ifndef TEXTSLAM_REPORT_TEXT_MAP_HPP
 #define TEXTSLAM_REPORT_TEXT_MAP_HPP
 
@@ -9,16 +9,16 @@
 
 namespace textslam {
 
-/// {"texts":[{"id", "text", "corners", "normal", "theta", "host", "observations", "zncc", "normal_sigma_deg"}]}, world frame;
-/// `host`: a time stamp.
+/// {"texts":[{"id", "text", "corners", "normal", "theta", "host", "observations", "zncc", "normal_sigma_deg"}]} in the
+/// world frame; `host`: the time stamp of its host key frame; `theta` is in that frame.
 std::string text_map_json(const Map& map);
 
 /// Text quads as faces, points and key frames as coloured vertices.
 std::string text_map_ply(const Map& map);
 
-/// [{"id", "word", "corners", "centre", "normal", "sigma_deg", "observations", "zncc", "host", "image", "sign", "angle_deg",
-/// "centre_error", "word_right"}]: sign and what follows only where the truth is known; sign -1: none stands there; `host`: a
-/// frame; `image`: null once the pictures are beyond kTextureBytes.
+/// [{"id", "word", "corners", "centre", "normal", "sigma_deg", "observations", "zncc", "host", "image", "sign",
+/// "angle_deg", "centre_error", "word_right"}]; `host`: the index of a frame; `image`: null once the pictures exceed
+/// kTextureBytes; `sign` and the rest if the truth is known; `sign` -1: there is none.
 Json page_texts(const System& system, const RunSummary& summary);
 
 }  // namespace textslam

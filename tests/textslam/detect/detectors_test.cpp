@@ -6,8 +6,8 @@
 
 #include "detectors/east_boxes.hpp"
 #include "detectors/line_picture.hpp"
-#include "detectors/plugins.hpp"
 #include "io/io_support.hpp"
+#include "plugins/plugins.hpp"
 #include "textslam/detect/text_detector.hpp"
 
 #ifdef TEXTSLAM_WITH_DNN
@@ -112,6 +112,7 @@ TEST(EastBoxes, WhatIsNoBoxIsPassedOver) {
 }
 
 TEST(Detectors, ANameThatNobodyKnowsIsRefused) {
+  register_plugins();
   DetectorOptions options;
   options.name = "mystery";
   try {
@@ -124,6 +125,7 @@ TEST(Detectors, ANameThatNobodyKnowsIsRefused) {
 
 #ifndef TEXTSLAM_WITH_DNN
 TEST(Detectors, APlugInThatWasNotBuiltTellsHowToBuildIt) {
+  register_plugins();
   DetectorOptions options;
   options.name = "dnn";
   expect_input_error([&] { make_detector(options, Sequence()); }, "--detector dnn", 0, "-DTEXTSLAM_DNN=ON");
@@ -209,6 +211,7 @@ TEST(Readers, ALineIsCutOutSquarely) {
 
 #ifndef TEXTSLAM_WITH_TESSERACT
 TEST(Detectors, AReaderThatWasNotBuiltTellsHowToBuildIt) {
+  register_plugins();
   DetectorOptions options;
   options.name = "tesseract";
   expect_input_error([&] { make_detector(options, Sequence()); }, "--detector tesseract", 0, "-DTEXTSLAM_TESSERACT=ON");

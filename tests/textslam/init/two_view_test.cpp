@@ -61,7 +61,8 @@ TEST(TwoViewTest, NoiseAndWrongMatches) {
   EXPECT_NEAR(view.parallax, parallaxes[100] / kDegree, 0.15 * parallaxes[100] / kDegree) << "the rotation taken out";
 }
 
-// A plane has two motions that explain it. The right one is among those found, and another only where it costs about as much.
+// A plane has two motions that explain it. The right one is among those found, and another only where it costs about as
+// much.
 TEST(TwoViewTest, PlanarSceneHasTheRightMotionAmongThoseFound) {
   for (unsigned seed = 0; seed < 12; ++seed) {
     std::mt19937 random(100 + seed);

@@ -1,7 +1,7 @@
-// VideoFile on libav. A frame is known by its time stamp: to load one, the decoder goes on to it, or back to the key picture
-// before it. What it passes on the way is kept, up to kKeptBytes, so that going backwards decodes every picture twice at most
-// for groups of pictures that fit.
-#include "io/video_file.hpp"
+// VideoFile on libav. A frame is known by its time stamp: to load one, the decoder goes on to it, or back to the key
+// picture before it. The pictures on the way are kept, up to kKeptBytes, so that going backwards decodes a picture at
+// most twice, if its group fits.
+#include "video/libav_video.hpp"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -163,7 +163,7 @@ class LibavVideo final : public VideoFile {
     avcodec_send_packet(decoder_.get(), nullptr);
   }
 
-  // Decodes up to frame `index`, which then is the last one kept; false where the decoder was behind it, or it does not come.
+  // Decodes up to frame `index`, then the last one kept. False if the decoder is already past it, or it does not come.
   bool advance_to(std::size_t index) {
     while (next_picture()) {
       const std::int64_t stamp = frame_->best_effort_timestamp;
@@ -219,8 +219,6 @@ class LibavVideo final : public VideoFile {
 
 }  // namespace
 
-bool has_video() { return true; }
-
-std::unique_ptr<VideoFile> open_video(const std::string& path) { return std::make_unique<LibavVideo>(path); }
+std::unique_ptr<VideoFile> open_libav_video(const std::string& path) { return std::make_unique<LibavVideo>(path); }
 
 }  // namespace textslam

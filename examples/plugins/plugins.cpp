@@ -1,0 +1,36 @@
+#include "plugins/plugins.hpp"
+
+#include "textslam/detect/text_detector.hpp"
+
+#ifdef TEXTSLAM_WITH_DNN
+#include "detectors/dnn_detector.hpp"
+#include "detectors/dnn_reader.hpp"
+#endif
+#ifdef TEXTSLAM_WITH_TESSERACT
+#include "detectors/tesseract_detector.hpp"
+#endif
+#ifdef TEXTSLAM_WITH_VIDEO
+#include "video/libav_video.hpp"
+#endif
+
+namespace textslam {
+
+void register_plugins() {
+#ifdef TEXTSLAM_WITH_DNN
+  register_detector({"dnn", make_dnn_detector, {"dnn", "tesseract"}});
+  register_reader({"dnn", make_dnn_reader, is_dnn_reader_ready});
+#else
+  register_missing("dnn", "TEXTSLAM_DNN", "libopencv-dev");
+#endif
+#ifdef TEXTSLAM_WITH_TESSERACT
+  register_detector({"tesseract", make_tesseract_detector, {"tesseract"}, true});
+  register_reader({"tesseract", make_tesseract_reader});
+#else
+  register_missing("tesseract", "TEXTSLAM_TESSERACT", "libtesseract-dev tesseract-ocr-eng");
+#endif
+#ifdef TEXTSLAM_WITH_VIDEO
+  register_video(open_libav_video);
+#endif
+}
+
+}  // namespace textslam

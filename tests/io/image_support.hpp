@@ -1,0 +1,95 @@
+// Images of noise and ramps, and files of them in formats that the writers of io do not write.
+#ifndef TESTS_IO_IMAGE_SUPPORT_HPP
+#define TESTS_IO_IMAGE_SUPPORT_HPP
+
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <jpeglib.h>
+#include <png.h>
+
+#include "io/image_codecs.hpp"
+#include "io/image_file.hpp"
+#include "io/io_support.hpp"
+
+namespace textslam {
+
+inline Image<std::uint8_t> noise(int width, int height) {
+  std::mt19937 random(7);
+  Image<std::uint8_t> image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image(x, y) = static_cast<std::uint8_t>(random() >> 24);
+  return image;
+}
+
+inline Image<std::uint8_t> ramp(int width, int height) {
+  Image<std::uint8_t> image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image(x, y) = static_cast<std::uint8_t>(20 + 2 * x + y);
+  return image;
+}
+
+// A grey PNG of any depth through libpng's full interface, packed rows given.
+inline std::string packed_png(std::vector<std::vector<unsigned char>> rows, int width, int depth, int interlace) {
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(
+      png, &bytes,
+      [](png_structp p, png_bytep data, png_size_t n) {
+        static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<const char*>(data), n);
+      },
+      nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(rows.size()), depth,
+               PNG_COLOR_TYPE_GRAY, interlace, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  std::vector<png_bytep> pointers;
+  for (auto& row : rows) pointers.push_back(row.data());
+  png_write_image(png, pointers.data());
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
+}
+
+// A JPEG of one colour.
+inline std::string colour_jpeg(int width, int height, int r, int g, int b, bool progressive) {
+  jpeg_compress_struct codec{};
+  jpeg_error_mgr errors;
+  codec.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&codec);
+  unsigned char* buffer = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&codec, &buffer, &size);
+  codec.image_width = static_cast<JDIMENSION>(width);
+  codec.image_height = static_cast<JDIMENSION>(height);
+  codec.input_components = 3;
+  codec.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&codec);
+  jpeg_set_quality(&codec, 95, TRUE);
+  if (progressive) jpeg_simple_progression(&codec);
+  jpeg_start_compress(&codec, TRUE);
+  std::vector<unsigned char> row;
+  for (int x = 0; x < width; ++x)
+    for (const int v : {r, g, b}) row.push_back(static_cast<unsigned char>(v));
+  for (int y = 0; y < height; ++y) {
+    JSAMPROW pointer = row.data();
+    jpeg_write_scanlines(&codec, &pointer, 1);
+  }
+  jpeg_finish_compress(&codec);
+  jpeg_destroy_compress(&codec);
+  std::string bytes(reinterpret_cast<const char*>(buffer), size);
+  std::free(buffer);
+  return bytes;
+}
+
+inline void expect_broken(const TemporaryFolder& folder, const std::string& bytes, const std::string& part) {
+  const std::string path = folder.write("image", bytes);
+  expect_input_error([&] { load_grey(path); }, path, 0, part);
+}
+
+}  // namespace textslam
+
+#endif  // TESTS_IO_IMAGE_SUPPORT_HPP
