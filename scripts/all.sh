@@ -1,7 +1,7 @@
 # shellcheck shell=sh disable=SC2154,SC2034
 # The stages of `scripts/test --all` after those of --ci, sourced by it: stage(), note() and the lists are there.
 
-# needs STAGE PROGRAM...: whether the programs are there; a line of the summary where not.
+# needs STAGE PROGRAM...: whether the programs are there; if not, a line of the summary says so.
 needs() {
   wanted "$1" || return 1
   name=$1
@@ -30,21 +30,22 @@ checked() {
 library_tests='test_core test_simd test_vectors test_geometry test_photometry test_features test_solver'
 library_only='-DTEXTPLANE_BUILD_EXAMPLES=OFF -DTEXTPLANE_TEST_TIER=library'
 
-# Memory under valgrind, which has AVX2: kernels that read beyond what they may, or use what nobody wrote. A subset: it takes fifty
-# times as long.
+# Memory errors under valgrind, which has AVX2. Seven groups of kernel tests, as it takes fifty times as long.
 memcheck() {
-  for kernels in 'ResidualKernels.EveryNumberOfPixels' 'WarpKernels.*' 'HalveKernels.*' 'FastKernel.*' 'BatchKernels.*' 'SamplePoints.*' \
-    'EsmKernels.*'; do
+  for kernels in 'ResidualKernels.EveryNumberOfPixels' 'WarpKernels.*' 'HalveKernels.*' 'FastKernel.*' 'BatchKernels.*' \
+    'SamplePoints.*' 'EsmKernels.*'; do
     TEXTPLANE_TEST_TARGET=${TEXTPLANE_TEST_TARGET:-avx2} valgrind --quiet --error-exitcode=9 --leak-check=full "$1" \
       --gtest_brief=1 --gtest_filter="$kernels" || return 1
   done
-  valgrind --quiet --error-exitcode=9 --leak-check=full "$2" --gtest_brief=1 --gtest_filter='Threads.EachGets*' || return 1
+  valgrind --quiet --error-exitcode=9 --leak-check=full "$2" --gtest_brief=1 --gtest_filter='Threads.EachGets*' ||
+    return 1
   echo 'memcheck: no errors in seven groups of kernel tests on avx2, nor in one of all kernels and the pose solver'
 }
 
 cpp_check() {
-  cppcheck --std=c++17 --language=c++ --enable=warning,performance,portability --inline-suppr --quiet --error-exitcode=9 \
-    --suppressions-list="$root/.cppcheck" -DTEXTPLANE_EXTERN_KERNELS -D__GNUC__=12 -D__x86_64__ -I "$root/include" "$root/tests/everything.cpp" || return 1
+  cppcheck --std=c++17 --language=c++ --enable=warning,performance,portability --inline-suppr --quiet \
+    --error-exitcode=9 --suppressions-list="$root/.cppcheck" -DTEXTPLANE_EXTERN_KERNELS -D__GNUC__=12 -D__x86_64__ -I "$root/include" \
+    "$root/tests/everything.cpp" || return 1
   echo 'cppcheck: no findings'
 }
 
@@ -67,9 +68,14 @@ coverage() {
 fuzz_seconds=${TEXTPLANE_FUZZ_SECONDS:-900}
 
 all_stages() {
-  if needs memcheck valgrind "$root/build/dev/bin/test_simd" "$root/build/dev/bin/test_threads"; then checked memcheck memcheck "$root/build/dev/bin/test_simd" "$root/build/dev/bin/test_threads"; fi
-  if needs i386 /usr/lib/gcc/x86_64-linux-gnu/12/32 /usr/src/googletest; then stage i386 '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
-  if needs s390x s390x-linux-gnu-g++-11 qemu-s390x /usr/src/googletest; then stage s390x '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
+  set -- "$root/build/dev/bin/test_simd" "$root/build/dev/bin/test_threads"
+  if needs memcheck valgrind "$@"; then checked memcheck memcheck "$@"; fi
+  if needs i386 /usr/lib/gcc/x86_64-linux-gnu/12/32 /usr/src/googletest; then
+    stage i386 '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''
+  fi
+  if needs s390x s390x-linux-gnu-g++-11 qemu-s390x /usr/src/googletest; then
+    stage s390x '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''
+  fi
   stage unoptimised "$library_only" '-L ^library$' "$library_tests"
   stage fast-math "$library_only" '-L ^fast_math$' "$library_tests"
   stage cxx20 "$library_only" '-L ^library$' "$library_tests"

@@ -9,8 +9,8 @@ if [ -z "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] && command -v ccache >/dev/null 2>&
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
 
-# Debian and Ubuntu package names. "a|b": either will do, a is the one that gets installed. Both packages of fonts, as a rendered
-# room has the faces that it finds on its signs: tests and measurements are of rooms with all four.
+# Debian and Ubuntu package names. "a|b": either will do; a gets installed. A rendered room uses the fonts that it finds on its
+# signs, and tests and measurements need the same four everywhere: hence both packages of fonts.
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev libyaml-cpp-dev fonts-dejavu-core fonts-dejavu-extra"
@@ -18,7 +18,8 @@ packages_test="$packages_demo libgtest-dev"
 packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
   pandoc libjs-katex fonts-katex clang-format"
-packages_all="$packages_ci python3-sympy libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib g++-11-s390x-linux-gnu"
+packages_all="$packages_ci python3-sympy libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
+  g++-11-s390x-linux-gnu"
 
 say() { printf '\n== %s\n' "$*"; }
 warn() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
@@ -53,8 +54,8 @@ apt_get() {
   fi
 }
 
-# install_packages LIST: installs with apt what is missing. Where that cannot be done it names the packages and goes on:
-# CMake finds the libraries, or says which one it misses.
+# install_packages LIST: installs with apt what is missing. If it cannot, it names the packages and goes on: CMake finds the
+# libraries, or says which one it misses.
 install_packages() {
   if ! command -v dpkg-query >/dev/null 2>&1 || ! command -v apt-get >/dev/null 2>&1; then
     warn "no apt here: make sure that the equivalents of these Debian packages are installed:"
