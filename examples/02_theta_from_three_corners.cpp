@@ -1,4 +1,5 @@
-// 02: the plane of a sign from three of its corners, seen in two views of known pose. A fourth point would make it a least-squares fit.
+// 02: the plane of a sign from three of its corners, seen in two views of known pose. A fourth point would make it a
+// least-squares fit.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,5 @@
-// 03: the pose of a camera from one sign whose plane is known: guess, align, done. The guess is four centimetres and a degree off.
+// 03: the pose of a camera from one sign whose plane is known: guess, align, done. The guess is four centimetres and a
+// degree off.
 #include <cstdio>
 
 #include "stage/picture.hpp"

@@ -1,5 +1,5 @@
-// 04: the plane of a sign from many views of known pose, by the sign's pixels. The start is a plane that faces the camera, 40 degrees
-// off.
+// 04: the plane of a sign from many views of known pose, by the sign's pixels. The start is a plane that faces the
+// camera, 40 degrees off.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,6 @@
-// 07: bundle adjustment by Ceres with a sign in it: five key frames, two of them held, and one plane, from the sign's pixels alone. Costs of
-// your own join by problem.problem().AddResidualBlock(). Built where Ceres is found, with TEXTPLANE_BUILD_PEER_EXAMPLES.
+// 07: bundle adjustment by Ceres of five key frames, two of them fixed, and the plane of one sign, from the sign's pixels
+// alone. Add costs of your own by problem.problem().AddResidualBlock(). Built where Ceres is found, with
+// TEXTPLANE_BUILD_PEER_EXAMPLES.
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -12,6 +13,20 @@
 
 namespace tp = textplane;
 using namespace textslam;
+
+// Coarse to fine.
+void adjust(tp::Window& window) {
+  for (int level = 2; level >= 0; --level) {
+    tp::WindowOptions options;
+    options.text_level = level;
+    options.max_iterations = 50;
+    tp::adapters::WindowProblem problem(window, options);
+    ceres::Solver::Summary summary;
+    ceres::Solve(problem.solver_options(), &problem.problem(), &summary);
+    problem.write_back();
+    std::printf("level %d: %s\n", level, summary.BriefReport().c_str());
+  }
+}
 
 int main(int argc, char** argv) {
   const Stage stage("GALLERY", {0.2, 0.5, 0.0});
@@ -26,7 +41,7 @@ int main(int argc, char** argv) {
     views.push_back(stage.view(truth.back()));
     images.emplace_back(views.back().view());
     tp::WindowFrame& frame = window.frames.emplace_back();
-    frame.fixed = i == 0 || i == 4;  // two poses held: the gauge, scale included
+    frame.fixed = i == 0 || i == 4;  // two fixed poses fix the gauge, scale included
     tp::Vector6<double> error = tp::Vector6<double>::Zero();
     for (int k = 0; k < 6 && !frame.fixed; ++k) error[k] = (k < 3 ? 0.006 : 0.003) * random.normal();
     frame.T_w_c = tp::se3_exp(error) * truth.back();
@@ -56,16 +71,7 @@ int main(int argc, char** argv) {
   };
   std::printf("before: positions off by %.1f mm at worst\n", worst_position());
   const Quad<double> guess = reprojected();
-  for (int level = 2; level >= 0; --level) {  // coarse to fine
-    tp::WindowOptions options;
-    options.text_level = level;
-    options.max_iterations = 50;
-    tp::adapters::WindowProblem problem(window, options);
-    ceres::Solver::Summary summary;
-    ceres::Solve(problem.solver_options(), &problem.problem(), &summary);
-    problem.write_back();
-    std::printf("level %d: %s\n", level, summary.BriefReport().c_str());
-  }
+  adjust(window);
   std::printf("after: positions off by %.2f mm at worst\n", worst_position());
   std::printf("theta off by %.5f\n", (window.texts[0].theta - stage.theta(truth[0])).norm());
   Picture(argc, argv)

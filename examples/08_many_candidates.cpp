@@ -1,5 +1,5 @@
-// 08: which of a thousand poses shows the sign? ZNCC of all of them in one call: relocalisation, or a check of a detection. Then the
-// best is refined.
+// 08: which of a thousand poses shows the sign? ZNCC of all of them in one call: relocalisation, or a check of a
+// detection. Then the best is refined.
 #include <algorithm>
 #include <cstdio>
 #include <vector>

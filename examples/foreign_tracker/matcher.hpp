@@ -13,11 +13,13 @@ namespace foreign {
 
 using Matches = std::vector<std::pair<std::size_t, std::size_t>>;  // key points of one frame and of another
 
-/// Key points, descriptors and cells of frame.image: the strongest corners of every cell of a grid, as ORB-SLAM spreads them.
+/// Key points, descriptors and cells of frame.image: the strongest corners of every cell of a grid, as ORB-SLAM spreads
+/// them.
 void extract(const Camera& camera, Frame& frame);
 
-/// Gives key points without a point those of `points` that project near them, within `radius` px times the scale of the level, by
-/// descriptor: at most `distance` bits and `ratio` times the second best. Points that the frame has already are left out. Returns how many.
+/// Gives key points without a point those of `points` that project near them, within `radius` px times the scale of the
+/// level, by descriptor: at most `distance` bits and `ratio` times the second best. Points that the frame has already
+/// are left out. Returns how many.
 int match_by_projection(const Camera& camera, const std::vector<MapPoint*>& points, double radius, int distance,
                         double ratio, Frame& frame);
 

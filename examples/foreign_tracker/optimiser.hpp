@@ -8,11 +8,12 @@
 
 namespace foreign {
 
-/// The pose of a frame from its points, which are held. Points that do not fit are taken from it. Returns how many stay.
+/// The pose of a frame from its points, which are held. Points that do not fit are taken from it. Returns how many
+/// stay.
 int optimise_pose(const Camera& camera, Frame& frame);
 
-/// Poses of these key frames and all points that they see; other key frames that see these are held, and so is the first of the
-/// map. Observations that do not fit are taken out.
+/// Poses of these key frames and all points that they see; other key frames that see these are held, and so is the
+/// first of the map. Observations that do not fit are taken out.
 void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window);
 
 }  // namespace foreign

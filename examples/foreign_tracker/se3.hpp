@@ -1,4 +1,5 @@
-// Se3: the pose type of the foreign tracker, in the manner of Sophus (Scalar, rotationMatrix(), translation(), data()). Not textplane's.
+// Se3: the pose type of the foreign tracker, in the manner of Sophus (Scalar, rotationMatrix(), translation(), data()).
+// Not textplane's.
 #ifndef FOREIGN_TRACKER_SE3_HPP
 #define FOREIGN_TRACKER_SE3_HPP
 

@@ -1,5 +1,5 @@
-// Text features for the tracker: planes begun with its own points and confirmed by a key frame, and residuals in its own Ceres problems, that
-// of a frame's pose and that of bundle adjustment. These lines, and those that end in `// text` in the other files, are all that they add.
+// Text features for the tracker: planes that begin with its own points and that a key frame confirms, and residuals in
+// its own Ceres problems of pose and bundle adjustment. This file and the lines of others that end so add them: // text
 #pragma once
 #include <ceres/problem.h>
 

@@ -1,6 +1,7 @@
-// A monocular tracker as other people write them, in the manner of ORB-SLAM: ORB key points, a pose-only optimisation of every frame, key
-// frames, triangulation, local bundle adjustment, relocalisation. What makes text features of it is text.hpp and the lines that end in
-// `// text` in the other files: fewer than 60, counted by tests/programs/foreign_tracker.cmake.
+// A monocular tracker as other people write them, in the manner of ORB-SLAM: ORB key points, a pose-only optimisation
+// of every frame, key frames, triangulation, local bundle adjustment, relocalisation. What makes text features of it is
+// text.hpp and the lines that end in `// text` in the other files: fewer than 60, counted by
+// tests/programs/foreign_tracker.cmake.
 #ifndef FOREIGN_TRACKER_TRACKER_HPP
 #define FOREIGN_TRACKER_TRACKER_HPP
 

@@ -1,8 +1,8 @@
 // The camera that took a sequence, and the files that describe it.
 //
-//   camera.yaml   `Camera.key: value` a line with the keys width height fps fx fy cx cy, optionally type, and the coefficients
-//                 of that type (io/camera_types.hpp; without a type k1 k2 p1 p2 [k3]). Other keys of an ORB-SLAM settings file
-//                 are ignored.
+//   camera.yaml   `Camera.key: value` a line with the keys width height fps fx fy cx cy, optionally type, and the
+//                 coefficients of that type (io/camera_types.hpp; without a type k1 k2 p1 p2 [k3]). Other keys of an
+//                 ORB-SLAM settings file are ignored.
 //   sensor.yaml   EuRoC's, see io/euroc.hpp
 #ifndef TEXTSLAM_IO_CAMERA_MODEL_HPP
 #define TEXTSLAM_IO_CAMERA_MODEL_HPP
@@ -40,8 +40,8 @@ CameraModel read_camera(const std::string& path);
 /// The text that read_camera() reads; the numbers survive the round trip exactly.
 std::string format_camera(const CameraModel& camera);
 
-/// A pinhole that sees `fov` degrees (above 0, below 180) from the left edge of the image to the right one: square pixels,
-/// principal point in the centre of the image, no lens distortion.
+/// A pinhole that sees `fov` degrees (above 0, below 180) from the left edge of the image to the right one: square
+/// pixels, principal point in the centre of the image, no lens distortion.
 CameraModel camera_from_fov(double fov, int width, int height);
 
 }  // namespace textslam

@@ -1,5 +1,5 @@
-// The camera models that files can name. A new one is a file in textplane/core/cameras and, here, its include, its place in
-// RawCamera and its line in camera_types().
+// The camera models that files can name. A new one is a file in textplane/core/cameras and, here, its include, its
+// place in RawCamera and its line in camera_types().
 #ifndef TEXTSLAM_IO_CAMERA_TYPES_HPP
 #define TEXTSLAM_IO_CAMERA_TYPES_HPP
 

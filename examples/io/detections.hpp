@@ -1,15 +1,15 @@
 // Text detections from files, one file a frame, in raw image pixels (before undistortion).
 //
-// Looked for in this order; a frame without a file has no detections:
+// The first of these files that exists is read; a frame without a file has no detections:
 // - ICDAR, `x1,y1,x2,y2,x3,y3,x4,y4,text` a line, clockwise from the text's top left: <stem>.txt, res_<stem>.txt or
-//   gt_<stem>.txt in detections/, then res_<stem>.txt or gt_<stem>.txt beside the image. The text is everything after the
-//   eighth comma, commas included; no text at all means unread, and so does `###`, but in gt_<stem>.txt: there it marks what
-//   ICDAR says is to be ignored, and is left out.
+//   gt_<stem>.txt in detections/, then res_<stem>.txt or gt_<stem>.txt beside the image. The text is everything after
+//   the eighth comma, further commas included. No text and `###` mean unread. In gt_<stem>.txt `###` marks what ICDAR
+//   ignores: it is left out.
 // - <stem>_dete.txt with <stem>_mean.txt, in detections/ or in text/: the pair that the published TextSLAM reads. The
 //   first has eight numbers a line, the second `word,score` for the same boxes in the same order (split at the last
-//   comma). There the boxes belong to the undistorted image; they are mapped back through the lens here, so that all
-//   detections are raw pixels. Without the second file the text is unread.
-// A folder of the caller's choice (Sequence::detections) is the only place where there is one; a video has no other.
+//   comma). Its boxes belong to the undistorted image; they are distorted here, so that all detections are raw pixels.
+//   Without the second file the text is unread.
+// Where the caller names a folder (Sequence::detections), only that one is searched; a video has no other.
 // Blank lines are skipped; a byte-order mark and CR LF are accepted; bytes that are not UTF-8 become U+FFFD.
 #ifndef TEXTSLAM_IO_DETECTIONS_HPP
 #define TEXTSLAM_IO_DETECTIONS_HPP

@@ -1,9 +1,10 @@
 // The layout of the EuRoC data sets (ASL): a folder, or the `mav0` in it, with
 //
 //   mav0/cam0/data.csv      `timestamp [ns],file name` a line, `#` comments; the images are in mav0/cam0/data
-//   mav0/cam0/sensor.yaml   resolution, intrinsics, distortion_coefficients, distortion_model (radial-tangential, or none),
-//                           rate_hz, and T_BS, the camera's pose in the body's frame
-//   mav0/state_groundtruth_estimate0/data.csv   optional: `timestamp [ns],x,y,z,qw,qx,qy,qz` and more columns, the body's pose
+//   mav0/cam0/sensor.yaml   resolution, intrinsics, distortion_coefficients, distortion_model (radial-tangential, or
+//                           none), rate_hz, and T_BS, the camera's pose in the body's frame
+//   mav0/state_groundtruth_estimate0/data.csv   optional: `timestamp [ns],x,y,z,qw,qx,qy,qz` and more columns, the
+//                                               body's pose
 //
 // Times in seconds are the nanoseconds divided by 1e9, rounded once: to 0.24 us, for stamps that count from 1970.
 #ifndef TEXTSLAM_IO_EUROC_HPP
@@ -30,14 +31,15 @@ struct EurocCamera {
   SE3d T_b_c;  ///< camera to body; the identity where the file has no T_BS
 };
 
-/// Reads sensor.yaml. Throws InputError, with the line where there is one, for what is no YAML, a missing key, a bad number, a
-/// camera or lens of another model, or a T_BS that is no rigid motion.
+/// Reads sensor.yaml. Throws InputError, with the line where there is one, for what is no YAML, a missing key, a bad
+/// number, a camera or lens of another model, or a T_BS that is no rigid motion.
 EurocCamera read_euroc_camera(const std::string& path);
 
 /// Throws InputError with the line for a stamp that is no whole number or does not increase, and a missing name.
 std::vector<FrameRef> read_euroc_frames(const std::string& list, const std::string& images);
 
-/// The poses of the camera in the world: those of the body in the file, times T_b_c. Throws InputError as read_tum() does.
+/// The poses of the camera in the world: those of the body in the file, times T_b_c. Throws InputError as read_tum()
+/// does.
 std::vector<StampedPose> read_euroc_truth(const std::string& path, const SE3d& T_b_c);
 
 }  // namespace textslam

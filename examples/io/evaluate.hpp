@@ -43,14 +43,15 @@ std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const 
 Status align_points(const std::vector<Vector3<double>>& from, const std::vector<Vector3<double>>& to, bool with_scale,
                     Similarity* out);
 
-/// A similarity that takes the poses `from` near to the poses `to`, any number of them and on any path: its scale and translation
-/// minimise sum |to_i - S from_i|^2, and its rotation does so but for a tenth's share of the poses' own rotations, which settle it
-/// where positions do not, as along a line. Where positions are a single place the scale is that of *out. Status::too_few without
-/// poses or when the sizes differ, non_finite for NaN, degenerate where the scale would not be positive; *out is then untouched.
+/// A similarity that takes the poses `from` near to the poses `to`, any number of them and on any path: its scale and
+/// translation minimise sum |to_i - S from_i|^2, and its rotation does so but for a tenth's share of the poses' own
+/// rotations, which settle it where positions do not, as along a line. Where positions are a single place the scale is
+/// that of *out. Status::too_few without poses or when the sizes differ, non_finite for NaN, degenerate where the scale
+/// would not be positive; *out is then untouched.
 Status align_poses(const std::vector<SE3d>& from, const std::vector<SE3d>& to, Similarity* out);
 
-/// Zeros when n is 0. Median and 90th percentile are interpolated between the errors next to them in order, so the median
-/// of an even number is the mean of the middle two.
+/// Zeros when n is 0. Median and 90th percentile are interpolated between the errors next to them in order, so the
+/// median of an even number is the mean of the middle two.
 struct ErrorStatistics {
   std::size_t n = 0;
   double rmse = 0, mean = 0, median = 0, p90 = 0, max = 0;

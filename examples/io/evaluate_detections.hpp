@@ -1,8 +1,8 @@
 // Detections against the true quads of a frame, by their overlap.
 //
-// Truth: truth/quads/<stem>.txt in the folder of a rendered sequence (renderer/render_sequence.hpp), where a sign counts that is
-// in view whole and at least kMinHeight px high; or gt_<stem>.txt of ICDAR beside the image, where one counts that is not `###`.
-// What does not count is neither to be found nor wrong where it is.
+// Truth: truth/quads/<stem>.txt in the folder of a rendered sequence (renderer/render_sequence.hpp), where a sign
+// counts that is in view whole and at least kMinHeight px high; or gt_<stem>.txt of ICDAR beside the image, where one
+// counts that is not `###`. What does not count is neither to be found nor wrong where it is.
 #ifndef TEXTSLAM_IO_EVALUATE_DETECTIONS_HPP
 #define TEXTSLAM_IO_EVALUATE_DETECTIONS_HPP
 

@@ -49,15 +49,15 @@ struct TextEvaluation {
   std::vector<SignMatch> matches;
 };
 
-/// The signs in the folder truth of a sequence, or none where it has no signs.json. `stems`: of the frames that count for
-/// visible_frames. Throws InputError for a broken file.
+/// The signs in the folder truth of a sequence, or none where it has no signs.json. `stems`: of the frames that count
+/// for visible_frames. Throws InputError for a broken file.
 std::vector<TrueSign> read_true_signs(const std::string& folder, const std::vector<std::string>& stems);
 
 /// The texts of a text_map.json. Throws InputError for a broken file.
 std::vector<MappedText> read_text_map(const std::string& path);
 
-/// Matches the texts to the signs after `alignment` (map to truth). A text stands for the nearest sign whose centre is no
-/// further than half the sign's width.
+/// Matches the texts to the signs after `alignment` (map to truth). A text stands for the nearest sign whose centre is
+/// no further than half the sign's width.
 TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::vector<TrueSign>& signs,
                               const Similarity& alignment);
 

@@ -1,9 +1,10 @@
 // The frames of a sequence by name and time: from a list, or from the names in a folder.
 //
-//   images.txt, rgb.txt   `timestamp path` a line, times strictly increasing, `#` comments; the path is relative to the folder
-//                         and runs to the end of the line
-//   a folder of images    .png .jpg .jpeg .pgm .ppm, in the order of their names as a person counts: runs of digits by their
-//                         value, so that 9.png comes before 10.png; hidden files are passed over. Times: 0, 1/fps, 2/fps, ...
+//   images.txt, rgb.txt   `timestamp path` a line, times strictly increasing, `#` comments; the path is relative to the
+//                         folder and runs to the end of the line
+//   a folder of images    .png .jpg .jpeg .pgm .ppm, in the order of their names as a person counts: runs of digits by
+//                         their value, so that 9.png comes before 10.png; hidden files are passed over. Times: 0,
+//                         1/fps, 2/fps, ...
 #ifndef TEXTSLAM_IO_FRAME_LIST_HPP
 #define TEXTSLAM_IO_FRAME_LIST_HPP
 

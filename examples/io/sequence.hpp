@@ -47,12 +47,12 @@ struct Sequence {
 };
 
 /// Reads everything but images and detections. Throws InputError, with file and line where there is one, for whatever
-/// is missing, malformed, unsorted or not finite, and for an option that the input makes meaningless. Whether the images exist
-/// is seen when they are loaded, so that a broken frame in the middle does not cost the ones before it.
+/// is missing, malformed, unsorted or not finite, and for an option that the input makes meaningless. Whether the
+/// images exist is seen when they are loaded, so that a broken frame in the middle does not cost the ones before it.
 Sequence read_sequence(const std::string& path, const SequenceOptions& options = {});
 
-/// The true poses of a folder of any layout; none where it has none, or no sensor.yaml to say where EuRoC's body has its camera.
-/// Throws InputError for a broken file.
+/// The true poses of a folder of any layout; none where it has none, or no sensor.yaml to say where EuRoC's body has
+/// its camera. Throws InputError for a broken file.
 std::vector<StampedPose> read_groundtruth(const std::string& folder);
 
 /// What a user knows a frame by: its image's path from the folder, or `video.mp4#000123`.

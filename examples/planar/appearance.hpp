@@ -1,8 +1,8 @@
 // Appearance: what of an object's looks is compared with an image, where light and sharpness differ between the two.
 //
-// Both sides are seen by local contrast (photometry/local_contrast.hpp), which a shadow's edge or a highlight hardly changes. And the
-// object is kept as a sharp camera saw it and more and more blurred: an image out of focus or in motion is compared with the one most
-// like it, since a homography bends where it has to explain blur.
+// Both sides are seen by local contrast (photometry/local_contrast.hpp), which a shadow's edge or a highlight hardly
+// changes. And the object is kept as a sharp camera saw it and more and more blurred: an image out of focus or in
+// motion is compared with the one most like it, since a homography bends where it has to explain blur.
 #ifndef TEXTPLANE_EXAMPLES_APPEARANCE_HPP
 #define TEXTPLANE_EXAMPLES_APPEARANCE_HPP
 
@@ -92,7 +92,8 @@ class Appearance {
     return found;
   }
 
-  /// The surroundings of a quad (px of the level) in an image; not valid() where it is out of view. Until the next call.
+  /// The surroundings of a quad (px of the level) in an image; not valid() where it is out of view. Until the next
+  /// call.
   Window window(const tp::ImageView8& image, const tp::Quad<double>& quad) {
     const auto b = tp::bounds(quad);
     const auto cut = [](double v, int most) { return static_cast<int>(std::min(std::max(v, 0.0), 1.0 * most)); };

@@ -1,11 +1,13 @@
-// PlaneTracker: a planar object followed through a video from its quad in the first frame, by a camera that nobody calibrated.
+// PlaneTracker: a planar object followed through a video from its quad in the first frame, by a camera that nobody
+// calibrated.
 //
-// Every frame is aligned with the pixels of the first one, so nothing drifts. A frame's starts are the best by ZNCC of a search round the
-// last pose, and round the pose that went on as before; pose and plane are found from both, coarse to fine, and the better fit is kept.
-// What is compared is the local contrast of both, at one sharpness (appearance.hpp). Where the fit is not good, it is tried again from the
-// best of a search on a finer level: the coarsest cannot tell what repeats apart, and has few pixels of small text.
-// H = R + t theta^T with both free is any homography, so that the focal length is a matter of conditioning alone. What H does not show,
-// its scale and without parallax the plane, and what a small quad hardly shows, perspective, is held by weak pulls.
+// Every frame is aligned with the pixels of the first one, so nothing drifts. A frame's starts are the best by ZNCC of
+// a search round the last pose, and round the pose that went on as before; pose and plane are found from both, coarse
+// to fine, and the better fit is kept. What is compared is the local contrast of both, at one sharpness
+// (appearance.hpp). Where the fit is not good, it is tried again from the best of a search on a finer level: the
+// coarsest cannot tell what repeats apart, and has few pixels of small text. H = R + t theta^T with both free is any
+// homography, so that the focal length is a matter of conditioning alone. What H does not show, its scale and without
+// parallax the plane, and what a small quad hardly shows, perspective, is held by weak pulls.
 #ifndef TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
 #define TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
 
@@ -59,7 +61,8 @@ struct PlaneTrackerOptions {
   }
 };
 
-/// Pose and plane together as a problem for tp::minimise(): nine parameters (v, omega, theta), some of them pulled to where they were.
+/// Pose and plane together as a problem for tp::minimise(): nine parameters (v, omega, theta), some of them pulled to
+/// where they were.
 class PosePlaneProblem {
  public:
   using State = PlaneState;
@@ -121,7 +124,8 @@ class PlaneTracker {
 
   tp::Status status() const noexcept { return patch_.status; }
 
-  /// Where the object is in the next image: an ok status, or why it is not known; the state is then that of the frame before.
+  /// Where the object is in the next image: an ok status, or why it is not known; the state is then that of the frame
+  /// before.
   tp::Status track(tp::ImageView8 image) {
     image_.build(image, options_.select.levels);
     PlaneState found, best;
@@ -152,7 +156,8 @@ class PlaneTracker {
     return status;
   }
 
-  /// Coarse to fine from `state`, in place: first with the plane that is known, then with a free one; and again where that is not good.
+  /// Coarse to fine from `state`, in place: first with the plane that is known, then with a free one; and again where
+  /// that is not good.
   tp::Status align(const tp::PyramidView& image, PlaneState& state) {
     const PlaneState start = state;
     const tp::Status status = descend(image, kAllLevels, state);

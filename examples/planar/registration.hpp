@@ -1,7 +1,9 @@
-// Where one photograph lies in another by the same camera that hardly moved, whatever the light: what trials take for the truth.
+// Where one photograph lies in another by the same camera that hardly moved, whatever the light: what trials take for
+// the truth.
 //
-// None of textplane takes part, so that the truth does not lean to one aligner: corners of OpenCV, each with the square round it found
-// in the other photograph by exhaustive correlation there and back, and one similarity through all that agree.
+// None of textplane takes part, so that the truth does not lean to one aligner: corners of OpenCV, each with the square
+// round it found in the other photograph by exhaustive correlation there and back, and one similarity through all that
+// agree.
 #ifndef TEXTPLANE_EXAMPLES_REGISTRATION_HPP
 #define TEXTPLANE_EXAMPLES_REGISTRATION_HPP
 
@@ -21,14 +23,15 @@ struct Registration {
   double residual = 0;  ///< px: their mean distance.
 };
 
-/// Registers photographs that were compared with their surroundings once: compare() of each. Throws std::runtime_error where fewer than
-/// a dozen matches are found.
+/// Registers photographs that were compared with their surroundings once: compare() of each. Throws std::runtime_error
+/// where fewer than a dozen matches are found.
 Registration register_still(const cv::Mat& first, const cv::Mat& other);
 
 /// A grey photograph with the mean of its surroundings taken away and divided by their deviation.
 cv::Mat compare(const cv::Mat& grey);
 
-/// Mean and largest difference, px, at points between the registration 0 to j and that by way of i, over all pairs i < j: from[i][j].
+/// Mean and largest difference, px, at points between the registration 0 to j and that by way of i, over all pairs i <
+/// j: from[i][j].
 struct Consistency {
   double mean = 0, largest = 0;
 };

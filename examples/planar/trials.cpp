@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "planar/peers.hpp"
-#include "planar/registration.hpp"
 #include "renderer/random.hpp"
-#include "textslam/detect/classical_detector.hpp"
 
 namespace planar {
 
@@ -21,9 +16,10 @@ namespace {
 using textslam::InputError;
 using Matrix = tp::Matrix3<double>;
 
-constexpr double kSuccess = 1.0, kMinHeight = 20, kMinWidth = 60, kBorder = 12;  // px
+constexpr double kSuccess = 1.0;  // px
 
-/// The pose and plane whose homography is H at four corners: a pose for each H that is not far from that of a camera.
+/// The pose and plane that map four corners of the host to four of the target. Converges from a homography near one of
+/// a camera.
 class CornerProblem {
  public:
   using State = PlaneState;
@@ -75,7 +71,7 @@ double corner_error(const tp::Quad<double>& a, const tp::Quad<double>& b) {
   return sum;
 }
 
-/// `state` turned, shifted and scaled at random so that its corners are `offset` px from where they were, on average.
+/// `state` turned, shifted and scaled at random. Its corners move by `offset` px on average.
 PlaneState perturbed(const PlaneTracker& tracker, const PlaneState& state, double offset, textslam::Random& random) {
   const tp::Quad<double> there = tracker.quad(state);
   const double reach = tracker.camera().fx / (0.5 * (there.corner[0] - there.corner[2]).norm());
@@ -86,20 +82,6 @@ PlaneState perturbed(const PlaneTracker& tracker, const PlaneState& state, doubl
   for (int k = 0; k < 20; ++k) {
     out.T_t_h = tp::se3_exp(xi) * state.T_t_h;
     xi *= offset / corner_error(tracker.quad(out), there);
-  }
-  return out;
-}
-
-std::vector<tp::Quad<double>> text_quads(const textslam::Image<std::uint8_t>& image,
-                                         const std::vector<tp::Vector2<double>>& not_text) {
-  std::vector<tp::Quad<double>> out;
-  for (const auto& d : textslam::ClassicalDetector().detect({}, image.view())) {
-    const auto& c = d.quad.corner;
-    const bool text = std::none_of(not_text.begin(), not_text.end(),
-                                   [&d](const tp::Vector2<double>& p) { return tp::contains(d.quad, p); });
-    if (text && (c[0] - c[3]).norm() >= kMinHeight && (c[0] - c[1]).norm() >= kMinWidth &&
-        tp::inside_image(d.quad, image.width(), image.height(), kBorder))
-      out.push_back(d.quad);
   }
   return out;
 }
@@ -127,14 +109,6 @@ std::vector<tp::Quad<double>> random_quads(const textslam::Image<std::uint8_t>& 
   return out;
 }
 
-Matrix read_homography(const std::string& path) {
-  std::ifstream file(path);
-  Matrix H;
-  for (int i = 0; i < 9; ++i)
-    if (!(file >> H(i / 3, i % 3))) throw InputError(path, 0, "not nine numbers");
-  return H;
-}
-
 /// The levels of a pyramid by local contrast, each on its own.
 class LocalLevels {
  public:
@@ -149,7 +123,7 @@ class LocalLevels {
   const tp::PyramidView& view() const noexcept { return view_; }
 
  private:
-  std::vector<tp::Image<std::uint8_t>> levels_;  // moved, their pixels stay where they are
+  std::vector<tp::Image<std::uint8_t>> levels_;  // moving them keeps their pixels in place
   tp::PyramidView view_;
 };
 
@@ -159,95 +133,72 @@ double median(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+/// A PhotoSet with its pixels, and the quads that trials start from.
+struct Photos {
+  textslam::Image<std::uint8_t> first;
+  tp::Pyramid first_pyramid;
+  std::vector<tp::Pyramid> others;
+  std::vector<LocalLevels> local;  ///< of the first, then of the others
+  std::vector<tp::Quad<double>> quads;
+};
+
+Photos load_photos(const PhotoSet& set, int count, textslam::Random& random) {
+  const int levels = PlaneTrackerOptions().select.levels;
+  Photos p;
+  p.first = textslam::load_grey(set.first);
+  p.first_pyramid.build(p.first.view(), levels);
+  p.local.emplace_back(p.first_pyramid.view());
+  for (const std::string& other : set.others) {
+    p.others.emplace_back(textslam::load_grey(other).view(), levels);
+    p.local.emplace_back(p.others.back().view());
+  }
+  p.quads = set.text ? text_quads(p.first, set.not_text) : random_quads(p.first, count, random);
+  return p;
+}
+
+/// A quad of photos.first, its true place in photograph `other`, and where the aligners start.
+struct Trial {
+  const Photos& photos;
+  std::size_t other;
+  const tp::Quad<double>& quad;
+  const tp::Quad<double>& truth;
+  const PlaneState& start;
+};
+
+/// Runs all aligners and counts their successes. Times are kept of starts that are `off`.
+void run_trial(const Trial& t, bool off, PlaneTracker& tracker, std::vector<Score>& scores,
+               std::vector<std::vector<double>>& times) {
+  const Photos& p = t.photos;
+  const tp::Pyramid& other = p.others[t.other];
+  const tp::Pinhole<double>& camera = tracker.camera();
+  const Matrix H = tp::pixel_homography(tp::plane_homography(t.start.theta, t.start.T_t_h), camera, camera);
+  PlaneState state = t.start;
+  Matrix ecc = H, local = H, ssd = H;
+  const std::function<bool()> align[] = {
+      [&] { return tp::is_ok(tracker.align(other, state)); },
+      [&] { return align_ecc(p.first_pyramid, t.quad, other, &ecc); },
+      [&] { return align_ecc(p.local[0].view(), t.quad, p.local[t.other + 1].view(), &local); },
+      [&] { return align_ssd(tracker.patch(), other, &ssd); }};
+  for (std::size_t k = 0; k < scores.size(); ++k) {
+    const std::clock_t begin = std::clock();
+    const bool ok = align[k]();
+    if (off) times[k].push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    tp::Quad<double> found = tracker.quad(state);
+    if (!ok || (k > 0 && !tp::is_ok(tp::transform(t.quad, k == 1 ? ecc : k == 2 ? local : ssd, &found)))) continue;
+    if (corner_error(found, t.truth) < kSuccess) ++(off ? scores[k].successes : scores[k].from_truth);
+  }
+}
+
 }  // namespace
 
-std::vector<PhotoSet> read_still_scenes(const std::string& folder, const std::vector<std::string>& not_text,
-                                        TruthPrecision* precision) {
-  std::vector<PhotoSet> out;
-  if (!std::filesystem::is_directory(folder)) throw InputError(folder, 0, "no such folder");
-  std::vector<std::string> scenes;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_directory()) scenes.push_back(entry.path().string());
-  std::sort(scenes.begin(), scenes.end());
-  std::vector<std::vector<tp::Vector2<double>>> places(scenes.size());
-  for (const std::string& place : not_text) {
-    std::size_t scene = 0;
-    double x = 0, y = 0;
-    if (std::sscanf(place.c_str(), "%zu,%lf,%lf", &scene, &x, &y) != 3 || scene >= scenes.size())
-      throw InputError(folder, 0, "has no place " + place);
-    places[scene].emplace_back(x, y);
-  }
-  *precision = {};
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(scenes[s])) files.push_back(entry.path().string());
-    std::sort(files.begin(), files.end());
-    if (files.size() < 2) throw InputError(scenes[s], 0, "fewer than two photographs");
-    std::vector<cv::Mat> seen;
-    for (const std::string& file : files) {
-      const auto image = textslam::load_grey(file);
-      seen.push_back(compare(cv::Mat(image.height(), image.width(), CV_8U, const_cast<std::uint8_t*>(image.data()))));
-    }
-    std::vector<std::vector<Registration>> from(files.size(), std::vector<Registration>(files.size()));
-    for (std::size_t i = 0; i < files.size(); ++i)
-      for (std::size_t j = i + 1; j < files.size(); ++j) from[i][j] = register_still(seen[i], seen[j]);
-
-    PhotoSet set;
-    set.first = files[0];
-    set.others.assign(files.begin() + 1, files.end());
-    set.not_text = places[s];
-    for (std::size_t j = 1; j < files.size(); ++j) {
-      set.truth.push_back(from[0][j].H);
-      precision->residual += from[0][j].residual / static_cast<double>(set.others.size() * scenes.size());
-    }
-    std::vector<cv::Point2d> centres;
-    for (const tp::Quad<double>& quad : text_quads(textslam::load_grey(files[0]), set.not_text))
-      centres.emplace_back(tp::centroid(quad)[0], tp::centroid(quad)[1]);
-    const Consistency round = round_trips(from, centres);
-    precision->round_trip += round.mean / static_cast<double>(scenes.size());
-    precision->largest_round_trip = std::max(precision->largest_round_trip, round.largest);
-    out.push_back(std::move(set));
-  }
-  if (out.empty()) throw InputError(folder, 0, "no scenes");
-  return out;
-}
-
-std::vector<PhotoSet> read_oxford(const std::string& folder) {
-  PhotoSet set;
-  set.text = false;
-  set.first = folder + "/img1.png";
-  for (int i = 2; i <= 6; ++i) {
-    set.others.push_back(folder + "/img" + std::to_string(i) + ".png");
-    Matrix H = read_homography(folder + "/H1to" + std::to_string(i) + "p.txt");
-    refine_whole(textslam::load_grey(set.first).view(), textslam::load_grey(set.others.back()).view(), &H);
-    set.truth.push_back(H);
-  }
-  return {set};
-}
-
 Trials run_trials(const std::vector<PhotoSet>& sets, int count, double offset, std::uint64_t seed) {
-  const int levels = PlaneTrackerOptions().select.levels;
-  struct Photos {
-    textslam::Image<std::uint8_t> first;
-    tp::Pyramid first_pyramid;
-    std::vector<tp::Pyramid> others;
-    std::vector<LocalLevels> local;  // of the first, then of the others
-    std::vector<tp::Quad<double>> quads;
-  };
-  std::vector<Photos> photos;
   Trials out;
   textslam::Random random(seed);
+  std::vector<Photos> photos;
   for (const PhotoSet& set : sets) {
-    Photos& p = photos.emplace_back();
-    p.first = textslam::load_grey(set.first);
-    p.first_pyramid.build(p.first.view(), levels);
-    p.local.emplace_back(p.first_pyramid.view());
-    for (const std::string& other : set.others) {
-      p.others.emplace_back(textslam::load_grey(other).view(), levels);
-      p.local.emplace_back(p.others.back().view());
-    }
-    p.quads = set.text ? text_quads(p.first, set.not_text) : random_quads(p.first, count, random);
-    out.quads += static_cast<int>(p.quads.size());
+    photos.push_back(load_photos(set, count, random));
+    out.quads += static_cast<int>(photos.back().quads.size());
   }
   if (out.quads == 0) throw InputError(sets.front().first, 0, "no text found");
 
@@ -255,15 +206,14 @@ Trials run_trials(const std::vector<PhotoSet>& sets, int count, double offset, s
   std::vector<std::vector<double>> times(out.scores.size());
   while (out.count < count) {
     const auto s = static_cast<std::size_t>(random.below(static_cast<int>(sets.size())));
-    Photos& p = photos[s];
+    const Photos& p = photos[s];
     if (p.quads.empty()) continue;
     const tp::Quad<double>& quad = p.quads[static_cast<std::size_t>(random.below(static_cast<int>(p.quads.size())))];
     const auto o = static_cast<std::size_t>(random.below(static_cast<int>(p.others.size())));
-    const tp::Pyramid& other = p.others[o];
     PlaneTracker tracker(p.first.view(), quad);
     tp::Quad<double> truth;
     if (!tp::is_ok(tracker.status()) || !tp::is_ok(tp::transform(quad, sets[s].truth[o], &truth))) continue;
-    if (!tp::inside_image(truth, other.level(0).width(), other.level(0).height(), kBorder)) continue;
+    if (!tp::inside_image(truth, p.others[o].level(0).width(), p.others[o].level(0).height(), kBorder)) continue;
     CornerProblem corners(quad, truth, tracker.camera());
     PlaneState exact;
     tp::SolveOptions solve;
@@ -271,28 +221,9 @@ Trials run_trials(const std::vector<PhotoSet>& sets, int count, double offset, s
     tp::minimise(corners, exact, solve);
     if (corner_error(tracker.quad(exact), truth) > 0.01) continue;
     ++out.count;
-
     const PlaneState start = perturbed(tracker, exact, offset, random);
-    for (const bool off : {true, false}) {
-      const PlaneState& from = off ? start : exact;
-      const Matrix H =
-          tp::pixel_homography(tp::plane_homography(from.theta, from.T_t_h), tracker.camera(), tracker.camera());
-      PlaneState state = from;
-      Matrix ecc = H, local = H, ssd = H;
-      const std::function<bool()> align[] = {
-          [&] { return tp::is_ok(tracker.align(other, state)); },
-          [&] { return align_ecc(p.first_pyramid, quad, other, &ecc); },
-          [&] { return align_ecc(p.local[0].view(), quad, p.local[o + 1].view(), &local); },
-          [&] { return align_ssd(tracker.patch(), other, &ssd); }};
-      for (std::size_t k = 0; k < out.scores.size(); ++k) {
-        const std::clock_t begin = std::clock();
-        const bool ok = align[k]();
-        if (off) times[k].push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-        tp::Quad<double> found = tracker.quad(state);
-        if (!ok || (k > 0 && !tp::is_ok(tp::transform(quad, k == 1 ? ecc : k == 2 ? local : ssd, &found)))) continue;
-        if (corner_error(found, truth) < kSuccess) ++(off ? out.scores[k].successes : out.scores[k].from_truth);
-      }
-    }
+    run_trial({p, o, quad, truth, start}, true, tracker, out.scores, times);
+    run_trial({p, o, quad, truth, exact}, false, tracker, out.scores, times);
   }
   for (std::size_t k = 0; k < times.size(); ++k) out.scores[k].milliseconds = median(times[k]);
   return out;

@@ -21,16 +21,17 @@ struct Blur {
 };
 Blur blur_of(const Scene& scene, const CameraModel& camera, const Motion& motion, double middle, double exposure);
 
-/// The direction (unit vector, px) in which most of the image moves at a time; the x axis where the camera stands still.
+/// The direction (unit vector, px) in which most of the image moves at a time; the x axis where the camera stands
+/// still.
 Vector2<double> image_direction(const Scene& scene, const CameraModel& camera, const Motion& motion, double time);
 
-/// Number of instants for a blur of so many pixels: four where it does not show, else at least eight, and more than one a
-/// pixel; a multiple of eight.
+/// Number of instants for a blur of so many pixels: four where it does not show, else at least eight, and more than one
+/// a pixel; a multiple of eight.
 int instants_for(double blur);
 
-/// The sample of the grid that an instant takes: there and back again, 0 1 2 3 3 2 1 0. So where a sample lies has nothing to do
-/// with when it is taken. Otherwise the spread of a moving point would depend on the sign of its motion, as in no camera, and
-/// planes seen in passing would seem to be turned.
+/// The sample of the grid that an instant takes: there and back again, 0 1 2 3 3 2 1 0. So where a sample lies has
+/// nothing to do with when it is taken. Otherwise the spread of a moving point would depend on the sign of its motion,
+/// as in no camera, and planes seen in passing would seem to be turned.
 int sample_at(int instant);
 
 /// Light (0 to 255) that the shutter collects: one sample of the grid at each instant, averaged. `caster` holds

@@ -1,7 +1,8 @@
 // Kinds: what can be rendered by name. Each kind is a scene, a motion, a shutter and a sensor.
 //
-// What a sweep varies replaces a part of the kind: blur its shutter, gain and noise those of its sensor (conditions.hpp).
-// The detector's errors, jitter, missed and false detections, are the same for all kinds (detector_model.hpp).
+// What a sweep varies replaces a part of the kind: blur its shutter, gain and noise those of its sensor
+// (conditions.hpp). The detector's errors, jitter, missed and false detections, are the same for all kinds
+// (detector_model.hpp).
 #ifndef TEXTSLAM_RENDERER_KINDS_HPP
 #define TEXTSLAM_RENDERER_KINDS_HPP
 

@@ -42,8 +42,8 @@ Motion room_motion(std::uint64_t seed);
 Motion still_then_room_motion(std::uint64_t seed, double pause);
 /// The loop of the room, slower, with quick turns of the camera.
 Motion rapid_motion(std::uint64_t seed);
-/// Once round the middle of the room in eleven seconds, looking across it at one wall after the other, and on to see the first
-/// one again.
+/// Once round the middle of the room in eleven seconds, looking across it at one wall after the other, and on to see
+/// the first one again.
 Motion loop_motion(std::uint64_t seed);
 /// A walk along +y and, after more than eight seconds, back again.
 Motion corridor_motion(std::uint64_t seed);

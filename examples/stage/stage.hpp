@@ -1,6 +1,8 @@
-// Stage: one sign on a plastered wall, looked at from anywhere. What the numbered examples run on, with the exact truth.
+// Stage: one sign on a plastered wall, looked at from anywhere. What the numbered examples run on, with the exact
+// truth.
 //
-// The world's axes are those of a camera that faces the wall: x right, y down, z ahead, in metres. The sign's plate is centred at (0, 0, 2).
+// The world's axes are those of a camera that faces the wall: x right, y down, z ahead, in metres. The sign's plate is
+// centred at (0, 0, 2).
 #ifndef TEXTSLAM_STAGE_STAGE_HPP
 #define TEXTSLAM_STAGE_STAGE_HPP
 
@@ -14,8 +16,8 @@ namespace textslam {
 
 class Stage {
  public:
-  /// `turn`: the wall with its sign is turned by this rotation vector (rad) about the sign's centre. Throws std::runtime_error
-  /// where no font is found.
+  /// `turn`: the wall with its sign is turned by this rotation vector (rad) about the sign's centre. Throws
+  /// std::runtime_error where no font is found.
   explicit Stage(const std::string& word, const Vector3<double>& turn = Vector3<double>::Zero());
 
   /// Of all views: 480 x 360 px, no distortion.
@@ -38,7 +40,8 @@ SE3d camera_at(const Vector3<double>& position, const Vector3<double>& turn = Ve
 /// Mean distance of the corners, px.
 double corner_error(const Quad<double>& a, const Quad<double>& b);
 
-/// The quad under the pixel homography of the plane theta and the pose T_t_h, one camera for both views; NaN where it is behind.
+/// The quad under the pixel homography of the plane theta and the pose T_t_h, one camera for both views; NaN where it
+/// is behind.
 Quad<double> warped(const Quad<double>& quad, const Vector3<double>& theta, const SE3d& T_t_h,
                     const Pinhole<double>& camera);
 

@@ -1,12 +1,11 @@
 // textplane: version, inline ABI namespace and assert hook.
 //
-// Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of the
-// translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's largest alignment, and the
-// SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two
-// translation units built with different flags therefore keep their own copies, and passing a type from one to the other
-// is a link error instead of a corrupt heap.
-// It protects textplane's own functions. Those of Eigen and of the standard library that a compiler does not inline stay
-// shared, whichever copy the linker keeps; so kernels and small solvers call none (tests/simd/isa).
+// Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of
+// the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's largest alignment,
+// and the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two translation units built with different
+// flags therefore keep their own copies, and passing a type from one to the other is a link error instead of a corrupt
+// heap. It protects textplane's own functions. Those of Eigen and of the standard library that a compiler does not
+// inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none (tests/simd/isa).
 //
 // This header and simd/targets are the only ones that read compiler macros.
 #ifndef TEXTPLANE_CONFIG_HPP
@@ -71,11 +70,11 @@
   }                             \
   }
 
-// Deferred functions. A function of no template parameter of its own is compiled in every file that includes its header. A
-// deferred one, TEXTPLANE_DEFERRED before it, is compiled where it is called; callers do not see the parameter. A program with
-// compiled kernels (simd/targets.hpp) compiles it once: the header ends with a line TEXTPLANE_INSTANCE for it, inside
-// `#if defined(TEXTPLANE_EXTERN_KERNELS)`, which is its definition in the one file that defines the kernels and a declaration in
-// all others.
+// Deferred functions. A function of no template parameter of its own is compiled in every file that includes its
+// header. A deferred one, TEXTPLANE_DEFERRED before it, is compiled where it is called; callers do not see the
+// parameter. A program with compiled kernels (simd/targets.hpp) compiles it once: the header ends with a line
+// TEXTPLANE_INSTANCE for it, inside `#if defined(TEXTPLANE_EXTERN_KERNELS)`, which is its definition in the one file
+// that defines the kernels and a declaration in all others.
 #define TEXTPLANE_DEFERRED template <class = void>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
 #undef TEXTPLANE_EXTERN_KERNELS
@@ -85,8 +84,8 @@
 #define TEXTPLANE_INSTANCE extern template
 #endif
 
-// Checks of preconditions that only a bug in the caller can break. Off unless the embedder defines the macro, for example
-// as `assert(condition)`: the library itself never aborts.
+// Checks of preconditions that only a bug in the caller can break. Off unless the embedder defines the macro, for
+// example as `assert(condition)`: the library itself never aborts.
 #ifndef TEXTPLANE_ASSERT
 #define TEXTPLANE_ASSERT(condition) static_cast<void>(0)
 #endif

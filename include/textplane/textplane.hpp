@@ -1,4 +1,5 @@
-// textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on each other.
+// textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
+// each other.
 #ifndef TEXTPLANE_TEXTPLANE_HPP
 #define TEXTPLANE_TEXTPLANE_HPP
 

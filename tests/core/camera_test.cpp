@@ -24,6 +24,8 @@ template struct textplane::Pinhole<Dual<3>>;
 
 namespace camera_test {
 
+static_assert(!tp::is_camera_model<double>::value && !tp::is_camera_model<tp::Vector2<double>>::value, "");
+
 const tp::Pinhole<double> kPinhole(525.5, 519.25, 319.5, 241.75);
 
 template <class Model>

@@ -50,8 +50,8 @@ TEST(PointPatch, IsTheNormalisedPatchWithItsProjectedGradient) {
       return ((g.array() - g.mean()).matrix() - unit * unit.dot(g)) / s;
     };
     const Eigen::VectorXd jx = projected(gx), jy = projected(gy);
-    // Samples are off by 0.01 grey level (warp_patch()) and rounded to 1/32, half differences of them rounded down to it: to
-    // first order, what that does to mean, s, T~ and J~.
+    // Samples are off by 0.01 grey level (warp_patch()) and rounded to 1/32, half differences of them rounded down to
+    // it: to first order, what that does to mean, s, T~ and J~.
     const double root = std::sqrt(n), e = 0.01 + 1.0 / 64, eg = e + 1.0 / 64;
     const double g = std::max((gx.array() - gx.mean()).matrix().norm(), (gy.array() - gy.mean()).matrix().norm());
     EXPECT_NEAR(t.mean, mean, e);
@@ -104,8 +104,8 @@ TEST(PointPatch, RowSamplingEqualsPixelSamplingUpToTheBorders) {
   }
 }
 
-// What is left is interpolation, not convergence: a smaller epsilon, symmetric (ESM) gradients and cubic sampling of the
-// template change nothing for the better. It grows in the few patches with little texture.
+// What is left is interpolation, not convergence: a smaller epsilon, symmetric (ESM) gradients and cubic sampling of
+// the template change nothing for the better. It grows in the few patches with little texture.
 TEST(AlignTemplate, ReobservesAWarpedPatchToAFewHundredthsOfAPixel) {
   const int width = 480, height = 360;
   Matrix3d to_target;

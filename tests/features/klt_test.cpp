@@ -81,8 +81,9 @@ TEST(Klt, IsBlindToGainAndBias) {
     // The two may take their last step from neighbouring positions of the grid, 1/64 px apart, of which an iteration
     // removes more than four fifths.
     EXPECT_NEAR((plain[i].px - lit[i].px).norm(), 0, 1.0 / 320);
-    // Samples are off by -3/128 to 1/128 grey level. Less their mean, that turns the normalised patch by at most 1/64 of its
-    // contrast, half of that in the brighter image; what a turn d does to a correlation z is at most sqrt(1 - z^2) d + d^2 / 2.
+    // Samples are off by -3/128 to 1/128 grey level. Less their mean, that turns the normalised patch by at most 1/64
+    // of its contrast, half of that in the brighter image; what a turn d does to a correlation z is at most sqrt(1 -
+    // z^2) d + d^2 / 2.
     PointPatch seen;
     ASSERT_EQ(extract_point_patch(second.view(), plain[i].px, Eigen::Matrix2f::Identity(), 9, &seen), Status::ok);
     const double turn = 1.05 * 1.5 / 64 / seen.contrast(), z = plain[i].zncc;
@@ -131,7 +132,8 @@ TEST(Klt, UsesTheGuess) {
   EXPECT_GE(right(track(first, second, points, {}, guess.data())), n * 98 / 100);
 }
 
-// Strokes resemble strokes: a patch of few edges does find its like on a plane it never saw, so the bound is not zero: about 2 % pass.
+// Strokes resemble strokes: a patch of few edges does find its like on a plane it never saw, so the bound is not zero:
+// about 2 % pass.
 TEST(Klt, RejectsWhatIsNotThere) {
   int accepted = 0, n = 0;
   for (std::uint32_t seed = 101; seed <= 109; seed += 2) {

@@ -1,4 +1,5 @@
-// Eigen's dense decompositions as oracles. Each takes seconds to compile for each size it is used with: here once, for any size.
+// Eigen's dense decompositions as oracles. Each takes seconds to compile for each size it is used with: here once, for
+// any size.
 #ifndef TEXTPLANE_TESTS_SUPPORT_DENSE_HPP
 #define TEXTPLANE_TESTS_SUPPORT_DENSE_HPP
 

@@ -30,8 +30,8 @@ inline std::array<bool, simd::kTargetCount>& targets_run() {
   return run;
 }
 
-/// The targets that this build holds and this machine runs, scalar first; or the one of them that TEXTPLANE_TEST_TARGET names,
-/// for an emulator that is there for its sake.
+/// The targets that this build holds and this machine runs, scalar first; or the one of them that TEXTPLANE_TEST_TARGET
+/// names, for an emulator that is there for its sake.
 inline std::vector<simd::Target> testable_targets() {
   const char* const only = std::getenv("TEXTPLANE_TEST_TARGET");
   std::vector<simd::Target> targets;

@@ -1,7 +1,7 @@
 // OpenCV: images without copies, points, cameras and poses, and the boxes of text detectors as quads.
 //
-// Both libraries put the centre of the top-left pixel at (0, 0) and order distortion as k1 k2 p1 p2 k3, so nothing is converted
-// but types. Needs OpenCV's core module alone. No function throws; all may be called on any thread.
+// Both libraries put the centre of the top-left pixel at (0, 0) and order distortion as k1 k2 p1 p2 k3, so only types
+// are converted. Needs OpenCV's core module alone. No function throws; any number of threads.
 #ifndef TEXTPLANE_ADAPTERS_OPENCV_HPP
 #define TEXTPLANE_ADAPTERS_OPENCV_HPP
 
@@ -25,10 +25,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace adapters {
 
-/// A view of the pixels of `image`, T being const std::uint8_t (CV_8UC1) or const float (CV_32FC1), or the same without const. Regions of
-/// interest and padded rows are fine. Nothing is copied or held: the pixels must stay alive, and where they are, while the view is in use.
-/// invalid_argument, and *view empty, for any other type or number of channels, an empty image, or more than two dimensions;
-/// convert colour with cv::cvtColor before.
+/// A view of the pixels of `image`. T is std::uint8_t (CV_8UC1) or float (CV_32FC1), const or not. Regions of interest
+/// and padded rows are fine. Nothing is copied: the image must outlive the view and keep its buffer. invalid_argument,
+/// and *view empty, for any other type or number of channels (convert colour with cv::cvtColor), an empty image, or
+/// more than two dimensions.
 template <class T>
 Status view(const cv::Mat& image, ImageView<T>* view) noexcept {
   using Pixel = std::remove_const_t<T>;
@@ -42,8 +42,8 @@ Status view(const cv::Mat& image, ImageView<T>* view) noexcept {
   return Status::ok;
 }
 
-/// A cv::Mat header over the pixels of a view, which stay where they are: for cv::imwrite and the like. Empty for a view that
-/// is not valid(). (cv::Mat knows no constant pixels: do not write to those of a constant view.)
+/// A cv::Mat header over the pixels of a view, without a copy, for cv::imwrite and the like. Empty for a view that is
+/// not valid(). cv::Mat has no constant pixels: do not write to those of a constant view.
 template <class T>
 cv::Mat to_mat(const ImageView<T>& view) {
   using Pixel = std::remove_const_t<T>;
@@ -79,8 +79,8 @@ inline Vector2<double> from_cv(const cv::KeyPoint& k) noexcept {
   return {static_cast<double>(k.pt.x), static_cast<double>(k.pt.y)};
 }
 
-/// The camera of a 3 x 3 matrix of intrinsics, CV_64F or CV_32F. invalid_argument, and *camera untouched, for another shape or
-/// type, skew, or a camera that is not valid().
+/// The camera of a 3 x 3 matrix of intrinsics, CV_64F or CV_32F. invalid_argument, and *camera untouched, for another
+/// shape or type, skew, or a camera that is not valid().
 inline Status camera_from_cv(const cv::Mat& K, Pinhole<double>* camera) noexcept {
   if (K.dims != 2 || K.rows != 3 || K.cols != 3 || (K.type() != CV_64FC1 && K.type() != CV_32FC1))
     return Status::invalid_argument;
@@ -106,12 +106,11 @@ inline void pose_to_cv(const SE3d& T, cv::Vec3d* rotation, cv::Vec3d* translatio
   *translation = {T.t[0], T.t[1], T.t[2]};
 }
 
-/// Corners clockwise from the text's top left, from four corners in either turn that begin anywhere.
+/// Four corners of either orientation, starting anywhere, as a quad: clockwise from the text's top left.
 ///
-/// Detectors that fit rectangles to blobs (cv::minAreaRect, and so cv::dnn's DB) do not know where a word begins. Taken is the one of the two
-/// longer sides as its top that makes it read to the right; straight up or down, downwards. A sign that hangs on its head is
-/// taken as upright.
-/// degenerate, and *out untouched, for corners that are not convex; non_finite for NaN.
+/// Detectors that fit rectangles to blobs (cv::minAreaRect, and so cv::dnn's DB) do not know where a word begins. The
+/// top is the longer side that makes the text read to the right, or downwards where it is vertical. So an upside-down
+/// sign counts as upright. degenerate, and *out untouched, for corners that are not convex; non_finite for NaN.
 inline Status reading_order(const Quad<double>& corners, Quad<double>* out) noexcept {
   if (!all_finite(corners)) return Status::non_finite;
   if (!is_convex(corners)) return Status::degenerate;
@@ -119,7 +118,7 @@ inline Status reading_order(const Quad<double>& corners, Quad<double>* out) noex
   if (area(q) < 0) q.corner = {corners.corner[0], corners.corner[3], corners.corner[2], corners.corner[1]};
   const auto side = [&q](std::size_t i) { return Vector2<double>(q.corner[(i + 1) % 4] - q.corner[i % 4]); };
   const std::size_t pair = side(0).norm() + side(2).norm() >= side(1).norm() + side(3).norm() ? 0 : 1;
-  // The mean direction of the top, from where it would begin.
+  // The mean direction of the two longer sides, seen from the first as the top.
   const Vector2<double> along = side(pair) - side(pair + 2);
   const bool steep = std::abs(along[0]) <= 1e-6 * std::abs(along[1]);
   const std::size_t first = (steep ? along[1] > 0 : along[0] > 0) ? pair : pair + 2;
@@ -127,7 +126,8 @@ inline Status reading_order(const Quad<double>& corners, Quad<double>* out) noex
   return Status::ok;
 }
 
-/// The quad of a rotated rectangle, in reading_order(): cv::dnn::TextDetectionModel::detectTextRectangles, cv::minAreaRect.
+/// The quad of a rotated rectangle, in reading_order(): cv::dnn::TextDetectionModel::detectTextRectangles,
+/// cv::minAreaRect.
 inline Status quad_from_cv(const cv::RotatedRect& box, Quad<double>* out) noexcept {
   std::array<cv::Point2f, 4> p;
   box.points(p.data());
@@ -136,8 +136,8 @@ inline Status quad_from_cv(const cv::RotatedRect& box, Quad<double>* out) noexce
   return reading_order(corners, out);
 }
 
-/// The quad of four points, in reading_order(): cv::dnn::TextDetectionModel::detect, cv::boxPoints. invalid_argument for any
-/// other number of points.
+/// The quad of four points, in reading_order(): cv::dnn::TextDetectionModel::detect, cv::boxPoints. invalid_argument
+/// for any other number of points.
 template <class S>
 Status quad_from_cv(const std::vector<cv::Point_<S>>& points, Quad<double>* out) noexcept {
   if (points.size() != 4) return Status::invalid_argument;

@@ -1,14 +1,13 @@
-// Sophus, and pose types like it: to and from SE3, by concept. No Sophus header is included; what a type needs is
+// Sophus, and pose types like it: to and from SE3. No Sophus header is included; a type needs
 //
 //   rotationMatrix(), translation()              from_sophus(), and to_se3() of core/se3.hpp
 //   or so3().matrix(), translation()             from_sophus()
 //   Pose(Eigen::Quaternion, Vector3)             to_sophus()
 //   exp(Vector6), operator*                      apply_left(), apply_right()
 //
-// Sophus's tangent is (v, omega), translation first, as textplane's is (docs/conventions.md): no vector is reordered. textplane perturbs
-// T_t_h from the left; code that writes T * SE3d::exp(xi) perturbs from the right, and takes relative_pose_jacobians() or
-// adjoint() between.
-// SE3d::data() is a pose block of adapters/ceres.hpp.
+// Both libraries order tangents as (v, omega), translation first (docs/conventions.md). textplane perturbs T_t_h from
+// the left. Code that writes T * SE3d::exp(xi) perturbs from the right: convert with relative_pose_jacobians() or
+// adjoint(). SE3d::data() is a pose block of adapters/ceres.hpp.
 #ifndef TEXTPLANE_ADAPTERS_SOPHUS_HPP
 #define TEXTPLANE_ADAPTERS_SOPHUS_HPP
 
@@ -44,8 +43,8 @@ SE3<typename Pose::Scalar> from_sophus(const Pose& T) noexcept {
   }
 }
 
-/// The same for the other direction. Through a quaternion, normalised: Sophus aborts on a matrix that rounding has made not quite
-/// orthogonal.
+/// The pose of an SE3. It goes through a normalised quaternion: Sophus aborts on a matrix that is not orthogonal to
+/// rounding.
 template <class Pose, class S>
 Pose to_sophus(const SE3<S>& T) {
   static_assert(std::is_constructible<Pose, const Eigen::Quaternion<S>&, const Vector3<S>&>::value,
@@ -53,12 +52,12 @@ Pose to_sophus(const SE3<S>& T) {
   return Pose(Eigen::Quaternion<S>(T.R).normalized(), T.t);
 }
 
-/// Exp(xi) T: how a step for T_t_h, or for a world-to-camera pose, is taken.
+/// Exp(xi) T: applies a step of T_t_h, or of a world-to-camera pose.
 template <class Pose, class S>
 Pose apply_left(const Pose& T, const Vector6<S>& xi) {
   return Pose::exp(xi) * T;
 }
-/// T Exp(xi): how a step of solve_window(), or of linearise_host_target_plane() with PerturbationSide::right, is taken.
+/// T Exp(xi): applies a step of solve_window(), or of a linearisation with PerturbationSide::right.
 template <class Pose, class S>
 Pose apply_right(const Pose& T, const Vector6<S>& xi) {
   return T * Pose::exp(xi);

@@ -1,4 +1,4 @@
-// Memory for vector instructions: numbers in whole cache lines.
+// Arrays of numbers that begin at a cache line, for vector instructions.
 #ifndef TEXTPLANE_CORE_CACHE_LINE_HPP
 #define TEXTPLANE_CORE_CACHE_LINE_HPP
 
@@ -9,21 +9,21 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// As many numbers as a cache line of 64 bytes holds. A vector of these begins at a line, where one of plain numbers begins at 16
-/// bytes: loads of 64 bytes would take two lines each.
+/// The numbers of a cache line of 64 bytes. A std::vector of lines begins at a line. One of plain numbers is aligned to
+/// 16 bytes alone, so a load of 64 bytes would touch two lines.
 template <class T>
 struct alignas(64) CacheLine {
   static constexpr std::size_t kSize = 64 / sizeof(T);  ///< Numbers in a line.
   T of[kSize];                                          ///< The numbers.
 };
 
-/// Room for `count` numbers, zero, rounded up to lines.
+/// `count` zeros, rounded up to whole lines.
 template <class T>
 std::vector<CacheLine<T>> cache_lines(std::size_t count) {
   return std::vector<CacheLine<T>>((count + CacheLine<T>::kSize - 1) / CacheLine<T>::kSize);
 }
 
-/// Numbers that there is room for.
+/// Number of numbers in the lines.
 template <class T>
 std::size_t number_count(const std::vector<CacheLine<T>>& lines) noexcept {
   return lines.size() * CacheLine<T>::kSize;

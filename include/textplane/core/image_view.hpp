@@ -1,4 +1,4 @@
-// ImageView: pixels that somebody else owns, with a stride; Image: the plain owner that pyramids and examples use.
+// ImageView: pixels that someone else owns, with a stride. Image: the plain owner that pyramids and examples use.
 //
 // The centre of the top-left pixel is (0, 0). Strides are in bytes and may exceed the row; they may not be smaller.
 #ifndef TEXTPLANE_CORE_IMAGE_VIEW_HPP
@@ -19,8 +19,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 template <class T>
 class ImageView {
  public:
-  /// Type of a pixel, const where the view may not write.
-  using Pixel = T;
+  using Pixel = T;  ///< const where the view may not write.
   /// A byte of the same constness: strides count these.
   using Byte = std::conditional_t<std::is_const<T>::value, const unsigned char, unsigned char>;
 
@@ -36,14 +35,10 @@ class ImageView {
   ImageView(const ImageView<U>& other) noexcept
       : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
 
-  /// The top-left pixel.
-  T* data() const noexcept { return data_; }
-  /// In px.
-  int width() const noexcept { return width_; }
-  /// In px.
-  int height() const noexcept { return height_; }
-  /// Bytes from a row to the next.
-  std::ptrdiff_t stride() const noexcept { return stride_; }
+  T* data() const noexcept { return data_; }                  ///< The top-left pixel.
+  int width() const noexcept { return width_; }               ///< px.
+  int height() const noexcept { return height_; }             ///< px.
+  std::ptrdiff_t stride() const noexcept { return stride_; }  ///< Bytes from one row to the next.
 
   /// Not null, not empty, and no row overlaps the next.
   bool valid() const noexcept {
@@ -58,7 +53,7 @@ class ImageView {
   /// The pixel at column x, row y, not checked.
   T& operator()(int x, int y) const noexcept { return row(y)[x]; }
 
-  /// (x, y) has a pixel on each side to interpolate between: inside [0, width - 1] x [0, height - 1]. False for NaN.
+  /// (x, y) lies in [0, width - 1] x [0, height - 1], where bilinear interpolation is defined. False for NaN.
   template <class S>
   bool contains(const S& x, const S& y) const noexcept {
     return is_finite(x) && is_finite(y) && x >= S(0) && y >= S(0) && x <= S(width_ - 1) && y <= S(height_ - 1);
@@ -79,35 +74,25 @@ class Image {
   /// An image of width x height px, filled with `value`.
   Image(int width, int height, T value = T()) { resize(width, height, value); }
 
-  /// Makes it width x height px, filled with `value`; what it held is gone.
+  /// Makes it width x height px, filled with `value`.
   void resize(int width, int height, T value = T()) {
     width_ = width > 0 ? width : 0;
     height_ = height > 0 ? height : 0;
     pixels_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), value);
   }
 
-  /// In px.
-  int width() const noexcept { return width_; }
-  /// In px.
-  int height() const noexcept { return height_; }
-  /// Whether it has no pixels.
-  bool empty() const noexcept { return pixels_.empty(); }
-  /// The top-left pixel; rows follow without gaps.
-  T* data() noexcept { return pixels_.data(); }
-  /// The top-left pixel; rows follow without gaps.
-  const T* data() const noexcept { return pixels_.data(); }
-  /// The pixel at column x, row y, not checked.
-  T& operator()(int x, int y) noexcept { return pixels_[index(x, y)]; }
-  /// The pixel at column x, row y, not checked.
-  const T& operator()(int x, int y) const noexcept { return pixels_[index(x, y)]; }
-  /// The first pixel of row y, not checked.
-  T* row(int y) noexcept { return pixels_.data() + index(0, y); }
-  /// The first pixel of row y, not checked.
-  const T* row(int y) const noexcept { return pixels_.data() + index(0, y); }
+  int width() const noexcept { return width_; }                                      ///< px.
+  int height() const noexcept { return height_; }                                    ///< px.
+  bool empty() const noexcept { return pixels_.empty(); }                            ///< Without pixels.
+  T* data() noexcept { return pixels_.data(); }                                      ///< The top-left pixel.
+  const T* data() const noexcept { return pixels_.data(); }                          ///< Likewise.
+  T& operator()(int x, int y) noexcept { return pixels_[index(x, y)]; }              ///< Column x, row y; not checked.
+  const T& operator()(int x, int y) const noexcept { return pixels_[index(x, y)]; }  ///< Likewise.
+  T* row(int y) noexcept { return pixels_.data() + index(0, y); }                    ///< Its first pixel; not checked.
+  const T* row(int y) const noexcept { return pixels_.data() + index(0, y); }        ///< Likewise.
 
-  /// A view of all of it, valid until the image is resized or gone.
+  /// A view of the whole image, valid until the image is resized or destroyed.
   ImageView<T> view() noexcept { return {pixels_.data(), width_, height_}; }
-  /// A view of all of it, valid until the image is resized or gone.
   ImageView<const T> view() const noexcept { return {pixels_.data(), width_, height_}; }
 
  private:

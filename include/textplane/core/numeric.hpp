@@ -1,6 +1,6 @@
-// Small numeric tools that every room stands on: finite checks that survive -ffast-math, and the fixed-size symmetric
-// solvers. They are written out here, not taken from Eigen's out-of-line algorithms, because Eigen's weak symbols would be
-// shared between translation units with different instruction sets (see config.hpp).
+// Small numeric tools of every folder: finite checks that survive -ffast-math, and symmetric solvers of fixed size.
+// They do not use Eigen's out-of-line algorithms: translation units with different instruction sets would share Eigen's
+// weak symbols (see config.hpp).
 #ifndef TEXTPLANE_CORE_NUMERIC_HPP
 #define TEXTPLANE_CORE_NUMERIC_HPP
 
@@ -23,7 +23,7 @@ template <class S>
 using Matrix3 = Eigen::Matrix<S, 3, 3>;  ///< A rotation or a homography.
 
 namespace detail {
-// The scalar that sums over measurements of type S run in: double for float, else S itself.
+// The scalar of sums over measurements of type S: double for float, else S itself.
 template <class S>
 struct WideScalar {
   using type = S;
@@ -36,8 +36,8 @@ template <class S>
 using Wide = typename WideScalar<S>::type;
 }  // namespace detail
 
-/// A B of fixed-size matrices, written out: Eigen's loop over such a product can stay a function of its own, with the
-/// instructions of whichever translation unit the linker takes it from; and compilers take long over its expressions.
+/// A B of fixed-size matrices, written out: Eigen's loop for it may become a weak symbol, with the instructions of
+/// whichever translation unit the linker chooses. Its expressions also take long to compile.
 template <class S, int Rows, int Inner, int Columns>
 Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
                                         const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
@@ -52,7 +52,7 @@ Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
   return c;
 }
 
-/// A^T B, written out likewise; long columns in two sums, which wait for each other half as long.
+/// A^T B, written out likewise. Long columns are summed in two chains, which halves the latency.
 template <class S, int Inner, int Rows, int Columns>
 Eigen::Matrix<S, Rows, Columns> transposed_product(const Eigen::Matrix<S, Inner, Rows>& a,
                                                    const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
@@ -113,13 +113,14 @@ inline bool is_finite(float x) noexcept {
   std::memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7f800000U) != 0x7f800000U;
 }
-/// The top bit of the result tells that x is not finite: with many numbers, cheaper to gather than a branch each.
+/// The top bit of the result is set where x is not finite. To check many numbers, OR the results: cheaper than
+/// branches.
 inline std::uint64_t not_finite_bit(double x) noexcept {
   std::uint64_t bits;
   std::memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7ff0000000000000ULL) + 0x0010000000000000ULL;
 }
-/// Other scalars (dual numbers): x - x is zero exactly for finite x. Has no bits to look at: -ffast-math folds it away.
+/// Other scalars (dual numbers): x - x is zero exactly for finite x. -ffast-math folds this one away.
 template <class S>
 bool is_finite(const S& x) noexcept {
   return x - x == S(0);
@@ -133,19 +134,17 @@ bool all_finite(const Eigen::DenseBase<Derived>& m) noexcept {
   return true;
 }
 
-/// Cholesky factorisation A = L D L^T of a symmetric N x N matrix, only the lower triangle of which is read.
+/// Cholesky factorisation A = L D L^T of a symmetric N x N matrix, of which the lower triangle is read.
 ///
-/// A pivot of at most `tolerance` times the diagonal entry it started from makes the matrix count as not positive definite.
-/// `ok()` then is false and solve() must not be called.
+/// The matrix counts as not positive definite where a pivot is at most `tolerance` times its diagonal entry of A. Then
+/// ok() is false, and solve() and inverse() must not be called.
 template <class S, int N>
 class Ldlt {
  public:
-  /// The matrix of the system.
-  using Matrix = Eigen::Matrix<S, N, N>;
-  /// Right side and solution.
-  using Vector = Eigen::Matrix<S, N, 1>;
+  using Matrix = Eigen::Matrix<S, N, N>;  ///< The matrix of the system.
+  using Vector = Eigen::Matrix<S, N, 1>;  ///< Right side and solution.
 
-  /// Factorises `a`, of which the lower triangle is read; a pivot below tolerance times its diagonal entry counts as zero.
+  /// Factorises `a`.
   explicit Ldlt(const Matrix& a, S tolerance = S(16) * std::numeric_limits<S>::epsilon()) noexcept : l_(a) {
     for (int j = 0; j < N; ++j) {
       S d = l_(j, j);
@@ -161,10 +160,9 @@ class Ldlt {
     ok_ = true;
   }
 
-  /// Whether every pivot was usable.
-  bool ok() const noexcept { return ok_; }
+  bool ok() const noexcept { return ok_; }  ///< Positive definite.
 
-  /// a^-1 b; of use where ok().
+  /// a^-1 b.
   Vector solve(const Vector& b) const noexcept {
     Vector x = b;
     for (int i = 0; i < N; ++i)
@@ -175,7 +173,7 @@ class Ldlt {
     return x;
   }
 
-  /// a^-1; of use where ok().
+  /// a^-1.
   Matrix inverse() const noexcept {
     Matrix inv;
     for (int c = 0; c < N; ++c) {
@@ -196,10 +194,8 @@ class Ldlt {
 /// Eigenvalues (ascending) and eigenvectors (columns) of a symmetric N x N matrix by cyclic Jacobi rotations.
 template <class S, int N>
 struct SymmetricEigen {
-  /// Eigenvalues.
-  Eigen::Matrix<S, N, 1> values;
-  /// Eigenvectors of unit length, a column each, in the order of the values.
-  Eigen::Matrix<S, N, N> vectors;
+  Eigen::Matrix<S, N, 1> values;   ///< Eigenvalues.
+  Eigen::Matrix<S, N, N> vectors;  ///< Eigenvectors of unit length: columns, in the order of the values.
 };
 
 /// Eigenvalues and eigenvectors of a symmetric matrix, by Jacobi rotations.

@@ -21,16 +21,13 @@ Matrix3<S> hat(const Vector3<S>& w) noexcept {
   return m;
 }
 
-/// A rigid motion p -> R p + t. A plain aggregate without alignment demands: store it, copy it, put it in any container.
+/// A rigid motion p -> R p + t. An aggregate without alignment requirements: any container may hold it.
 template <class S>
 struct SE3 {
-  static_assert(!std::is_integral<S>::value,
-                "textplane: a pose of integers; its scalar is float, double or a dual number");
+  static_assert(!std::is_integral<S>::value, "textplane: a pose of integers; use float, double or a dual number");
 
-  /// Rotation: source to destination frame.
-  Matrix3<S> R = Matrix3<S>::Identity();
-  /// Translation: the source's origin in the destination frame.
-  Vector3<S> t = Vector3<S>::Zero();
+  Matrix3<S> R = Matrix3<S>::Identity();  ///< Rotation: source to destination frame.
+  Vector3<S> t = Vector3<S>::Zero();      ///< Translation: the source's origin in the destination frame.
 
   /// A point of the source frame in the destination frame.
   Vector3<S> operator*(const Vector3<S>& p) const noexcept { return product(R, p) + t; }
@@ -55,7 +52,7 @@ bool all_finite(const SE3<S>& T) noexcept {
 }
 
 namespace detail {
-// sin(x)/x, (1 - cos x)/x^2, (x - sin x)/x^3 as functions of x^2. The series run well past the point where dividing loses
+// sin(x)/x, (1 - cos x)/x^2, (x - sin x)/x^3 as functions of x^2. The series cover the range where the quotients lose
 // digits, and keep dual numbers differentiable at zero.
 template <class S>
 struct ExpCoefficients {
@@ -88,8 +85,8 @@ Matrix3<S> so3_exp(const Vector3<S>& w) noexcept {
   return Matrix3<S>::Identity() + k.a * W + k.b * product(W, W);
 }
 
-/// Rotation vector of R, of length at most pi. R must be orthonormal with determinant 1. Near pi the sign of the axis is
-/// arbitrary; everywhere else so3_exp(so3_log(R)) = R.
+/// Rotation vector of R, of length at most pi. R must be orthonormal with determinant 1. Near pi the sign of the axis
+/// is arbitrary; everywhere else so3_exp(so3_log(R)) = R.
 template <class S>
 Vector3<S> so3_log(const Matrix3<S>& R) noexcept {
   using std::atan2;
@@ -175,7 +172,7 @@ Eigen::Matrix<S, 6, 6> adjoint(const SE3<S>& T) noexcept {
   return a;
 }
 
-/// T with its rotation made orthonormal again (Gram-Schmidt), for poses that come from text files or long products.
+/// T with its rotation made orthonormal (Gram-Schmidt), for poses from text files or long products.
 template <class S>
 SE3<S> renormalised(const SE3<S>& T) noexcept {
   Vector3<S> x = T.R.col(0).normalized();

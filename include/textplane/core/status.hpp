@@ -8,8 +8,8 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Outcome of a kernel or a solve. The first three carry a usable result, all others leave the documented fallback
-/// (the input state for solvers, zeros for sums) in the result.
+/// Outcome of a kernel or a solve. The first three come with a usable result, all others with the documented fallback:
+/// the input state of a solver, zeros for sums.
 enum class Status : std::uint8_t {
   ok,                ///< A single evaluation succeeded.
   converged,         ///< An iteration met its step or cost tolerance.

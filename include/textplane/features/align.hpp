@@ -71,8 +71,8 @@ inline Correlation correlate(const PointPatch& t, const ImageView8& image, float
   return c;
 }
 
-// Iterates from (x, y) with a patch whose status is ok. out_of_view or no_contrast where the start has no correlation (x, y
-// stay); out_of_view where the last step left the image (x, y: the best inside); rank_deficient.
+// Iterates from (x, y) with a patch whose status is ok. out_of_view or no_contrast where the start has no correlation
+// (x, y stay); out_of_view where the last step left the image (x, y: the best inside); rank_deficient.
 inline Alignment align_translation(const PointPatch& t, const ImageView8& image, float x, float y,
                                    const KltOptions& options) noexcept {
   Alignment result{x, y, 0, Status::iteration_limit};

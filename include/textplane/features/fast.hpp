@@ -39,8 +39,8 @@ struct FastCircle {
   }
 };
 
-// The largest threshold at which the pixel is a corner: the smallest difference along an arc of 9 pixels, maximised over the
-// 16 arcs, brighter and darker, less one because the comparison is strict. At least -1.
+// The largest threshold at which the pixel is a corner: the smallest difference along an arc of 9 pixels, maximised
+// over the 16 arcs, brighter and darker, less one because the comparison is strict. At least -1.
 inline int fast_score(const std::uint8_t* p, const FastCircle& circle) noexcept {
   int low[24], high[24];  // minimum and maximum of the differences along arcs, whose length doubles in every pass
   for (int k = 0; k < 16; ++k) low[k] = high[k] = *p - p[circle.offset[k]];
@@ -115,8 +115,8 @@ void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8
 
 }  // namespace detail
 
-/// FAST score of pixel (x, y): the largest threshold at which it is a corner, -1 where it is none at any threshold or lies
-/// less than 3 px from a border. No allocation.
+/// FAST score of pixel (x, y): the largest threshold at which it is a corner, -1 where it is none at any threshold or
+/// lies less than 3 px from a border. No allocation.
 inline int fast_score(const ImageView8& image, int x, int y) noexcept {
   if (!image.valid() || x < 3 || y < 3 || x >= image.width() - 3 || y >= image.height() - 3) return -1;
   return detail::fast_score(image.row(y) + x, detail::FastCircle(image.stride()));
@@ -130,8 +130,8 @@ constexpr std::size_t fast_scratch_size(int width) noexcept {
 /// FAST-9/16 corners of `image` in raster order, in the caller's memory. `threshold`: intensity, clamped to [0, 255].
 /// `suppress`: keep a corner only where its score exceeds those of its eight neighbours. Corners lie at least 3 px from
 /// every border. `scratch`: fast_scratch_size(width) bytes, may be null without `suppress`. Writes at most `capacity`
-/// corners to `out`; `*found` is the number of all corners, which may be larger. Status::invalid_argument (and *found = 0)
-/// for an invalid view or a missing buffer. No allocation; any number of threads.
+/// corners to `out`; `*found` is the number of all corners, which may be larger. Status::invalid_argument (and *found =
+/// 0) for an invalid view or a missing buffer. No allocation; any number of threads.
 inline Status detect_fast(const ImageView8& image, int threshold, bool suppress, std::uint8_t* scratch, Corner* out,
                           int capacity, int* found) noexcept {
   *found = 0;
@@ -157,8 +157,9 @@ inline Status detect_fast(const ImageView8& image, int threshold, bool suppress,
   return Status::ok;
 }
 
-/// Keeps the corners that the highest threshold with `enough` corners finds. Thresholds are `first`, lower(first) and so on
-/// down to `lowest`, which keeps all. Detect once at `lowest`: a score is the largest threshold that finds the corner.
+/// Keeps the corners that the highest threshold with `enough` corners finds. Thresholds are `first`, lower(first) and
+/// so on down to `lowest`, which keeps all. Detect once at `lowest`: a score is the largest threshold that finds the
+/// corner.
 template <class Lower>
 void keep_enough(std::vector<Corner>* corners, int first, int lowest, int enough, const Lower& lower) {
   for (int threshold = first;; threshold = std::max(lower(threshold), lowest)) {

@@ -1,4 +1,5 @@
-// KLT: sparse tracking from one image pyramid to another, coarse to fine, invariant to gain and bias, with a backward check.
+// KLT: sparse tracking from one image pyramid to another, coarse to fine, invariant to gain and bias, with a backward
+// check.
 //
 // Lucas and Kanade 1981 and Tomasi and Kanade 1991 with the normalised inverse-compositional step of align.hpp on every
 // level; pyramid levels as in docs/conventions.md: level l pixel = (x + 0.5) / 2^l - 0.5.
@@ -32,8 +33,8 @@ inline void cut_extents(const Vector2<float>& at, const Vector2<float>& start, c
   t->rows = t->top + 1 + beyond(from.height(), at[1], to.height(), start[1]);
 }
 
-// The second try on a coarse level: aligns from the best correlation on a grid round the start. Returns that alignment or
-// `missed`, the one with the larger correlation.
+// The second try on a coarse level: aligns from the best correlation on a grid round the start. Returns that alignment
+// or `missed`, the one with the larger correlation.
 inline Alignment search(const PointPatch& t, const ImageView8& image, const Vector2<float>& start,
                         const Alignment& missed, const KltOptions& options) noexcept {
   constexpr int kRadius = 3;
@@ -109,12 +110,13 @@ inline bool valid_levels(const PyramidView& pyramid, int levels) noexcept {
 /// `guess` (predicted positions in `to`, or null: from_px) are in px of level 0. Points are independent of each other:
 /// split the range to use several threads. No allocation.
 ///
-/// The patch, with one more ring of pixels for its gradients, must lie inside the image at level 0. On coarser levels it is
-/// cut at the borders; a level is skipped where fewer than 7 px a side remain or where it does not align.
+/// The patch, with one more ring of pixels for its gradients, must lie inside the image at level 0. On coarser levels
+/// it is cut at the borders; a level is skipped where fewer than 7 px a side remain or where it does not align.
 /// out[i].status: converged or iteration_limit for a track that passed every check; out_of_view, no_contrast or
-/// rank_deficient (texture in one direction only) at level 0; diverged where the correlation is below min_zncc or the point
-/// tracked back is more than max_forward_backward px off (see zncc and fb_error); non_finite (px = 0); invalid_argument for
-/// broken pyramids or options. On every failure but `diverged`, px is the guess or the estimate of the coarser levels.
+/// rank_deficient (texture in one direction only) at level 0; diverged where the correlation is below min_zncc or the
+/// point tracked back is more than max_forward_backward px off (see zncc and fb_error); non_finite (px = 0);
+/// invalid_argument for broken pyramids or options. On every failure but `diverged`, px is the guess or the estimate of
+/// the coarser levels.
 TEXTPLANE_DEFERRED
 void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<float>* from_px,
                const Vector2<float>* guess, int n, const KltOptions& options, KltResult* out) noexcept {

@@ -1,10 +1,11 @@
 // PointPatch: the small patch round a point, zero mean and unit norm, with the Jacobian of its intensities.
 //
-// T~ = (T - mean) / s over the N samples, s = ||T - mean|| (docs/equations.md). For a translation the gradient of T~ is J~ = (1/s) (I - 1 1^T/N - T~ T~^T) grad T. J~ is orthogonal to 1 and to T~, so in the
-// inverse-compositional step sum J~ (I~ - T~) = (1/s_I) sum J~ I: neither gain nor bias of the target enters.
+// T~ = (T - mean) / s over the N samples, s = ||T - mean|| (docs/equations.md). For a translation the gradient of T~ is
+// J~ = (1/s) (I - 1 1^T/N - T~ T~^T) grad T. J~ is orthogonal to 1 and to T~, so in the inverse-compositional step sum
+// J~ (I~ - T~) = (1/s_I) sum J~ I: neither gain nor bias of the target enters.
 //
-// Neither T~ nor J~ is ever formed. T and grad T are kept as int16 (simd/klt.hpp), and their sums are exact integers; mean,
-// norm and projection are applied to these sums.
+// Neither T~ nor J~ is ever formed. T and grad T are kept as int16 (simd/klt.hpp), and their sums are exact integers;
+// mean, norm and projection are applied to these sums.
 #ifndef TEXTPLANE_FEATURES_POINT_PATCH_HPP
 #define TEXTPLANE_FEATURES_POINT_PATCH_HPP
 
@@ -23,8 +24,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Largest radius of a patch: 21 x 21 samples.
 constexpr int kMaxPatchRadius = 10;
 
-/// A normalised patch with gradients, ready to be aligned: columns x rows samples. The sample at (left, top) is the point,
-/// up to (dx, dy). Fixed capacity (4 KB), no allocation, freely copied.
+/// A normalised patch with gradients, ready to be aligned: columns x rows samples. The sample at (left, top) is the
+/// point, up to (dx, dy). Fixed capacity (4 KB), no allocation, freely copied.
 ///
 /// Samples are rounded to 1/32 grey level. Upright samples lie on a grid of 1/64 px, so (dx, dy) is at most 1/128 px.
 struct PointPatch {
@@ -139,8 +140,8 @@ inline Status extract_upright_patch(const ImageView8& image, float x, float y, P
   return t->status;
 }
 
-// Samples at centre + A (i, j), |i|, |j| <= reach. All lie inside the image, to rounding. `out` begins with the sample of
-// (-reach, -reach); its rows are simd::kKltStride floats apart.
+// Samples at centre + A (i, j), |i|, |j| <= reach. All lie inside the image, to rounding. `out` begins with the sample
+// of (-reach, -reach); its rows are simd::kKltStride floats apart.
 TEXTPLANE_DEFERRED
 void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A_f, int reach,
                    float* out) noexcept {
@@ -165,9 +166,9 @@ void sample_affine(const ImageView8& image, const Vector2<float>& centre, const 
 }  // namespace detail
 
 /// Samples a patch of (2 radius + 1)^2 pixels: its offset (dx, dy) shows `image` at centre + A (dx, dy), bilinearly.
-/// `A`: patch offset -> image offset (px). To observe a point of a key frame again, A is d(host pixel)/d(target pixel) between
-/// the levels used. Choose the host's level so that |A| is about 1: nothing is filtered here. `radius` in
-/// [1, kMaxPatchRadius]. One more ring of samples is read for the gradients (central differences). Returns, and stores in
+/// `A`: patch offset -> image offset (px). To observe a point of a key frame again, A is d(host pixel)/d(target pixel)
+/// between the levels used. Choose the host's level so that |A| is about 1: nothing is filtered here. `radius` in [1,
+/// kMaxPatchRadius]. One more ring of samples is read for the gradients (central differences). Returns, and stores in
 /// `t->status`: ok; out_of_view where a sample leaves the image; no_contrast; degenerate for a singular A; non_finite;
 /// invalid_argument. No allocation; any number of threads.
 TEXTPLANE_DEFERRED

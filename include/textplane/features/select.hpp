@@ -1,8 +1,8 @@
 // Selection: which pixels represent a text object, and which corners of an image are worth tracking.
 //
 // Section IV-A of the paper: text is represented by FAST points inside its quad, at least 15 of them. Here they are
-// distributed evenly over the quad, and pixels of strong gradient fill the gaps, so that a sum over them constrains the whole
-// plane.
+// distributed evenly over the quad, and pixels of strong gradient fill the gaps, so that a sum over them constrains the
+// whole plane.
 #ifndef TEXTPLANE_FEATURES_SELECT_HPP
 #define TEXTPLANE_FEATURES_SELECT_HPP
 
@@ -151,11 +151,11 @@ void fill_by_gradient(const ImageView8& image, const ConvexPolygon<double>& regi
 
 }  // namespace detail
 
-/// Representative pixels of a quad in an image: FAST corners inside it, distributed over a grid of about max_pixels cells,
-/// then the pixel of strongest gradient of every cell of a finer grid that is still empty, at most max_pixels in all. `quad`:
-/// px of `image`; the part of its convex hull inside the image counts. `out`: integer positions, replaced, each pixel
-/// once. Deterministic. Status::too_few where fewer than min_pixels qualify (`out` then holds those), degenerate for a quad
-/// without area, non_finite, invalid_argument. Allocates.
+/// Representative pixels of a quad in an image: FAST corners inside it, distributed over a grid of about max_pixels
+/// cells, then the pixel of strongest gradient of every cell of a finer grid that is still empty, at most max_pixels in
+/// all. `quad`: px of `image`; the part of its convex hull inside the image counts. `out`: integer positions, replaced,
+/// each pixel once. Deterministic. Status::too_few where fewer than min_pixels qualify (`out` then holds those),
+/// degenerate for a quad without area, non_finite, invalid_argument. Allocates.
 TEXTPLANE_DEFERRED
 Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
                      std::vector<Vector2<float>>& out) {
@@ -185,8 +185,8 @@ Status select_pixels(const ImageView8& image, const Quad<double>& quad, const Se
 }
 
 /// The strongest corner of every square cell of `cell` px of a width x height image that holds no point of `occupied`,
-/// strongest first (equal scores in raster order), at most `max_corners`. Corners and occupied points outside the image are
-/// ignored. `out` is replaced; it is empty for sizes that are not positive. Allocates.
+/// strongest first (equal scores in raster order), at most `max_corners`. Corners and occupied points outside the image
+/// are ignored. `out` is replaced; it is empty for sizes that are not positive. Allocates.
 TEXTPLANE_DEFERRED
 void select_spread(const std::vector<Corner>& corners, int width, int height, int cell, int max_corners,
                    const std::vector<Vector2<float>>& occupied, std::vector<Corner>& out) {
@@ -211,8 +211,9 @@ void select_spread(const std::vector<Corner>& corners, int width, int height, in
 }
 
 /// The patch of a text object: pixels selected on each of options.levels levels of its host image (fewer where the
-/// pyramid has fewer), with their intensities. `quad`: px of level 0; `camera`: the host's. Status of patch_from_pixels(), or
-/// of select_pixels() where the finest level fails: a patch without level 0 is of no use. Allocates.
+/// pyramid has fewer), with their intensities. `quad`: px of level 0; `camera`: the host's. Status of
+/// patch_from_pixels(), or of select_pixels() where the finest level fails: a patch without level 0 is of no use.
+/// Allocates.
 TEXTPLANE_DEFERRED
 TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {

@@ -69,8 +69,8 @@ struct WarpJacobians {
   Eigen::Matrix<S, 2, 3> theta;  ///< By theta.
 };
 
-/// m' of m~ through the plane, both depths checked: rho > 0 and q_z > 0, else behind_camera; non_finite for NaN and
-/// for overflow, of the derivatives too where they are asked for. Outputs are untouched on failure.
+/// m' of m~ through the plane. behind_camera unless both depths are positive (rho > 0, q_z > 0), non_finite for NaN and
+/// overflow, of requested derivatives too; then the outputs are untouched.
 ///
 /// dq = omega x q + rho v + t (m~ . dtheta) and dm' = P dq, P = (1/q_z) [I | -m'], so
 /// pose = P [rho I, -[q]x] and theta = (P t) m~^T.
@@ -112,9 +112,9 @@ struct RelativePoseJacobians {
   Eigen::Matrix<S, 6, 6> target;  ///< d xi(T_t_h) / d xi of the target's pose.
 };
 
-/// How perturbations of the world poses move T_t_h = T_w_t^-1 T_w_h, exactly and not to first order only:
-/// right: host = Ad(T_t_h), target = -I; left: host = Ad(T_w_t^-1), target = -Ad(T_w_t^-1). A Jacobian by the left
-/// perturbation of T_t_h times `host` or `target` is the Jacobian by that world pose.
+/// How perturbations of the world poses move T_t_h = T_w_t^-1 T_w_h. right: host = Ad(T_t_h), target = -I; left:
+/// host = Ad(T_w_t^-1), target = -Ad(T_w_t^-1). Both are exact, not first order. A Jacobian by the left perturbation of
+/// T_t_h times `host` or `target` is the Jacobian by that world pose.
 template <class S>
 RelativePoseJacobians<S> relative_pose_jacobians(const SE3<S>& T_w_h, const SE3<S>& T_w_t,
                                                  PerturbationSide side) noexcept {

@@ -1,9 +1,10 @@
-// Planes by their three parameters theta: from and to normal and distance, depth along a ray, and change of frame. Fits
-// of theta to measurements are in plane_fit.hpp.
+// Planes as three parameters theta: conversion from and to normal and distance, depth along a ray, change of frame.
+// Fits of theta to measurements are in plane_fit.hpp.
 //
 // A plane n^T p + d = 0 of the host camera frame is theta = -n / d, so theta^T p = 1 on the plane and the inverse depth
-// of the normalised point m~ = (u, v, 1) is rho = theta^T m~ (paper, eq. 1 to 3; docs/conventions.md, docs/equations.md). theta has
-// the unit of an inverse length; theta = 0 is the plane at infinity. The code published with the paper stores -theta.
+// of the normalised point m~ = (u, v, 1) is rho = theta^T m~ (paper, eq. 1 to 3; docs/conventions.md,
+// docs/equations.md). theta has the unit of an inverse length; theta = 0 is the plane at infinity. The code published
+// with the paper stores -theta.
 #ifndef TEXTPLANE_GEOMETRY_PLANE_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_HPP
 
@@ -16,8 +17,8 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// theta of the plane n^T p + d = 0: -n / d. n need not be a unit vector. Zero where d is zero or not finite: such a
-/// plane passes through the camera centre and has no theta.
+/// theta = -n / d of the plane n^T p + d = 0; n need not be a unit vector. Zero where d is not finite or zero: a plane
+/// through the camera centre has no theta.
 template <class S>
 Vector3<S> plane_from_normal(const Vector3<S>& n, const S& d) noexcept {
   if (!is_finite(d) || d == S(0)) return Vector3<S>::Zero();
@@ -75,8 +76,8 @@ Vector3<S> plane_point(const Vector3<S>& theta, const Vector3<S>& m) noexcept {
 ///
 /// J_theta (3 x 3): d theta' / d theta = (I - theta' t^T) R / k. J_pose (3 x 6): d theta' / d xi for the left
 /// perturbation T_t_h <- Exp(xi) T_t_h, xi = (v, omega): [-theta' theta'^T, -[theta']x]. behind_camera where k <= 0
-/// (the target centre lies on the plane or beyond it), non_finite for NaN and
-/// for overflow, of the derivatives too where they are asked for; outputs untouched.
+/// (the target centre lies on the plane or beyond it), non_finite for NaN and overflow, of requested derivatives too;
+/// then the outputs are untouched.
 template <class S>
 Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* out, Matrix3<S>* J_theta = nullptr,
                       Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {

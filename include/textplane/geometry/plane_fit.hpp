@@ -66,7 +66,8 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
 
 namespace detail {
 
-/// A Gauss-Newton step of plane_from_matches(): normal equations of theta's increment, chi^2 and the largest squared parallax.
+/// A Gauss-Newton step of plane_from_matches(): normal equations of theta's increment, chi^2 and the largest squared
+/// parallax.
 template <class W>
 struct MatchSystem {
   PlaneSums<W> sums;

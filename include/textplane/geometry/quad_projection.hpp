@@ -28,8 +28,8 @@ Status transform(const Quad<S>& quad, const Matrix3<S>& H, Quad<S>* out) noexcep
 }
 
 /// The image in the target (px) of a host quad (px) on the plane. behind_camera where a corner is not in front of both
-/// cameras, non_finite for NaN or overflow, invalid_argument for a host camera without focal length; *out is then untouched.
-/// Corners may lie outside the target image.
+/// cameras, non_finite for NaN or overflow, invalid_argument for a host camera without focal length; *out is then
+/// untouched. Corners may lie outside the target image.
 template <class S>
 Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta, const SE3<S>& T_t_h,
                     const Pinhole<S>& target, Quad<S>* out) noexcept {
@@ -46,8 +46,8 @@ Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S
   return Status::ok;
 }
 
-/// The four corners (px) on the plane, in the host frame. behind_camera or non_finite as plane_point(), invalid_argument for a
-/// host camera without focal length; *out untouched.
+/// The four corners (px) on the plane, in the host frame. behind_camera or non_finite as plane_point(),
+/// invalid_argument for a host camera without focal length; *out untouched.
 template <class S>
 Status quad_points(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S>& theta,
                    std::array<Vector3<S>, 4>* out) noexcept {

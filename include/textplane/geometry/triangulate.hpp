@@ -14,22 +14,6 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Angle between two rays or vectors, in [0, pi] rad; exact for small angles. 0 where one of them is zero.
-template <class S>
-S ray_angle(const Vector3<S>& a, const Vector3<S>& b) noexcept {
-  using std::atan2;
-  using std::sqrt;
-  const S sine2 = a.cross(b).squaredNorm();
-  return sine2 > S(0) ? S(atan2(S(sqrt(sine2)), a.dot(b))) : (a.dot(b) < S(0) ? S(atan2(S(0), S(-1))) : S(0));
-}
-
-/// Angle in rad under which the match m~_a, m~_b sees the baseline: between the ray of a, turned into frame b, and the
-/// ray of b.
-template <class S>
-S parallax_angle(const Vector3<S>& m_a, const Vector3<S>& m_b, const SE3<S>& T_b_a) noexcept {
-  return ray_angle<S>(T_b_a.R * m_a, m_b);
-}
-
 namespace detail {
 
 /// Reprojection error of p in all views: cost, and the normal equations. False where p is not in front of a camera.

@@ -1,13 +1,14 @@
-// What a camera model is: a struct template of one scalar S, in a file of its own in this folder, that is_camera_model accepts.
-// It maps a point p of the camera frame (metres, z forward) to a pixel, and a pixel to the ray m~ = (x/z, y/z, 1).
-// Pixels: the centre of the top-left pixel is (0, 0).
+// What a camera model is: a struct template of one scalar S, in a file of its own in this folder, that is_camera_model
+// accepts. It maps a point p of the camera frame (metres, z forward) to a pixel, and a pixel to the ray m~ = (x/z, y/z,
+// 1). Pixels: the centre of the top-left pixel is (0, 0).
 //
 //   kParameters         number of parameters: fx fy cx cy (px), then the coefficients of the lens
 //   parameters()        the parameters; from_parameters() is its inverse
 //   valid()             all parameters are finite and the focal lengths positive
 //   in_domain(p)        p is in front of the camera, where the lens model has an inverse
 //   project(p, J)       the pixel of p, which must be in the domain; J, unless null, receives d pixel / d p (2 x 3)
-//   unproject(px, &m)   the ray of a pixel. Status::degenerate where there is none, non_finite for NaN; m stays as it was
+//   unproject(px, &m)   the ray of a pixel. Status::degenerate where there is none, non_finite for NaN; m stays as it
+//                       was
 //   pinhole()           the camera of the undistorted image. Every kernel takes this one.
 //   is_pinhole()        there is nothing to undistort: project() is that of pinhole()
 //   at_level(l)         the camera of pyramid level l, whose pixels are (x + 0.5)/2^l - 0.5
@@ -32,20 +33,12 @@ struct is_camera_model : std::false_type {};
 template <template <class> class Model, class S>
 struct is_camera_model<
     Model<S>,
-    std::void_t<decltype(static_cast<Eigen::Matrix<S, Model<S>::kParameters, 1> (Model<S>::*)() const noexcept>(
-                    &Model<S>::parameters)),
-                decltype(static_cast<Model<S> (*)(const Eigen::Matrix<S, Model<S>::kParameters, 1>&) noexcept>(
-                    &Model<S>::from_parameters)),
-                decltype(static_cast<bool (Model<S>::*)() const noexcept>(&Model<S>::valid)),
-                decltype(static_cast<bool (Model<S>::*)(const Vector3<S>&) const noexcept>(&Model<S>::in_domain)),
-                decltype(static_cast<Vector2<S> (Model<S>::*)(const Vector3<S>&, Eigen::Matrix<S, 2, 3>*)
-                                         const noexcept>(&Model<S>::project)),
-                decltype(static_cast<Status (Model<S>::*)(const Vector2<S>&, Vector3<S>*) const noexcept>(
-                    &Model<S>::unproject)),
-                decltype(static_cast<const Pinhole<S>& (Model<S>::*)() const noexcept>(&Model<S>::pinhole)),
-                decltype(static_cast<bool (Model<S>::*)() const noexcept>(&Model<S>::is_pinhole)),
-                decltype(static_cast<Model<S> (Model<S>::*)(int) const noexcept>(&Model<S>::at_level))>>
-    : std::true_type {};
+    std::void_t<decltype(Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<Eigen::Matrix<S, 2, 3>*>(nullptr))),
+                         Status{Model<S>().unproject(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
+                         Pinhole<S>(Model<S>().pinhole()), Model<S>(Model<S>().at_level(0)),
+                         Model<S>::from_parameters(Model<S>().parameters()),
+                         Model<S>().valid() && Model<S>().is_pinhole() && Model<S>().in_domain(Vector3<S>()))>>
+    : std::integral_constant<bool, (Model<S>::kParameters >= 4)> {};
 
 TEXTPLANE_END_NAMESPACE
 

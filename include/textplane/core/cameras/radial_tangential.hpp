@@ -1,5 +1,5 @@
-// The radial-tangential camera (Brown-Conrady; OpenCV's and ORB-SLAM's order of coefficients): a pinhole behind a lens that
-// distorts normalised coordinates m = (x/z, y/z).
+// The radial-tangential camera (Brown-Conrady; OpenCV's and ORB-SLAM's order of coefficients): a pinhole behind a lens
+// that distorts normalised coordinates m = (x/z, y/z).
 #ifndef TEXTPLANE_CORE_CAMERAS_RADIAL_TANGENTIAL_HPP
 #define TEXTPLANE_CORE_CAMERAS_RADIAL_TANGENTIAL_HPP
 
@@ -79,9 +79,9 @@ struct RadialTangential {
             y * radial + p1 * (r2 + S(2) * y * y) + S(2) * p2 * x * y};
   }
 
-  /// Inverse of distort() by Newton's method. It stops one step after the residual falls below 1e-12 (float: 1e-6), so that the
-  /// derivative of a dual number has settled too. Status::degenerate where the lens model folds over (its Jacobian is singular
-  /// or reversed) or the iteration does not converge, non_finite for NaN; then `m` is untouched.
+  /// Inverse of distort() by Newton's method. It stops one step after the residual falls below 1e-12 (float: 1e-6), so
+  /// that the derivative of a dual number has settled too. Status::degenerate where the lens model folds over (its
+  /// Jacobian is singular or reversed) or the iteration does not converge, non_finite for NaN; then `m` is untouched.
   Status undistort(const Vector2<S>& distorted, Vector2<S>* m) const noexcept {
     using std::abs;
     if (!all_finite(distorted)) return Status::non_finite;
