@@ -1,4 +1,4 @@
-// 01: a sign, seen in one view, as another view will see it. Plane and pose give a homography; nothing else is needed.
+// 01: predicts how another view will see a sign of one view. It needs plane and pose, which give a homography.
 #include <cstdio>
 #include <vector>
 
@@ -16,14 +16,14 @@ int main(int argc, char** argv) {
   const tp::SE3d T_w_t = camera_at({0.7, -0.2, 0.2}, {0.1, -0.35, 0.1});  // target: the view to come
   const Image<std::uint8_t> host = stage.view(T_w_h), target = stage.view(T_w_t);
 
-  // warp_patch() asks for each pixel of the output where it comes from: target to host.
+  // warp_patch() maps each pixel of the output to its source: target to host.
   const tp::SE3d T_t_h = T_w_t.inverse() * T_w_h;
   tp::Matrix3<double> H_h_t;
   if (!tp::is_ok(tp::plane_homography_inverse(stage.theta(T_w_h), T_t_h, &H_h_t))) return 1;
   Image<std::uint8_t> predicted(target.width(), target.height());
   tp::warp_patch(host.view(), tp::pixel_homography(H_h_t, stage.camera(), stage.camera()), predicted.view());
 
-  // How well the prediction fits: ZNCC inside of the text's quad.
+  // How well the prediction fits: ZNCC (1 is perfect) inside the text's quad.
   const tp::Quad<double> quad = stage.quad(T_w_t);
   std::vector<std::uint8_t> a, b;
   for (int y = 0; y < target.height(); ++y)

@@ -1,5 +1,5 @@
-// 02: the plane of a sign from three of its corners, seen in two views of known pose. A fourth point would make it a
-// least-squares fit.
+// 02: the plane of a sign from three of its corners in two views of known pose. More points make it a least-squares
+// fit.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   const tp::SE3d T_w_h = camera_at({0, 0, 0}), T_w_t = camera_at({0.6, 0.1, 0.1}, {0.0, -0.3, 0.0});
   const tp::SE3d T_t_h = T_w_t.inverse() * T_w_h;
 
-  // Corners to a quarter of a pixel, as a detector might give them: which is what the answer's error comes from.
+  // Corners with errors of a quarter of a pixel, as a detector might give them: the source of the result's error.
   std::vector<tp::Vector3<double>> host, target;
   Picture picture(argc, argv);
   for (const tp::SE3d& T_w_c : {T_w_h, T_w_t}) {

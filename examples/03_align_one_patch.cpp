@@ -1,5 +1,4 @@
-// 03: the pose of a camera from one sign whose plane is known: guess, align, done. The guess is four centimetres and a
-// degree off.
+// 03: the pose of a camera from one sign whose plane is known. The guess is off by four centimetres and one degree.
 #include <cstdio>
 
 #include "stage/picture.hpp"

@@ -1,4 +1,4 @@
-// 04: the plane of a sign from many views of known pose, by the sign's pixels. The start is a plane that faces the
+// 04: the plane of a sign from many views of known pose, from the sign's pixels. The start is a plane that faces the
 // camera, 40 degrees off.
 #include <algorithm>
 #include <cmath>

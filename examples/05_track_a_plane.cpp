@@ -1,10 +1,10 @@
-// 05: a planar object followed through a video from its corners in the first frame (planar/plane_tracker.hpp).
+// 05: follows a planar object through a video from its corners in the first frame (planar/plane_tracker.hpp).
 //
 //   05_track_a_plane FOLDER x1,y1,x2,y2,x3,y3,x4,y4 CORNERS.csv
 //
-// FOLDER: images of one size, in the order of their names. The corners are clockwise from the top left. A line a frame
-// is written, with the corners and their ZNCC with the first frame, or only the frame where the object was not found.
-// Without arguments it renders a video.
+// FOLDER: images of one size, in the order of their names. The corners are clockwise from the top left. CORNERS.csv
+// receives a line for each frame: the corners and their ZNCC with the first frame, or the frame alone where the object
+// was not found. Without arguments the program renders a video and tracks that.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

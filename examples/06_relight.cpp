@@ -1,5 +1,5 @@
-// 06: one sign in six lights, aligned from the same guess. Gain and bias cancel exactly, a vignette and a reflex are
-// left to the robust cost.
+// 06: aligns one sign in six lights from the same guess. Gain and bias cancel exactly; the robust cost deals with a
+// vignette and a reflection.
 #include <algorithm>
 #include <cstdio>
 #include <utility>

@@ -1,4 +1,4 @@
-// 08: which of a thousand poses shows the sign? ZNCC of all of them in one call: relocalisation, or a check of a
+// 08: which of a thousand poses shows the sign? One call gives ZNCC for all of them, for relocalisation or to check a
 // detection. Then the best is refined.
 #include <algorithm>
 #include <cstdio>
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   const tp::TextPatch patch = tp::make_patch(host.view(), stage.camera(), stage.quad(T_w_h));
   const tp::Pyramid pyramid(target.view());
 
-  // Poses within 40 cm and 8 degrees or so of the host's own, on level 2, where a pose need not be near to correlate.
+  // Poses within about 40 cm and 8 degrees of the host's own, on level 2, where near poses already correlate.
   Random random(8);
   std::vector<tp::SE3d> poses;
   for (int i = 0; i < 1000; ++i) {

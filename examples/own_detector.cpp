@@ -1,5 +1,5 @@
-// A text detector of one's own: textslam with a detector that finds what the built-in one finds and keeps what is
-// large, as far text blurs first. In its place goes any code that makes quads of an image: docs/detectors.md.
+// A text detector of your own: textslam with a detector that keeps the large texts of the built-in one, as distant text
+// blurs first. Replace it with any code that makes quads of an image: docs/detectors.md.
 #include <cstdio>
 
 #include "io/input_error.hpp"
@@ -13,8 +13,7 @@ class LargeTextDetector final : public TextDetector {
  public:
   explicit LargeTextDetector(double smallest_area) : smallest_area_(smallest_area) {}
 
-  // Quads in pixels of the image as the camera gave it, clockwise from the text's top left; text and score where they
-  // are known.
+  // Quads in pixels of the raw image, clockwise from the text's top left, with text and score where known.
   std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) override {
     std::vector<Detection> large;
     for (const Detection& found : classical_.detect(frame, raw_image))

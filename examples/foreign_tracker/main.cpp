@@ -1,5 +1,5 @@
-// foreign_tracker SEQUENCE OUTPUT [--text]: the tracker on a sequence (examples/io/sequence.hpp), without or with text
-// features. Writes OUTPUT/trajectory.txt (TUM), and prints how far off it is where the truth is known.
+// foreign_tracker SEQUENCE OUTPUT [--text]: runs the tracker on a sequence (examples/io/sequence.hpp), without or with
+// text features. Writes OUTPUT/trajectory.txt (TUM), and prints its error where the truth is known.
 #include <cstdio>
 #include <cstring>
 #include <exception>

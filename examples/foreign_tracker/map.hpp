@@ -1,4 +1,4 @@
-// What the foreign tracker's map is made of: frames with key points, points in the world, and who saw what.
+// The foreign tracker's map: frames with key points, points in the world, and their observations.
 #ifndef FOREIGN_TRACKER_MAP_HPP
 #define FOREIGN_TRACKER_MAP_HPP
 
@@ -33,10 +33,10 @@ struct Frame;
 struct MapPoint {
   Eigen::Vector3d p_w;
   cv::Mat descriptor;
-  double reach = 0;                                  // the distance at which it is one pixel of ORB's first level large
+  double reach = 0;                                  // distance at which it is one pixel large on ORB's first level
   std::vector<std::pair<Frame*, std::size_t>> seen;  // key frames, key points
-  std::size_t made = 0;                              // number of key frames then
-  int expected = 1, found = 1;                       // in frames
+  std::size_t made = 0;                              // number of key frames when it was made
+  int expected = 1, found = 1;                       // number of frames
   bool bad = false;
 };
 
@@ -60,13 +60,13 @@ struct Frame {
   }
 };
 
-/// Everything made is kept, so that pointers stay valid; bad points are passed over.
+/// Nothing is deleted, so that pointers stay valid; bad points are skipped.
 struct Map {
   std::vector<std::unique_ptr<Frame>> key_frames;
   std::vector<std::unique_ptr<MapPoint>> points;
 };
 
-/// The key frames that share most points with `frame`, itself left out; at least 15 points, best first.
+/// The key frames that share most points with `frame`, at least 15, without itself, best first.
 std::vector<Frame*> covisible(const Map& map, const Frame& frame, std::size_t most);
 
 }  // namespace foreign

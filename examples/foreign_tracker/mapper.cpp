@@ -1,4 +1,4 @@
-// The tracker's other half: key frames, new points, adjustment.
+// The mapping half of the tracker: key frames, new points, adjustment.
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +29,7 @@ void Tracker::make_key_frame(Frame made) {
   last_ = frame;
 }
 
-// Points that were not found again, soon after their making.
+// Removes points that are rarely found soon after they were made.
 void Tracker::cull(std::size_t now) {
   for (auto it = map_.points.rbegin(); it != map_.points.rend() && (*it)->made + 4 > now; ++it) {
     MapPoint& point = **it;
@@ -40,7 +40,7 @@ void Tracker::cull(std::size_t now) {
   }
 }
 
-// Matches of key points without a point that have parallax and fit both views. Returns how many.
+// Triangulates matches of key points without a point that have parallax and fit both views. Returns how many.
 int Tracker::triangulate(Frame& a, Frame& b, const Matches& matches) {
   const Se3 T_b_a = b.T_w_c.inverse() * a.T_w_c;
   int made = 0;
@@ -73,7 +73,7 @@ int Tracker::triangulate(Frame& a, Frame& b, const Matches& matches) {
   return made;
 }
 
-// The points from `first_new` on in other key frames: seen there, or the same as one that is there.
+// Finds the points from `first_new` on in other key frames, and fuses those that have a point there.
 void Tracker::fuse(const std::vector<Frame*>& frames, std::size_t first_new) {
   for (std::size_t i = first_new; i < map_.points.size(); ++i) {
     MapPoint& point = *map_.points[i];

@@ -7,8 +7,8 @@ namespace foreign {
 
 namespace {
 
-constexpr int kCell = 20;    // px, of Frame::cells
-constexpr int kSpread = 32;  // px, of the grid that key points are spread over
+constexpr int kCell = 20;  // px, of Frame::cells
+constexpr int kGrid = 32;  // px, of the grid from which key points are taken
 constexpr std::size_t kKeys = 1200;
 
 int bits(const cv::Mat& a, std::size_t i, const cv::Mat& b, std::size_t k) {
@@ -31,7 +31,7 @@ struct Best {
   bool good(int distance, double ratio) const { return key >= 0 && first <= distance && first <= ratio * second; }
 };
 
-// The pairs that are each other's best.
+// Pairs that are each other's best match.
 Matches mutual(const std::vector<Best>& from_a, const std::vector<Best>& from_b, double ratio) {
   Matches out;
   for (std::size_t i = 0; i < from_a.size(); ++i) {
@@ -50,12 +50,12 @@ void extract(const Camera& camera, Frame& frame) {
   orb->detect(frame.image, all);
   std::sort(all.begin(), all.end(),
             [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
-  // As many a cell as give the wanted number: one to begin with.
+  // So many from each cell that the total is as wanted, starting from one.
   std::vector<std::vector<cv::KeyPoint>> grid(
-      static_cast<std::size_t>((camera.width / kSpread + 1) * (camera.height / kSpread + 1)));
+      static_cast<std::size_t>((camera.width / kGrid + 1) * (camera.height / kGrid + 1)));
   for (const cv::KeyPoint& k : all)
-    grid[static_cast<std::size_t>(static_cast<int>(k.pt.y) / kSpread * (camera.width / kSpread + 1) +
-                                  static_cast<int>(k.pt.x) / kSpread)]
+    grid[static_cast<std::size_t>(static_cast<int>(k.pt.y) / kGrid * (camera.width / kGrid + 1) +
+                                  static_cast<int>(k.pt.x) / kGrid)]
         .push_back(k);
   for (std::size_t rank = 0; frame.keys.size() < std::min(kKeys, all.size()); ++rank)
     for (const auto& cell : grid)

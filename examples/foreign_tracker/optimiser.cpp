@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kChi2 = 5.991;  // 95 %, two degrees of freedom
 
-// Of a point in a camera: blocks T_w_c (quaternion x y z w, translation) and p_w.
+// Reprojection error of a point: blocks T_w_c (quaternion x y z w, translation) and p_w.
 struct Reprojection {
   Camera camera;
   cv::Point2f px;
@@ -80,7 +80,7 @@ int optimise_pose(const Camera& camera, Frame& frame) {
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
-    for (std::size_t i = 0; i < points.size(); ++i)  // one that fits again comes back
+    for (std::size_t i = 0; i < points.size(); ++i)  // an outlier that fits again comes back
       frame.points[i] = points[i] && fits(camera, frame, i, *points[i]) ? points[i] : nullptr;
   }
   return frame.tracked();
@@ -94,7 +94,7 @@ void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window) {
   for (int round = 0; round < 2; ++round) {
     ceres::Problem problem;
     for (Frame* frame : window) problem.AddParameterBlock(frame->T_w_c.data(), 7, new PoseManifold);
-    for (const auto& point : map.points) {  // in the order of their making: the same sums in every run
+    for (const auto& point : map.points) {  // a fixed order: the same sums in every run
       if (point->bad || points.count(point.get()) == 0) continue;
       for (const auto& [frame, key] : point->seen) {
         if (!in_front(*frame, *point)) continue;

@@ -8,12 +8,11 @@
 
 namespace foreign {
 
-/// The pose of a frame from its points, which are held. Points that do not fit are taken from it. Returns how many
-/// stay.
+/// Optimises the pose of a frame with its points fixed. Removes its outliers. Returns how many points remain.
 int optimise_pose(const Camera& camera, Frame& frame);
 
-/// Poses of these key frames and all points that they see; other key frames that see these are held, and so is the
-/// first of the map. Observations that do not fit are taken out.
+/// Optimises these key frames and all points that they see. Other key frames that see the points, and the first of the
+/// map, are fixed. Removes outlying observations.
 void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window);
 
 }  // namespace foreign

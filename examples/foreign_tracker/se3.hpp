@@ -1,5 +1,4 @@
-// Se3: the pose type of the foreign tracker, in the manner of Sophus (Scalar, rotationMatrix(), translation(), data()).
-// Not textplane's.
+// Se3: the foreign tracker's own pose type, like Sophus's (Scalar, rotationMatrix(), translation(), data()).
 #ifndef FOREIGN_TRACKER_SE3_HPP
 #define FOREIGN_TRACKER_SE3_HPP
 

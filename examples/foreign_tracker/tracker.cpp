@@ -11,7 +11,7 @@ namespace foreign {
 
 namespace {
 
-constexpr int kFewest = 30;  // points of a frame that is not lost
+constexpr int kFewest = 30;  // points: with fewer a frame is lost
 
 Se3 from_cv(const cv::Mat& R, const cv::Mat& t) {
   Eigen::Matrix3d rotation;
@@ -38,7 +38,7 @@ void Tracker::grab(Frame frame) {
     make_key_frame(std::move(frame));
 }
 
-// Two views, by the essential matrix; the first camera is the world.
+// Initialises from two views by the essential matrix; the first camera is the world.
 void Tracker::initialise(Frame frame) {
   const Matches matches = first_.keys.empty() ? Matches() : match_by_descriptor(first_, frame, false, 0.9);
   if (matches.size() < 100) {
@@ -87,7 +87,7 @@ bool Tracker::track(Frame& frame) {
   return track_local_map(frame);
 }
 
-// More points for a pose that is nearly right.
+// Finds more points for a pose that is nearly right.
 bool Tracker::track_local_map(Frame& frame) {
   const std::vector<MapPoint*> local = local_points(frame);
   match_by_projection(camera_, local, 4, 100, 0.8, frame);
@@ -137,7 +137,7 @@ bool Tracker::relocalise(Frame& frame) {
   return false;
 }
 
-// Points that the key frames see which share points with the frame, or with its reference where it has none.
+// Points of the key frames that share points with the frame, or with its reference where it has none.
 std::vector<MapPoint*> Tracker::local_points(const Frame& frame) const {
   std::vector<Frame*> frames = covisible(map_, frame, 20);
   if (frames.empty()) frames = covisible(map_, *reference_, 20);

@@ -1,7 +1,6 @@
-// A monocular tracker as other people write them, in the manner of ORB-SLAM: ORB key points, a pose-only optimisation
-// of every frame, key frames, triangulation, local bundle adjustment, relocalisation. What makes text features of it is
-// text.hpp and the lines that end in `// text` in the other files: fewer than 60, counted by
-// tests/programs/foreign_tracker.cmake.
+// A monocular tracker like ORB-SLAM, written without textplane: ORB key points, a pose-only optimisation of every
+// frame, key frames, triangulation, local bundle adjustment, relocalisation. text.hpp and the lines of other files that
+// are marked `// text` add text features: fewer than 60 lines, counted by tests/programs/foreign_tracker.cmake.
 #ifndef FOREIGN_TRACKER_TRACKER_HPP
 #define FOREIGN_TRACKER_TRACKER_HPP
 
@@ -20,10 +19,10 @@ class Tracker {
  public:
   explicit Tracker(const Camera& camera) : camera_(camera) {}
 
-  /// The next frame: image, time and quads are read.
+  /// Processes the next frame; its image, time and quads must be set.
   void grab(Frame frame);
 
-  /// Of the frames that have one, by what is known in the end: times and poses, camera to world.
+  /// Times and final poses (camera to world) of the frames that have one.
   std::vector<std::pair<double, Se3>> trajectory() const;
 
   const Map& map() const { return map_; }
@@ -51,7 +50,7 @@ class Tracker {
 
   Camera camera_;
   Map map_;
-  Frame first_, last_;  // of the initialisation; the one before
+  Frame first_, last_;  // the first of the initialisation; the previous
   Se3 velocity_;        // T_last_now
   bool lost_ = false;
   int since_key_frame_ = 0;

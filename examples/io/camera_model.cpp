@@ -19,7 +19,7 @@ struct Setting {
 };
 using Settings = std::map<std::string, Setting>;
 
-// "value  # comment" and "'value'" as YAML means them, for scalars on one line.
+// The scalar of "value  # comment" or "'value'", as in YAML, for scalars on one line.
 std::string_view scalar(std::string_view text) {
   text = trimmed(text);
   if (!text.empty() && (text[0] == '"' || text[0] == '\'')) {
@@ -31,8 +31,8 @@ std::string_view scalar(std::string_view text) {
   return trimmed(text.substr(0, comment));
 }
 
-// The top-level `key: value` lines. Indented lines and list items belong to keys of other programs; directives and
-// document marks are passed over, "%YAML:1.0" of OpenCV included, which a YAML parser refuses.
+// The top-level `key: value` lines. Indented lines and list items, which belong to keys of other programs, are
+// skipped; so are directives and document marks, OpenCV's "%YAML:1.0" included, which a YAML parser refuses.
 Settings read_settings(const std::string& path) {
   Settings settings;
   for (const TextLine& line : read_lines(path)) {

@@ -73,7 +73,7 @@ std::vector<fs::path> icdar_files(const fs::path& folder, const std::string& ste
   return {folder / (stem + ".txt"), folder / ("res_" + stem + ".txt"), folder / truth_name(stem)};
 }
 
-// Without <stem>.txt: beside images that could be anything.
+// Without <stem>.txt, which may be anything beside images.
 std::vector<fs::path> files_beside(const FrameRef& frame) {
   if (frame.path.empty()) return {};
   std::vector<fs::path> files = icdar_files(fs::path(frame.path).parent_path(), frame.stem);

@@ -21,7 +21,7 @@
 
 namespace textslam {
 
-/// The text of a detection that nobody could read.
+/// The text of an unread detection.
 constexpr const char* kUnreadText = "###";
 inline bool is_read(const std::string& text) { return !text.empty() && text != kUnreadText; }
 
@@ -31,7 +31,7 @@ struct Detection {
   double score = 1;                ///< of the recognition; the ICDAR format has none
 };
 
-/// Name of the ICDAR file that holds the truth of an image.
+/// Name of the ICDAR file with an image's truth.
 inline std::string truth_name(const std::string& stem) { return "gt_" + stem + ".txt"; }
 
 /// Their quads, in their order.
@@ -41,7 +41,7 @@ std::vector<Quad<double>> quads_of(const std::vector<Detection>& detections);
 /// files do not have the same number of entries.
 std::vector<Detection> read_detections(const Sequence& sequence, const FrameRef& frame);
 
-/// Whether there is a folder where they are looked for, or a file beside the first image.
+/// Whether a folder of detections exists, or a file beside the first image.
 bool has_detections(const Sequence& sequence);
 
 /// The detections of one ICDAR file. Throws InputError as above, and when the file is missing.

@@ -41,7 +41,7 @@ double seconds(std::string_view stamp, const std::string& path, int line) {
   throw InputError(path, line, "times must increase: " + shown(stamp) + " does not follow the line before");
 }
 
-// A value of sensor.yaml, whose line is known.
+// sensor.yaml: values, and errors with their line.
 class SensorFile {
  public:
   explicit SensorFile(const std::string& path) : path_(path) {
@@ -112,7 +112,7 @@ SE3d read_motion(const SensorFile& file, const YAML::Node& node) {
     for (int column = 0; column < 3; ++column) T.R(row, column) = v[static_cast<std::size_t>(4 * row + column)];
     T.t[row] = v[static_cast<std::size_t>(4 * row + 3)];
   }
-  // As good as its digits; the nearest rotation takes its place.
+  // The file rounds its digits: take the nearest rotation.
   const bool rigid = (T.R * T.R.transpose() - Matrix3<double>::Identity()).cwiseAbs().maxCoeff() < 1e-3 &&
                      T.R.determinant() > 0 && T.t.allFinite();
   if (!rigid) file.refuse(data, "T_BS should be a rotation and a translation");

@@ -6,7 +6,7 @@
 //   mav0/state_groundtruth_estimate0/data.csv   optional: `timestamp [ns],x,y,z,qw,qx,qy,qz` and more columns, the
 //                                               body's pose
 //
-// Times in seconds are the nanoseconds divided by 1e9, rounded once: to 0.24 us, for stamps that count from 1970.
+// Times in seconds are the nanoseconds divided by 1e9, rounded once: to 0.24 us for stamps that count from 1970.
 #ifndef TEXTSLAM_IO_EUROC_HPP
 #define TEXTSLAM_IO_EUROC_HPP
 
@@ -20,10 +20,10 @@
 namespace textslam {
 
 struct EurocFiles {
-  std::string list, images, camera, truth;  ///< The paths above; whether they exist is not said.
+  std::string list, images, camera, truth;  ///< The paths above; they need not exist.
 };
 
-/// True where `folder` has mav0/cam0, or is a mav0 itself; then its paths are in `files`.
+/// Whether `folder` has mav0/cam0 or is a mav0 itself; then `files` receives its paths.
 bool find_euroc(const std::string& folder, EurocFiles* files);
 
 struct EurocCamera {
@@ -31,15 +31,14 @@ struct EurocCamera {
   SE3d T_b_c;  ///< camera to body; the identity where the file has no T_BS
 };
 
-/// Reads sensor.yaml. Throws InputError, with the line where there is one, for what is no YAML, a missing key, a bad
-/// number, a camera or lens of another model, or a T_BS that is no rigid motion.
+/// Reads sensor.yaml. Throws InputError, with the line where there is one, for text that is not YAML, a missing key, a
+/// bad number, an unknown camera or distortion model, or a T_BS that is not a rigid motion.
 EurocCamera read_euroc_camera(const std::string& path);
 
-/// Throws InputError with the line for a stamp that is no whole number or does not increase, and a missing name.
+/// Throws InputError with the line for a missing name, and for a stamp that is not a whole number or does not increase.
 std::vector<FrameRef> read_euroc_frames(const std::string& list, const std::string& images);
 
-/// The poses of the camera in the world: those of the body in the file, times T_b_c. Throws InputError as read_tum()
-/// does.
+/// The camera's poses in the world: the body's poses of the file, times T_b_c. Throws InputError as read_tum() does.
 std::vector<StampedPose> read_euroc_truth(const std::string& path, const SE3d& T_b_c);
 
 }  // namespace textslam

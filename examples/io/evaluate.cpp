@@ -24,14 +24,14 @@ Matrix3<double> horn_rotation(const Matrix3<double>& m /* sum from_i to_i^T */) 
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
 }
 
-// What an alignment needs of two sets of positions.
+// Centres, spread and correlation of two sets of positions.
 struct Moments {
   std::size_t n = 0;
   Vector from_mean = Vector::Zero(), to_mean = Vector::Zero();
   Matrix3<double> correlation = Matrix3<double>::Zero();
   double from_spread = 0, to_spread = 0;
 
-  // Either of them. What is left of identical points after rounding is not a spread.
+  // Of either set. Identical points have a spread above zero by rounding alone.
   bool is_single_place() const {
     const auto is_place = [this](double spread, const Vector& mean) {
       return !(spread > 1e-24 * static_cast<double>(n) * mean.squaredNorm()) || !(spread > 0);
@@ -60,7 +60,7 @@ bool find_moments(std::size_t n, const From& from, const To& to, Moments* m) {
   return true;
 }
 
-// With the translation that belongs to rotation and scale.
+// The similarity of this rotation and scale, with its best translation.
 Status finish(const Moments& m, Similarity result, Similarity* out) {
   if (!(result.scale > 0) || !textplane::is_finite(result.scale)) return Status::degenerate;
   result.t = m.to_mean - result.scale * (result.R * m.from_mean);
@@ -68,7 +68,7 @@ Status finish(const Moments& m, Similarity result, Similarity* out) {
   return Status::ok;
 }
 
-// The errors in order stand at 0, 1/(n - 1), ..., 1; between them the line from one to the next.
+// The quantile of sorted errors: they lie at 0, 1/(n - 1), ..., 1, and it is linear between them.
 double quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
   const double at = share * static_cast<double>(sorted.size() - 1);
@@ -127,8 +127,8 @@ std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const 
     pairs.push_back(pair);
   }
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.estimate < b.estimate; });
-  // A tolerance above the spacing of the poses lets leftovers pair across closer pairs: time must run forwards on both
-  // sides.
+  // With a tolerance above the spacing of the poses, poses left over could pair across closer pairs: time must increase
+  // on both sides.
   const auto gap = [&](const PosePair& p) {
     return std::abs(truth[p.truth].timestamp - estimate[p.estimate].timestamp);
   };
@@ -150,7 +150,7 @@ Status align_points(const std::vector<Vector>& from, const std::vector<Vector>& 
   if (m.is_single_place()) return Status::degenerate;
   Similarity result;
   result.R = horn_rotation(m.correlation);
-  // sum to . R from = trace(R correlation); it can be negative only where no rotation fits better than a point would.
+  // sum to . R from = trace(R correlation). It is negative only where a single point fits better than any rotation.
   if (with_scale) result.scale = (result.R * m.correlation).trace() / m.from_spread;
   return finish(m, result, out);
 }

@@ -23,7 +23,7 @@ struct Similarity {
   Vector3<double> t = Vector3<double>::Zero();
 
   Vector3<double> operator*(const Vector3<double>& p) const { return scale * (R * p) + t; }
-  /// A camera pose of the source world as one of the target world; the rotation stays a rotation.
+  /// A camera pose of the source world in the target world; the rotation stays a rotation.
   SE3d operator*(const SE3d& T_w_c) const { return {R * T_w_c.R, *this * T_w_c.t}; }
 };
 
@@ -32,26 +32,26 @@ struct PosePair {
   std::size_t estimate = 0, truth = 0;
 };
 
-/// One-to-one pairs at most `tolerance` seconds apart, the closest first where several compete; in order of time. Both
-/// inputs have increasing times.
+/// One-to-one pairs at most `tolerance` seconds apart, in order of time. Where several compete, the closest wins. The
+/// times of both inputs increase.
 std::vector<PosePair> associate(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth,
                                 double tolerance);
 
-/// The similarity (or, without scale, the rigid motion) that minimises sum |to_i - S from_i|^2. Collinear points leave
-/// the turn about their line open: the sum is minimal still. Status::too_few below three points or when the sizes
-/// differ, degenerate when either set is a single place, non_finite for NaN; *out is then untouched.
+/// The similarity (or, without scale, the rigid motion) that minimises sum |to_i - S from_i|^2. Collinear points do not
+/// determine the rotation about their line; the sum is minimal all the same. Status::too_few below three points or when
+/// the sizes differ, degenerate when all points of one set coincide, non_finite for NaN; *out is then untouched.
 Status align_points(const std::vector<Vector3<double>>& from, const std::vector<Vector3<double>>& to, bool with_scale,
                     Similarity* out);
 
-/// A similarity that takes the poses `from` near to the poses `to`, any number of them and on any path: its scale and
-/// translation minimise sum |to_i - S from_i|^2, and its rotation does so but for a tenth's share of the poses' own
-/// rotations, which settle it where positions do not, as along a line. Where positions are a single place the scale is
-/// that of *out. Status::too_few without poses or when the sizes differ, non_finite for NaN, degenerate where the scale
-/// would not be positive; *out is then untouched.
+/// A similarity that maps the poses `from` close to the poses `to`: any number of poses on any path. Scale and
+/// translation minimise sum |to_i - S from_i|^2. The rotation minimises it together with the differences of the
+/// rotations, which weigh a tenth: they determine it where positions do not, as along a line. Where all positions
+/// coincide the scale is that of *out. Status::too_few without poses or when the sizes differ, non_finite for NaN,
+/// degenerate where the scale would not be positive; *out is then untouched.
 Status align_poses(const std::vector<SE3d>& from, const std::vector<SE3d>& to, Similarity* out);
 
-/// Zeros when n is 0. Median and 90th percentile are interpolated between the errors next to them in order, so the
-/// median of an even number is the mean of the middle two.
+/// Zeros when n is 0. Median and 90th percentile are interpolated between neighbouring errors, so the median of an even
+/// number is the mean of the middle two.
 struct ErrorStatistics {
   std::size_t n = 0;
   double rmse = 0, mean = 0, median = 0, p90 = 0, max = 0;
@@ -75,16 +75,16 @@ struct TrajectoryEvaluation {
   std::size_t pairs = 0;            ///< associated poses
   Similarity alignment;             ///< estimate's world -> truth's world
   ErrorStatistics ate;              ///< m
-  /// Over neighbouring pairs; those further apart than 1.5 times the usual interval are left out.
+  /// Over neighbouring pairs, without those further apart than 1.5 times the median interval.
   RelativeError rpe_frame;
-  double frame_interval = 0;   ///< s, the usual (median) interval of those: 1/fps where every frame has truth
+  double frame_interval = 0;   ///< s, the median interval of neighbouring pairs: 1/fps where every frame has truth
   RelativeError rpe_distance;  ///< from each pair to the first one at least options.distance of true path later
   double path_length = 0;      ///< m, of the whole ground truth
   double coverage = 0;         ///< poses of the estimate over all frames of the sequence
 };
 
-/// `frames`: number of frames of the sequence. Never throws on odd data: status says why there is no error to report;
-/// pairs, path_length and coverage are set in any case.
+/// `frames`: number of frames of the sequence. Never throws on unusual data: `status` says why there is no error to
+/// report; pairs, path_length and coverage are always set.
 TrajectoryEvaluation evaluate_trajectory(const std::vector<StampedPose>& estimate,
                                          const std::vector<StampedPose>& truth, std::size_t frames,
                                          const EvaluationOptions& options = {});

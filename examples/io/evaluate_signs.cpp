@@ -11,7 +11,7 @@
 namespace textslam {
 namespace {
 
-constexpr int kMinVisibleFrames = 10;  // that a sign must be seen whole to count
+constexpr int kMinVisibleFrames = 10;  // a sign counts if so many frames show it whole
 constexpr double kWhole = 0.99;
 constexpr double kToDegrees = 57.295779513082320877;
 
@@ -36,7 +36,7 @@ void count_visible(const std::string& folder, const std::vector<std::string>& st
   }
 }
 
-// What signs and texts have in common. Throws nlohmann::json::exception.
+// The fields that signs and texts share. Throws nlohmann::json::exception.
 template <class Sign>
 Sign read_sign(const nlohmann::json& json) {
   Sign sign;

@@ -1,4 +1,4 @@
-// Text maps against the exact signs of a rendered sequence: which sign a text stands for, and how far off its plane is.
+// Text maps against the exact signs of a rendered sequence: the sign of each text, and the error of its plane.
 //
 // Truth, in the folder of a sequence (see renderer/render_sequence.hpp):
 //   truth/signs.json          {"signs":[{"id","text","corners":[[x,y,z],... 4],"normal":[x,y,z]},...]}
@@ -33,7 +33,7 @@ struct MappedText {
 
 struct SignMatch {
   int text = -1;      ///< Id in the text map.
-  int sign = -1;      ///< Id of the true sign; -1: there is none where the text stands.
+  int sign = -1;      ///< Id of the true sign; -1: none.
   double angle = 0;   ///< Degrees between the normals.
   double centre = 0;  ///< Distance of the centres, in units of the truth.
   bool word = false;  ///< The word is right.
@@ -42,22 +42,22 @@ struct SignMatch {
 struct TextEvaluation {
   bool available = false;  ///< The sequence has true signs and the trajectory could be aligned.
   int signs = 0;           ///< Signs visible long enough to be mapped.
-  int mapped = 0;          ///< Of them, those that a text stands for.
-  int false_texts = 0;     ///< Texts where no sign is.
+  int mapped = 0;          ///< Of them, those with a text.
+  int false_texts = 0;     ///< Texts without a sign.
   ErrorStatistics angle;   ///< Degrees, over the matched texts.
   ErrorStatistics centre;  ///< Units of the truth, over the matched texts.
   std::vector<SignMatch> matches;
 };
 
-/// The signs in the folder truth of a sequence, or none where it has no signs.json. `stems`: of the frames that count
-/// for visible_frames. Throws InputError for a broken file.
+/// The signs in the folder truth of a sequence; none where it has no signs.json. `stems`: the frames that count for
+/// visible_frames. Throws InputError for a broken file.
 std::vector<TrueSign> read_true_signs(const std::string& folder, const std::vector<std::string>& stems);
 
 /// The texts of a text_map.json. Throws InputError for a broken file.
 std::vector<MappedText> read_text_map(const std::string& path);
 
-/// Matches the texts to the signs after `alignment` (map to truth). A text stands for the nearest sign whose centre is
-/// no further than half the sign's width.
+/// Matches the texts to the signs after `alignment` (map to truth). A text belongs to the nearest sign, if its centre
+/// is at most half the sign's width away.
 TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::vector<TrueSign>& signs,
                               const Similarity& alignment);
 

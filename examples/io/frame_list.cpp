@@ -19,7 +19,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// Takes the run of digits off the front of `text`, and returns it without its leading zeros.
+// Removes the digits at the front of `text` and returns them without leading zeros.
 std::string_view take_number(std::string_view* text) {
   std::size_t zeros = 0;
   while (zeros < text->size() && (*text)[zeros] == '0') ++zeros;

@@ -2,9 +2,8 @@
 //
 //   images.txt, rgb.txt   `timestamp path` a line, times strictly increasing, `#` comments; the path is relative to the
 //                         folder and runs to the end of the line
-//   a folder of images    .png .jpg .jpeg .pgm .ppm, in the order of their names as a person counts: runs of digits by
-//                         their value, so that 9.png comes before 10.png; hidden files are passed over. Times: 0,
-//                         1/fps, 2/fps, ...
+//   a folder of images    .png .jpg .jpeg .pgm .ppm, in the natural order of their names: digits by their value, so that
+//                         9.png comes before 10.png. Hidden files are skipped. Times: 0, 1/fps, 2/fps, ...
 #ifndef TEXTSLAM_IO_FRAME_LIST_HPP
 #define TEXTSLAM_IO_FRAME_LIST_HPP
 
@@ -16,26 +15,26 @@ namespace textslam {
 
 struct FrameRef {
   double timestamp = 0;  ///< s
-  std::string path;      ///< the image, resolved against the sequence's folder; of a video, the video
+  std::string path;      ///< the image (with the sequence's folder), or the video
   std::string
       stem;      ///< file name without its last extension, of a video the frame's number: the name of its detections
-  int line = 0;  ///< in the list that names it; 0: there is none
+  int line = 0;  ///< in the list that names it; 0: no list
 };
 
-/// The path of images.txt, or of rgb.txt where there is none; empty where the folder has neither.
+/// The path of images.txt, else of rgb.txt; empty where the folder has neither.
 std::string find_list(const std::string& folder);
 
 /// The frames of such a list, paths resolved against `folder`. Throws InputError with the line for a bad number, a
 /// missing path or times that do not increase, and for a list without images.
 std::vector<FrameRef> read_frame_list(const std::string& folder, const std::string& list);
 
-/// The names of the images in a folder, in order; none where there are none. Throws InputError where it cannot be read.
+/// The names of the images in a folder, in order; may be empty. Throws InputError where the folder cannot be read.
 std::vector<std::string> image_names(const std::string& folder);
 
 /// Frames for these names, `fps` (positive) a second.
 std::vector<FrameRef> number_frames(const std::string& folder, const std::vector<std::string>& names, double fps);
 
-/// The order of names as a person counts. Strict: names that differ in their zeros alone have an order, too.
+/// The natural order of names. Strict: names that differ only in leading zeros are ordered, too.
 bool natural_less(std::string_view a, std::string_view b);
 
 }  // namespace textslam

@@ -1,4 +1,4 @@
-// The image formats behind io/image_file.hpp, bytes to pixels and back. `path` is for messages alone.
+// The image formats of io/image_file.hpp: bytes to pixels and back. `path` appears in messages only.
 #ifndef TEXTSLAM_IO_IMAGE_CODECS_HPP
 #define TEXTSLAM_IO_IMAGE_CODECS_HPP
 
@@ -15,7 +15,7 @@ Image<std::uint8_t> decode_jpeg(const std::string& bytes, const std::string& pat
 Image<std::uint8_t> decode_png(const std::string& bytes, const std::string& path);
 Image<std::uint8_t> decode_pnm(const std::string& bytes, const std::string& path);
 
-/// Throws InputError for an empty or too large image: before memory is taken for its pixels.
+/// Throws InputError for an empty or too large image, before its pixels are allocated.
 void check_image_size(std::size_t width, std::size_t height, const std::string& path);
 
 /// Grey value of a colour.

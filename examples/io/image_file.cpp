@@ -23,7 +23,7 @@ namespace {
 
 using Decoder = Image<std::uint8_t> (*)(const std::string& bytes, const std::string& path);
 
-// By the first bytes; null for what is no image of a known kind.
+// By the first bytes; null for an unknown format.
 Decoder decoder_of(std::string_view bytes) {
   const auto starts_with = [&](std::string_view magic) { return bytes.substr(0, magic.size()) == magic; };
   if (starts_with("\xFF\xD8\xFF")) return decode_jpeg;

@@ -1,9 +1,8 @@
 // Image files: JPEG (libjpeg), PNG (libpng) and the PGM/PPM family into 8-bit grey images, and back.
 //
-// The format is told by the file's first bytes, never by its name. Colour becomes grey by (299 R + 587 G + 114 B + 500)
-// / 1000; a YCbCr JPEG gives its luma, which is the same weighting; samples of more than 8 bits are scaled down; alpha
-// is ignored, and so are gamma and colour profiles. A file that decodes only in part counts as broken: half a frame
-// must not be tracked against.
+// The file's first bytes decide the format, not its name. Colour becomes grey by (299 R + 587 G + 114 B + 500) / 1000;
+// a YCbCr JPEG gives its luma, which has the same weights. Samples of more than 8 bits are scaled down. Alpha, gamma
+// and colour profiles are ignored. A file that decodes only in part counts as broken: half a frame must not be tracked.
 #ifndef TEXTSLAM_IO_IMAGE_FILE_HPP
 #define TEXTSLAM_IO_IMAGE_FILE_HPP
 
@@ -14,11 +13,11 @@
 
 namespace textslam {
 
-/// Images beyond either bound are refused before any memory is taken for their pixels.
+/// Larger images are refused before their pixels are allocated.
 constexpr int kMaxImageSide = 16384;
 constexpr int kMaxImagePixels = 1 << 27;
 
-/// Whether the file can be read and begins as an image of these kinds does.
+/// Whether the file can be read and begins as an image of these formats.
 bool is_image_file(const std::string& path);
 
 /// The image as grey values. Throws InputError (file, no line) when the file is missing, unreadable, of an unknown

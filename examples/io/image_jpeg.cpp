@@ -1,5 +1,5 @@
-// JPEG by libjpeg. Its errors come back by longjmp, which skips destructors: every setjmp below stands in a function
-// whose frame, and all frames under it, hold nothing to destroy. Owners live in the callers.
+// JPEG by libjpeg. Its errors come back by longjmp, which skips destructors: every setjmp below is in a function
+// that, like all that it calls, has nothing to destroy. Owners live in the callers.
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
@@ -29,7 +29,7 @@ struct JpegErrors {
   std::longjmp(errors->jump, 1);
 }
 
-// libjpeg fills what it cannot decode with grey and only warns. Warnings that leave all pixels right are let pass.
+// libjpeg fills what it cannot decode with grey and only warns. Warnings that leave all pixels right are ignored.
 void on_message(j_common_ptr codec, int level) {
   if (level >= 0) return;
   const int code = codec->err->msg_code;

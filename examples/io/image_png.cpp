@@ -1,5 +1,5 @@
-// PNG by libpng. Its errors come back by longjmp, which skips destructors: every setjmp below stands in a function
-// whose frame, and all frames under it, hold nothing to destroy. Owners live in the callers.
+// PNG by libpng. Its errors come back by longjmp, which skips destructors: every setjmp below is in a function
+// that, like all that it calls, has nothing to destroy. Owners live in the callers.
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>

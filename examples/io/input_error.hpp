@@ -7,7 +7,7 @@
 
 namespace textslam {
 
-/// Input from outside the program is broken: a missing file, a bad number, an image that will not decode.
+/// Input that is broken: a missing file, a bad number, an image that does not decode.
 class InputError : public std::runtime_error {
  public:
   /// what() is "file:line: message", or "file: message" when `line` is 0. Lines count from 1.

@@ -4,10 +4,10 @@
 
 namespace textslam {
 
-/// From now on the two signals are noted; call it once, at the start of main.
+/// Begins to record the two signals; call it once, at the start of main.
 void note_interrupts();
 
-/// The signal that came, 0 while none did. Safe to call from any thread.
+/// The signal that arrived; 0: none so far. Safe to call from any thread.
 int interrupted();
 
 }  // namespace textslam

@@ -17,7 +17,7 @@ nlohmann::json read_json(const std::string& path) {
     const std::size_t at = std::min(error.byte, bytes.size());
     const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
     throw InputError(path, static_cast<int>(line), error.what());
-  } catch (const nlohmann::json::exception& error) {  // a number too large for a double
+  } catch (const nlohmann::json::exception& error) {  // for a number too large for a double
     throw InputError(path, 0, error.what());
   }
 }

@@ -11,7 +11,8 @@
 
 namespace textslam {
 
-/// The document. Throws InputError with the line for text that is no JSON, without one for a file that cannot be read.
+/// The document. Throws InputError, with the line for text that is not JSON, without one for a file that cannot be
+/// read.
 nlohmann::json read_json(const std::string& path);
 
 /// A whole number that an int holds. Throws std::out_of_range for another number, nlohmann::json::exception for
@@ -21,8 +22,8 @@ int to_int(const nlohmann::json& json);
 /// Three finite numbers. Throws nlohmann::json::exception for anything else.
 Vector3<double> to_vector3(const nlohmann::json& json);
 
-/// `read(entry)` for every entry of the list `name` of the document; InputError that names the list and the entry for
-/// what is missing or of another type.
+/// Calls `read(entry)` for every entry of the list `name` of the document. Throws InputError that names the list and
+/// the entry for a missing or mistyped field.
 template <class Read>
 void for_each_entry(const nlohmann::json& document, const std::string& name, const std::string& path, Read read) {
   const auto list = document.is_object() ? document.find(name) : document.end();

@@ -9,7 +9,7 @@ namespace textslam {
 
 /// Replaces the file `path` by `bytes`. A reader sees the old file or the new one, never a part: the bytes go to
 /// `path`.part first. Throws std::runtime_error that names the path and the cause (no permission, disk full); the old
-/// file then stands, and the temporary one is gone. Two writers of one path must take turns.
+/// file then remains, and the temporary one is removed. Two writers of one path must take turns.
 void write_file(const std::string& path, std::string_view bytes);
 
 /// Makes the folder and its parents where they do not exist. Throws std::runtime_error that names the path when that

@@ -1,4 +1,4 @@
-// Questions about paths that have an answer for any path: what cannot be looked at is not there.
+// Queries of paths that never fail: a path that cannot be examined does not exist.
 #ifndef TEXTSLAM_IO_PATHS_HPP
 #define TEXTSLAM_IO_PATHS_HPP
 

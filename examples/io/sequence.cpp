@@ -23,7 +23,7 @@ std::string inside(const std::string& folder, const char* name) { return (fs::pa
 
 std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
-// EuRoC's, by its name or by what it says, or camera.yaml.
+// sensor.yaml of EuRoC, known by its name or its content, else camera.yaml.
 CameraModel read_any_camera(const std::string& path) {
   if (fs::path(path).filename() == "sensor.yaml") return read_euroc_camera(path).model;
   for (const TextLine& line : read_lines(path)) {
@@ -39,7 +39,7 @@ void use_fov(Sequence* sequence, double fov) {
   sequence->approximate_fov = fov;
 }
 
-// The camera from --camera, from the sequence's own calibration `own` (empty: of a layout without one), or from --fov.
+// The camera of --camera, of the calibration `own` of the sequence (empty: its layout has none), or of --fov.
 void choose_camera(Sequence* sequence, const SequenceOptions& options, const std::string& own) {
   const bool has_own = !own.empty() && is_there(own);
   const std::string file = !options.camera.empty() ? options.camera : has_own ? own : "";

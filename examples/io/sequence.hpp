@@ -24,7 +24,7 @@
 
 namespace textslam {
 
-/// What the input does not say, or says otherwise.
+/// Overrides of the input, and what it lacks.
 struct SequenceOptions {
   std::string camera;  ///< camera.yaml, or EuRoC's sensor.yaml, in place of the sequence's own
   double fov = 0;  ///< degrees, above 0 and below 180: camera_from_fov() where there is no calibration; 0: not given
@@ -34,32 +34,32 @@ struct SequenceOptions {
 };
 
 struct Sequence {
-  std::string folder;  ///< of a video, the one that it lies in
+  std::string folder;  ///< of a video, the folder that holds it
   CameraModel camera;
-  std::string camera_source;             ///< what says the size of the images, for messages
-  double approximate_fov = 0;            ///< degrees, where the camera is a guess from it; 0: it is calibrated
+  std::string camera_source;             ///< where the size of the images comes from, for messages
+  double approximate_fov = 0;            ///< degrees, where the camera is guessed from it; 0: calibrated
   std::vector<FrameRef> frames;          ///< at least one, times strictly increasing
-  std::string images_file;               ///< the list that the frames come from, or the folder of images, or the video
+  std::string images_file;               ///< the list of the frames, the folder of images, or the video
   std::vector<StampedPose> groundtruth;  ///< camera to world; empty where the sequence has none
   std::string detections;                ///< SequenceOptions::detections
-  bool has_detections = false;  ///< there is a folder of detections, or the first image has a file of them beside it
-  std::shared_ptr<VideoFile> video;  ///< null for images
+  bool has_detections = false;           ///< a folder of detections exists, or a file beside the first image
+  std::shared_ptr<VideoFile> video;      ///< null for images
 };
 
-/// Reads everything but images and detections. Throws InputError, with file and line where there is one, for whatever
-/// is missing, malformed, unsorted or not finite, and for an option that the input makes meaningless. Whether the
-/// images exist is seen when they are loaded, so that a broken frame in the middle does not cost the ones before it.
+/// Reads everything but images and detections. Throws InputError, with file and line where there is one, for input that
+/// is missing, malformed, unsorted or not finite, and for an option that the input makes meaningless. Images are
+/// checked when they are loaded, so that the frames before a broken one can be used.
 Sequence read_sequence(const std::string& path, const SequenceOptions& options = {});
 
-/// The true poses of a folder of any layout; none where it has none, or no sensor.yaml to say where EuRoC's body has
-/// its camera. Throws InputError for a broken file.
+/// The true poses of a folder of any layout; none where it has none, and for EuRoC without a sensor.yaml, which places
+/// the camera on the body. Throws InputError for a broken file.
 std::vector<StampedPose> read_groundtruth(const std::string& folder);
 
-/// What a user knows a frame by: its image's path from the folder, or `video.mp4#000123`.
+/// The frame's name for users: its image's path from the folder, or `video.mp4#000123`.
 std::string frame_name(const Sequence& sequence, std::size_t index);
 
 /// Decodes frame `index` (below frames.size()). Throws InputError that names images_file and the frame's line when the
-/// image is missing, will not decode, or is not camera.width x camera.height.
+/// image is missing, does not decode, or is not camera.width x camera.height.
 Image<std::uint8_t> load_frame(const Sequence& sequence, std::size_t index);
 /// The same for an image of any size.
 Image<std::uint8_t> load_image(const Sequence& sequence, std::size_t index);

@@ -1,4 +1,4 @@
-// Text input: whole files, lines with their numbers, strict numbers. What every reader of this folder stands on.
+// Text input: whole files, lines with their numbers, strict numbers. All readers of this folder use it.
 #ifndef TEXTSLAM_IO_TEXT_FILE_HPP
 #define TEXTSLAM_IO_TEXT_FILE_HPP
 
@@ -16,8 +16,8 @@ struct TextLine {
   int number = 0;    ///< from 1
 };
 
-/// The lines of a text file that are not blank; LF or CR LF, a byte-order mark is dropped. Throws InputError for a
-/// file that cannot be read, and with the line for a NUL byte: that is not a text.
+/// The lines of a text file that are not blank; LF or CR LF; a byte-order mark is dropped. Throws InputError for a file
+/// that cannot be read, and with the line for a NUL byte, which no text has.
 std::vector<TextLine> read_lines(const std::string& path);
 
 /// Without blanks at both ends.
@@ -25,12 +25,12 @@ std::string_view trimmed(std::string_view text);
 /// The runs of characters between blanks.
 std::vector<std::string_view> split_blanks(std::string_view text);
 
-/// A finite decimal number and nothing else, blanks at its ends aside; independent of the locale. False for anything
-/// else, NaN, infinity and overflow included.
+/// A finite decimal number and nothing else but blanks at its ends; independent of the locale. False for NaN, infinity
+/// and overflow.
 bool parse_number(std::string_view text, double* value);
-/// parse_number(), or InputError that quotes the text and says `what` it should be.
+/// parse_number(), or InputError that quotes the text and says that `what` should be a number.
 double require_number(std::string_view text, const std::string& file, int line, const std::string& what);
-/// The text as it can be shown in a message: at most 40 characters, anything unprintable as '?'.
+/// The text for a message: at most 40 characters, with '?' for characters that cannot be printed.
 std::string shown(std::string_view text);
 /// The shortest decimal that reads back as the same double; "-0" becomes "0".
 std::string shortest(double value);

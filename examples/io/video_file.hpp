@@ -13,11 +13,11 @@
 
 namespace textslam {
 
-/// The frames of a video, by their number. Not for several threads at a time.
+/// The frames of a video, by their number. For one thread at a time.
 class VideoFile {
  public:
   virtual ~VideoFile() = default;
-  /// Seconds from the first frame, strictly increasing; one a frame, at least one.
+  /// Seconds from the first frame, one entry a frame: strictly increasing, at least one.
   virtual const std::vector<double>& times() const = 0;
   /// The frame as grey values, upright as the file says it is to be shown. Quick in the order of time, and against it.
   /// Throws InputError (file, no line) where it does not decode.

@@ -25,8 +25,8 @@ class Canvas {
   /// value = f(x, y, value) at every texel centre; x and y in metres from the top left.
   void apply(const std::function<double(double, double, double)>& f);
 
-  /// Blends `value` over the texels where the signed distance (metres, negative inside) of `distance` is negative, with
-  /// an edge one texel soft. Only the box [x0, x1] x [y0, y1] is visited.
+  /// Blends `value` over the texels where the signed distance `distance` (metres) is negative, with an edge one texel
+  /// soft. Only the box [x0, x1] x [y0, y1] is visited.
   void fill(double x0, double y0, double x1, double y1, double value, double opacity,
             const std::function<double(double, double)>& distance);
 

@@ -12,7 +12,7 @@ constexpr double kFootprint = 0.5;  // px: the distance of the grid's samples
 constexpr int kMostInstants = 32;
 constexpr double kStill = 0.2;  // px: blur that does not show
 
-/// How far the images of scene points spread over the image move in `duration` seconds about `middle` (px).
+/// How far the images of scene points move in `duration` seconds about `middle` (px).
 std::vector<Vector2<double>> displacements(const Scene& scene, const CameraModel& camera, const Motion& motion,
                                            double middle, double duration) {
   const SE3d T_w_c = motion(middle);

@@ -21,7 +21,7 @@ class Font {
   Font(Font&&) noexcept;
   Font& operator=(Font&&) noexcept;
 
-  /// The word with capitals `cap_height` texels high. Empty when nothing of it has a glyph.
+  /// The word with capitals `cap_height` texels high. Empty when the font has none of its glyphs.
   Ink draw(const std::string& word, double cap_height) const;
 
  private:
@@ -29,9 +29,9 @@ class Font {
   std::unique_ptr<Face> face_;
 };
 
-/// The fonts that signs are set in: the bold DejaVu faces where they are installed, else any TrueType font that has the
-/// capital letters. Searches the usual font folders of a Linux or macOS machine. Throws std::runtime_error that names
-/// the package to install when there is none.
+/// The fonts of signs: the bold DejaVu faces where they are installed, else any TrueType font with the capital letters.
+/// Searches the usual font folders of Linux and macOS. Throws std::runtime_error that names the package to install when
+/// there is none.
 std::vector<Font> load_fonts();
 /// The same with the folders given.
 std::vector<Font> load_fonts(const std::vector<std::string>& folders);

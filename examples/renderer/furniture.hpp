@@ -1,4 +1,4 @@
-// Furniture: what scenes are assembled from: rooms of six rectangles, boxes, pictures and sign boards.
+// Furniture: the parts of scenes: rooms of six rectangles, boxes, pictures and sign boards.
 #ifndef TEXTSLAM_RENDERER_FURNITURE_HPP
 #define TEXTSLAM_RENDERER_FURNITURE_HPP
 
@@ -17,22 +17,22 @@ struct Walls {
 };
 Walls walls_of(double x0, double x1, double y0, double y1, double height);
 
-/// What a side of the given width and height (m) looks like.
+/// The texture of a side of this width and height (m).
 using Painter = std::function<Canvas(double, double)>;
 
-/// A box that stands with its foot's centre at `foot`: size x wide, y deep, z high, turned by `yaw` (radians,
+/// A box on the floor: centre of its base at `foot`, size x wide, y deep, z high, turned by `yaw` (radians,
 /// counter-clockwise from above; at 0 the front faces -y). No bottom. Returns its front.
 Rectangle add_box(Scene& scene, const Vector3<double>& foot, const Vector3<double>& size, double yaw,
                   const Painter& front, const Painter& sides);
 
-/// Hands out words, fonts and plates, and puts signs into a scene.
+/// Chooses words, fonts and plates, and puts signs into a scene.
 class SignPainter {
  public:
   SignPainter(int words, std::uint64_t seed);
 
   /// On a wall or a box, centred at (s, t) metres from its top left; `width` of the plate in metres.
   void on_wall(Scene& scene, const Rectangle& wall, double s, double t, double width);
-  /// A board of its own in the room, text on the side that faces `towards`, blank behind.
+  /// On a board in the room: text on the side that faces `towards`, blank behind.
   void board(Scene& scene, const Vector3<double>& centre, const Vector3<double>& towards, double width,
              double roll = 0.0);
 

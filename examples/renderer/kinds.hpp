@@ -1,8 +1,7 @@
-// Kinds: what can be rendered by name. Each kind is a scene, a motion, a shutter and a sensor.
+// Kinds: sequences that can be rendered by name. Each is a scene, a motion, a shutter and a sensor.
 //
-// What a sweep varies replaces a part of the kind: blur its shutter, gain and noise those of its sensor
-// (conditions.hpp). The detector's errors, jitter, missed and false detections, are the same for all kinds
-// (detector_model.hpp).
+// A sweep replaces a part of the kind: blur its shutter, gain and noise those of its sensor (conditions.hpp). The
+// detector's errors are the same for all kinds (detector_model.hpp).
 #ifndef TEXTSLAM_RENDERER_KINDS_HPP
 #define TEXTSLAM_RENDERER_KINDS_HPP
 
@@ -23,16 +22,16 @@ struct Shot {
   SensorProgram sensor;
 };
 
-/// How many frames, at 30 a second, show all that there is to the kind. Throws as make_shot() does.
+/// Number of frames, at 30 a second, that show the whole kind. Throws as make_shot() does.
 int default_frames(const std::string& kind);
 
-/// Throws InputError that lists the kinds when there is none of that name, std::runtime_error where no font is found.
+/// Throws InputError that lists the kinds for an unknown name, std::runtime_error where no font is found.
 Shot make_shot(const std::string& kind, std::uint64_t seed, int width, int height);
 
 /// How a room is furnished.
 struct RoomStyle {
   bool signs = true;
-  bool bare = false;       ///< clean walls and no furniture: little but the signs
+  bool bare = false;       ///< clean walls, no furniture: little texture but the signs
   bool all_round = false;  ///< signs on the back wall, too, and on the rear parts of the side walls
 };
 Scene make_room(std::uint64_t seed, const RoomStyle& style);

@@ -1,4 +1,4 @@
-// Materials: what walls, floors and furniture are made of, painted in metres. No letters: text is for signs alone.
+// Materials of walls, floors and furniture, painted in metres. They show no letters: only signs do.
 #ifndef TEXTSLAM_RENDERER_MATERIALS_HPP
 #define TEXTSLAM_RENDERER_MATERIALS_HPP
 
@@ -9,7 +9,7 @@
 
 namespace textslam {
 
-/// Clean paint: nothing but a trace of the roller.
+/// Clean paint with faint traces of the roller.
 Canvas bare_wall(double width, double height, double base, std::uint64_t seed);
 /// Old plaster: clouds, speckles, chips and a few cracks. `strength` 1 is a wall with many corners.
 Canvas plaster(double width, double height, double base, double strength, std::uint64_t seed);

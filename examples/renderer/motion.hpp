@@ -20,7 +20,7 @@ struct Look {
 };
 SE3d pose_of(const Look& look);
 
-/// The tremor of a hand: sums of sines of 0.9 to 2.9 Hz, about 3 mm and 0.15 degrees (rms of each axis), by the seed.
+/// The tremor of a hand: sums of sines of 0.9 to 2.9 Hz, about 3 mm and 0.15 degrees (rms of each axis), from the seed.
 class Tremor {
  public:
   explicit Tremor(std::uint64_t seed, double strength = 1.0);
@@ -33,7 +33,7 @@ class Tremor {
   std::vector<Wave> waves_;  // kWaves for each of six axes
 };
 
-/// 0 before `start`, 1 after start + duration, between them the quintic with zero speed and acceleration at both ends.
+/// 0 before `start`, 1 after start + duration; between them the quintic with zero speed and acceleration at both ends.
 double smooth_step(double t, double start, double duration);
 
 /// The loop of the room: an ellipse of 2.2 m by 1 m in eight seconds, looking at the far wall and the walls beside it.
@@ -42,8 +42,8 @@ Motion room_motion(std::uint64_t seed);
 Motion still_then_room_motion(std::uint64_t seed, double pause);
 /// The loop of the room, slower, with quick turns of the camera.
 Motion rapid_motion(std::uint64_t seed);
-/// Once round the middle of the room in eleven seconds, looking across it at one wall after the other, and on to see
-/// the first one again.
+/// Once round the middle of the room in eleven seconds, looking across it at one wall after the other until the first
+/// one is seen again.
 Motion loop_motion(std::uint64_t seed);
 /// A walk along +y and, after more than eight seconds, back again.
 Motion corridor_motion(std::uint64_t seed);

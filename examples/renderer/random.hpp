@@ -1,5 +1,5 @@
-// Random numbers of the renderer: a small stream and stateless hashes, so that every pixel of every frame has its own
-// number whatever thread computes it, and the same seed gives the same bytes.
+// Random numbers of the renderer: a small stream and stateless hashes. Every pixel of every frame has its own number,
+// whatever thread computes it, and a seed always gives the same bytes.
 #ifndef TEXTSLAM_RENDERER_RANDOM_HPP
 #define TEXTSLAM_RENDERER_RANDOM_HPP
 
@@ -8,14 +8,14 @@
 
 namespace textslam {
 
-/// The finaliser of SplitMix64: a bijection of 64-bit words that passes for random.
+/// The finaliser of SplitMix64: a bijection of 64-bit integers that looks random.
 constexpr std::uint64_t mix(std::uint64_t z) noexcept {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
   return z ^ (z >> 31);
 }
 
-/// One word from several, sensitive to their order.
+/// One integer from several, sensitive to their order.
 constexpr std::uint64_t hash(std::uint64_t a, std::uint64_t b, std::uint64_t c = 0) noexcept {
   return mix(mix(mix(a + 0x9e3779b97f4a7c15ULL) ^ b) + 0x9e3779b97f4a7c15ULL * (c + 1));
 }

@@ -13,11 +13,11 @@ namespace textslam {
 namespace {
 
 constexpr int kTile = 16;       // px
-constexpr double kNear = 0.02;  // m, for the bounds of a rectangle that reaches behind the camera
+constexpr double kNear = 0.02;  // m: the near plane, for rectangles that reach behind the camera
 constexpr double kDepthFloor = 1e-9;
 
 /// A rectangle in one camera. On the ray m~ = (m, 1): inverse depth rho = inverse . m~, and metres from the rectangle's
-/// corner s = (across . m~) / rho, t = (along . m~) / rho. All three are linear, which makes the front-most hit the
+/// corner s = (across . m~) / rho, t = (along . m~) / rho. All three are linear, so the nearest hit has the
 /// largest rho.
 struct Facet {
   Vector3<double> inverse, across, along;

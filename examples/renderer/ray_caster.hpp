@@ -1,4 +1,4 @@
-// Ray casting: one ray a sample into the rectangles of a scene, the nearest hit shaded by a filtered texture lookup.
+// Ray casting: one ray a sample into the rectangles of a scene. A filtered texture lookup shades the nearest hit.
 #ifndef TEXTSLAM_RENDERER_RAY_CASTER_HPP
 #define TEXTSLAM_RENDERER_RAY_CASTER_HPP
 
@@ -9,17 +9,17 @@
 
 namespace textslam {
 
-/// Casts the rays of one camera. Holds the ray of every pixel for each of a few sub-pixel offsets, so that a lens costs
-/// nothing per frame. const functions may run on several threads at once.
+/// Casts the rays of one camera. It keeps the ray of every pixel for a few sub-pixel offsets, so that lens distortion
+/// costs nothing in each frame. Any number of threads may call const functions.
 class RayCaster {
  public:
-  /// `offsets`: where in the pixel the samples lie (px from its centre). Throws std::invalid_argument where the lens
-  /// cannot be inverted for a pixel.
+  /// `offsets`: positions of the samples in the pixel (px from its centre). Throws std::invalid_argument where the
+  /// camera cannot unproject a pixel.
   RayCaster(const CameraModel& camera, std::vector<Vector2<double>> offsets);
 
   int offsets() const noexcept { return static_cast<int>(offsets_.size()); }
   const CameraModel& camera() const noexcept { return camera_; }
-  /// Normalised point that the sample sees: lens.distort() of it is the sample's pixel.
+  /// Normalised point that the sample sees.
   Vector2<double> ray(int offset, int x, int y) const noexcept;
 
   /// Adds weight * intensity to every pixel of `sum` (of the camera's size), seen from T_w_c at the sample `offset`.
@@ -30,7 +30,7 @@ class RayCaster {
  private:
   CameraModel camera_;
   std::vector<Vector2<double>> offsets_;
-  std::vector<std::vector<Vector2<double>>> rays_;  // by offset, row by row; empty without a lens
+  std::vector<std::vector<Vector2<double>>> rays_;  // by offset, row by row; empty for a pinhole
 };
 
 /// Pixel of the world point, or false where it is not in front of the camera.

@@ -108,7 +108,7 @@ class FrameWriter {
   RayCaster caster_;
 };
 
-/// All frames on the threads asked for; the first exception of any of them ends all and is thrown here.
+/// Renders all frames on options.threads threads. The first exception of any of them ends all and is thrown here.
 std::vector<std::string> write_frames(const FrameWriter& writer, const RenderOptions& options,
                                       const std::function<void(int, int)>& progress) {
   std::vector<std::string> lines(static_cast<std::size_t>(options.frames));
@@ -164,7 +164,7 @@ void render_sequence(const RenderOptions& asked, const std::function<void(int do
   std::string frames = "# timestamp exposure blur_median blur_max gain bias\n";
   for (const std::string& line : write_frames(writer, options, progress)) frames += line;
   write_file(options.output + "/truth/frames.txt", frames);
-  // Last, because a folder without it is no sequence: a render that was broken off is not taken for one.
+  // Last: a folder without it is not a sequence, so that an aborted render is not taken for one.
   write_file(options.output + "/images.txt", list);
 }
 

@@ -22,10 +22,11 @@ namespace textslam {
 
 struct RenderOptions {
   std::string kind = "room";  ///< one of render_kinds()
-  std::string output;         ///< the folder; made where it does not exist, files in it are replaced
+  std::string output;         ///< the folder; created if missing, files in it are replaced
   std::uint64_t seed = 1;
-  int frames = 0;                 ///< at 30 a second; 0: as many as the kind goes for, default_frames() of kinds.hpp
-  int width = 640, height = 480;  ///< px; the field of view stays that of 525 px focal length at a width of 640
+  int frames = 0;  ///< at 30 a second; 0: default_frames() of kinds.hpp
+  int width = 640,
+      height = 480;               ///< px; every size has the field of view of 525 px focal length at width 640
   RadialTangential<double> lens;  ///< coefficients alone are read; no distortion by default
   Conditions conditions;
   DetectorErrors detector;
@@ -35,8 +36,8 @@ struct RenderOptions {
 /// The names that RenderOptions::kind takes.
 std::vector<std::string> render_kinds();
 
-/// Renders the sequence. `progress`, if not empty, is called once a frame, one call at a time, with increasing `done`.
-/// Throws InputError for an unknown kind or senseless sizes, std::runtime_error where no font is found (naming the
+/// Renders the sequence. `progress`, if not empty, is called after every frame, one call at a time, with increasing `done`.
+/// Throws InputError for an unknown kind or invalid sizes, std::runtime_error where no font is found (naming the
 /// package to install) or a file cannot be written.
 void render_sequence(const RenderOptions& options, const std::function<void(int done, int total)>& progress = {});
 

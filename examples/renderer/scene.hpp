@@ -37,8 +37,8 @@ struct Surface {
   const Texture* texture;
 };
 
-/// A word in the world. The corners are those of the text, not of the plate that carries it: clockwise from the text's
-/// top left as a reader sees it.
+/// A word in the world. The corners are those of the text, not of its plate: clockwise from the text's top left as a
+/// reader sees it.
 struct Sign {
   int id;
   std::string word;
@@ -59,13 +59,13 @@ class Scene {
   Scene(Scene&&) = default;
   Scene& operator=(Scene&&) = default;
 
-  /// Ceiling lamps, to be set before anything that they shall shine on is added.
+  /// Ceiling lamps; set them before adding the surfaces that they light.
   std::vector<Vector3<double>> lamps;
 
-  /// A surface with the painted texture, which takes the light of the lamps. `corners_darken`: light also fades towards
-  /// the rectangle's edges, as it does where walls meet.
+  /// A surface with the painted texture in the light of the lamps. `corners_darken`: light also fades towards the
+  /// rectangle's edges, as where walls meet.
   void add(const Rectangle& rectangle, Canvas paint, bool corners_darken = false);
-  /// A surface with the texture as it is.
+  /// A surface with the texture as it is, unlit.
   void add_unlit(const Rectangle& rectangle, Image<std::uint8_t> texture);
   void add_sign(std::string word, const Rectangle& text);
 

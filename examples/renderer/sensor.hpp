@@ -32,11 +32,11 @@ using SensorProgram = std::function<SensorState(double)>;
 
 /// A camera in steady light.
 SensorProgram steady_sensor();
-/// Light that swings, is dimmed and comes back within a tenth of a second, flickers as lamps on 50 Hz mains do, with a
-/// strong vignette and glare that wanders over a picture of the given size.
+/// Light that swings, dims and recovers within a tenth of a second, and flickers as lamps on 50 Hz mains do, with a
+/// strong vignette and a glare that wanders over a picture of this size.
 SensorProgram changing_lights(std::uint64_t seed, int width, int height);
 
-/// The 8-bit picture. The noise of a pixel depends on the seed and its place alone.
+/// The 8-bit picture. The noise of a pixel depends only on the seed and its position.
 Image<std::uint8_t> develop(const Image<double>& light, const SensorState& state, std::uint64_t noise_seed);
 
 }  // namespace textslam

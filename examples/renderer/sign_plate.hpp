@@ -18,12 +18,12 @@ struct SignPlate {
   double text_x, text_y, text_width, text_height;  ///< m
 };
 
-/// A plate `width` metres wide for the word; its height follows from the word. Dark on light or light on dark, with a
-/// border or without, in a font: all by the random numbers. The text box leaves a rim of 6 % of the text's height
-/// around the ink, as detectors' boxes do.
+/// A plate `width` metres wide for the word, which determines its height. The random numbers choose dark on light or
+/// light on dark, a border or none, and the font. As in a detector's box, the text box leaves a rim of 6 % of the
+/// text's height round the ink.
 SignPlate make_sign_plate(const std::string& word, double width, const std::vector<Font>& fonts, Random& random);
 
-/// `count` different English words in capitals, in an order given by the random numbers. At most 48.
+/// `count` different English words in capitals, in random order. At most 48.
 std::vector<std::string> sign_words(int count, Random& random);
 
 }  // namespace textslam

@@ -1,4 +1,4 @@
-// Picture: images side by side with what was found in them drawn on top, as an SVG that holds all of it.
+// Picture: images side by side with results drawn on top, as one self-contained SVG.
 #ifndef TEXTSLAM_STAGE_PICTURE_HPP
 #define TEXTSLAM_STAGE_PICTURE_HPP
 
@@ -9,19 +9,19 @@
 
 namespace textslam {
 
-/// Colours of all pictures: where something is, where it was guessed to be, and where it was found.
+/// Colours of all pictures: truth, first guess and result.
 constexpr const char *kTruth = "#1e5adc", *kGuess = "#e07a10", *kFound = "#12a150";
 
 class Picture {
  public:
-  /// `file`: of save(); none: nothing is written.
+  /// `file`: what save() writes; empty: it writes nothing.
   explicit Picture(std::string file) : file_(std::move(file)) {}
   /// The file is the program's only argument, if there is one.
   Picture(int argc, char** argv) : Picture(argc > 1 ? argv[1] : "") {}
 
   /// A panel to the right of those before.
   Picture& panel(ImageView8 image, const std::string& caption);
-  /// On the last panel.
+  /// Draws on the last panel.
   Picture& quad(const Quad<double>& quad, const char* colour);
   Picture& dot(const Vector2<double>& px, const char* colour);
   /// Throws std::runtime_error where the file cannot be written.

@@ -18,7 +18,7 @@ constexpr int kWidth = 480, kHeight = 360;
 constexpr double kDistance = 2.0, kPlateWidth = 1.1, kWallWidth = 6.0, kWallHeight = 5.0, kPlateThickness = 0.001;
 constexpr std::uint64_t kSeed = 6;
 
-/// A rectangle round `centre` as a camera sees it that faces the wall, turned by R about the sign's centre.
+/// An upright rectangle, seen by a camera that faces the wall, turned by R about the sign's centre.
 Rectangle upright(double width, double height, double lift, const Matrix3<double>& R) {
   Rectangle r;
   r.right = R.col(0);

@@ -1,5 +1,4 @@
-// Stage: one sign on a plastered wall, looked at from anywhere. What the numbered examples run on, with the exact
-// truth.
+// Stage: one sign on a plastered wall, seen from anywhere, with the exact truth. The numbered examples run on it.
 //
 // The world's axes are those of a camera that faces the wall: x right, y down, z ahead, in metres. The sign's plate is
 // centred at (0, 0, 2).
@@ -20,9 +19,9 @@ class Stage {
   /// std::runtime_error where no font is found.
   explicit Stage(const std::string& word, const Vector3<double>& turn = Vector3<double>::Zero());
 
-  /// Of all views: 480 x 360 px, no distortion.
+  /// The camera of all views: 480 x 360 px, no distortion.
   const Pinhole<double>& camera() const noexcept { return camera_; }
-  /// What the camera at T_w_c sees.
+  /// The image of the camera at T_w_c.
   Image<std::uint8_t> view(const SE3d& T_w_c, const SensorState& sensor = {}) const;
   /// Corners of the text (not of the plate) in that view, px.
   Quad<double> quad(const SE3d& T_w_c) const;
@@ -40,8 +39,8 @@ SE3d camera_at(const Vector3<double>& position, const Vector3<double>& turn = Ve
 /// Mean distance of the corners, px.
 double corner_error(const Quad<double>& a, const Quad<double>& b);
 
-/// The quad under the pixel homography of the plane theta and the pose T_t_h, one camera for both views; NaN where it
-/// is behind.
+/// The image of the quad under the pixel homography of plane theta and pose T_t_h, with one camera for both views; NaN
+/// where it is behind the camera.
 Quad<double> warped(const Quad<double>& quad, const Vector3<double>& theta, const SE3d& T_t_h,
                     const Pinhole<double>& camera);
 
