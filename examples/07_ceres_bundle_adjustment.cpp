@@ -1,5 +1,5 @@
-// 07: bundle adjustment by Ceres of five key frames, two of them fixed, and the plane of one sign, from the sign's pixels
-// alone. Add costs of your own by problem.problem().AddResidualBlock(). Built where Ceres is found, with
+// 07: bundle adjustment by Ceres of five key frames, two of them fixed, and the plane of one sign, from the sign's
+// pixels alone. Add costs of your own by problem.problem().AddResidualBlock(). Built where Ceres is found, with
 // TEXTPLANE_BUILD_PEER_EXAMPLES.
 #include <algorithm>
 #include <cstdio>

@@ -15,10 +15,9 @@ namespace textslam {
 
 struct FrameRef {
   double timestamp = 0;  ///< s
-  std::string path;      ///< the image (with the sequence's folder), or the video
-  std::string
-      stem;      ///< file name without its last extension, of a video the frame's number: the name of its detections
-  int line = 0;  ///< in the list that names it; 0: no list
+  std::string path;      ///< the image, or the video
+  std::string stem;      ///< of its detections' name: the file name without extension, or the number in a video
+  int line = 0;          ///< in the list that names it; 0: no list
 };
 
 /// The path of images.txt, else of rgb.txt; empty where the folder has neither.

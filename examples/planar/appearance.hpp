@@ -1,8 +1,8 @@
-// Appearance: what of an object's looks is compared with an image, where light and sharpness differ between the two.
+// Appearance: the form in which an object and an image are compared, robust to differences of light and sharpness.
 //
-// Both sides are seen by local contrast (photometry/local_contrast.hpp), which a shadow's edge or a highlight hardly
-// changes. And the object is kept as a sharp camera saw it and more and more blurred: an image out of focus or in
-// motion is compared with the one most like it, since a homography bends where it has to explain blur.
+// Both are normalised by local contrast (photometry/local_contrast.hpp), which the edge of a shadow or a highlight
+// hardly changes. The object is kept at several degrees of blur, and an image out of focus or in motion is compared
+// with the most similar one: otherwise the homography bends to explain the blur.
 #ifndef TEXTPLANE_EXAMPLES_APPEARANCE_HPP
 #define TEXTPLANE_EXAMPLES_APPEARANCE_HPP
 
@@ -21,18 +21,17 @@ namespace tp = textplane;
 
 struct AppearanceOptions {
   tp::LocalContrastOptions contrast;
-  std::vector<double> blur = {
-      0, 1, 3, 9};     ///< Variances, px^2 of every level, that the object is kept with; the first is as it is.
-  double gain = 0.02;  ///< A more blurred object must have a ZNCC this much better.
-  int margin = 16;     ///< px of a level, round the quad: what of an image is looked at.
+  std::vector<double> blur = {0, 1, 3, 9};  ///< Variances of the blurs, px^2 of every level; 0 is the object itself.
+  double gain = 0.02;                       ///< A stronger blur must raise ZNCC by this much.
+  int margin = 16;                          ///< px of a level round the quad that are compared.
 };
 
-/// The part of one level that is looked at, by local contrast; (x, y) is where it begins.
+/// The part of one level that is compared, by local contrast; (x, y) is its corner in the level.
 struct Window {
   tp::ImageView8 image;
   int x = 0, y = 0;
 
-  /// The level's camera as the window's.
+  /// The level's camera in px of the part.
   tp::Pinhole<double> of(tp::Pinhole<double> camera) const noexcept {
     camera.cx -= x;
     camera.cy -= y;
@@ -43,7 +42,7 @@ struct Window {
 class Appearance {
  public:
   Appearance() = default;
-  /// `patch`: of the first image, whose pyramid has all of its levels.
+  /// `patch`: of the first image, on all levels of its pyramid.
   Appearance(const tp::PyramidView& first, const tp::TextPatch& patch, const AppearanceOptions& options)
       : options_(options), contrast_(options.contrast), looks_(std::max<std::size_t>(options.blur.size(), 1), patch) {
     for (std::size_t l = 0; l < patch.levels.size(); ++l) {
@@ -67,17 +66,17 @@ class Appearance {
     for (std::size_t l = 0; l < prepared_.size(); ++l) prepared_[l].prepare(sharp().levels[l].view());
   }
 
-  /// The object as it was seen, and prepared for a search.
+  /// The object at the degree of blur 0, prepared for a search.
   const tp::TextPatch& sharp() const noexcept { return looks_[0]; }
   const tp::TemplatePatch* prepared() const noexcept { return prepared_.data(); }
 
-  /// How many looks there are, and one level of one of them.
+  /// The number of degrees of blur, and one level of one of them.
   std::size_t count() const noexcept { return looks_.size(); }
   tp::PatchView look(std::size_t k, int level) const noexcept {
     return level < looks_[k].level_count() ? looks_[k].levels[static_cast<std::size_t>(level)].view() : tp::PatchView();
   }
 
-  /// The look most like the image of `in` under a pose, the sharpest of those about as good.
+  /// The degree of blur most similar to the image of `in` under a pose; of nearly equal ones the sharpest.
   std::size_t best(tp::PhotometricInput in, int level, const tp::Vector3<double>& theta, const tp::SE3d& T_t_h,
                    const tp::PhotometricOptions& photometric, tp::PhotometricWorkspace& workspace) const noexcept {
     std::size_t found = 0;
@@ -92,8 +91,8 @@ class Appearance {
     return found;
   }
 
-  /// The surroundings of a quad (px of the level) in an image; not valid() where it is out of view. Until the next
-  /// call.
+  /// The surroundings of a quad (px of the level) in an image, valid until the next call; not valid() where the quad is
+  /// out of view.
   Window window(const tp::ImageView8& image, const tp::Quad<double>& quad) {
     const auto b = tp::bounds(quad);
     const auto cut = [](double v, int most) { return static_cast<int>(std::min(std::max(v, 0.0), 1.0 * most)); };

@@ -66,7 +66,7 @@ bool align_ecc(const tp::PyramidView& first, const tp::Quad<double>& quad, const
                            {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations, kEpsilon});
     } catch (const cv::Exception&) {
       if (level == 0) return false;
-      continue;  // a coarse level that does not converge is left out
+      continue;  // skip a coarse level that does not converge
     }
     for (int i = 0; i < 9; ++i) H_l(i / 3, i % 3) = static_cast<double>(warp.at<float>(i / 3, i % 3));
     found = S.inverse() * shift(around.x, around.y) * H_l * shift(-patch.x, -patch.y) * S;
@@ -99,7 +99,7 @@ bool align_ssd(const tp::TextPatch& patch, const tp::PyramidView& image, Matrix*
     const Matrix S = to_level(level);
     Matrix H_l = S * found * S.inverse();
     H_l /= H_l(2, 2);
-    // Mean squared difference, and its normal equations where asked for.
+    // Mean squared difference and, on request, its normal equations.
     const auto cost = [&](const Matrix& G, Eigen::Matrix<double, 8, 8>* A, Vector8* b) {
       double sum = 0;
       int n = 0;

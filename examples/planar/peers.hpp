@@ -1,5 +1,5 @@
-// What PlaneTracker is compared with: OpenCV's ECC, pyramidal KLT with a RANSAC homography, and plain SSD, each as a
-// careful user has it.
+// The peers of PlaneTracker: OpenCV's ECC, pyramidal KLT with a RANSAC homography, and plain SSD, each as a careful
+// user would set it up.
 //
 // All of them find the homography H, pixels of the first image to pixels of another, from a start.
 #ifndef TEXTPLANE_EXAMPLES_PEERS_HPP
@@ -15,20 +15,19 @@ namespace planar {
 namespace tp = textplane;
 
 /// cv::findTransformECC, coarse to fine over the levels of both pyramids: the quad's bounding box of the first image
-/// against the surroundings of the quad in the other. False where OpenCV gives up; *H is then what it was.
+/// against the surroundings of the quad in the other. False where OpenCV fails; *H is then unchanged.
 bool align_ecc(const tp::PyramidView& first, const tp::Quad<double>& quad, const tp::PyramidView& image,
                tp::Matrix3<double>* H);
 
-/// The same over whole images, finest level alone: what makes a published homography exact. Returns false where it
-/// fails.
+/// The same over whole images, on the finest level alone: refines a published homography. False where it fails.
 bool refine_whole(tp::ImageView8 first, tp::ImageView8 image, tp::Matrix3<double>* H);
 
 /// Least squares of the grey levels at the patch's pixels by the eight entries of H, damped, coarse to fine. False
 /// where too few pixels are in view.
 bool align_ssd(const tp::TextPatch& patch, const tp::PyramidView& image, tp::Matrix3<double>* H);
 
-/// Corners of the quad tracked from frame to frame by cv::calcOpticalFlowPyrLK; H of those that are left by
-/// cv::findHomography with RANSAC at 3 px.
+/// Tracks corners of the quad from frame to frame by cv::calcOpticalFlowPyrLK; H by cv::findHomography with RANSAC at 3
+/// px.
 class KltHomography {
  public:
   KltHomography(const cv::Mat& first, const tp::Quad<double>& quad);

@@ -1,13 +1,11 @@
-// PlaneTracker: a planar object followed through a video from its quad in the first frame, by a camera that nobody
-// calibrated.
+// PlaneTracker: follows a planar object through a video from its quad in the first frame, with an uncalibrated camera.
 //
-// Every frame is aligned with the pixels of the first one, so nothing drifts. A frame's starts are the best by ZNCC of
-// a search round the last pose, and round the pose that went on as before; pose and plane are found from both, coarse
-// to fine, and the better fit is kept. What is compared is the local contrast of both, at one sharpness
-// (appearance.hpp). Where the fit is not good, it is tried again from the best of a search on a finer level: the
-// coarsest cannot tell what repeats apart, and has few pixels of small text. H = R + t theta^T with both free is any
-// homography, so that the focal length is a matter of conditioning alone. What H does not show, its scale and without
-// parallax the plane, and what a small quad hardly shows, perspective, is held by weak pulls.
+// Every frame is aligned with the pixels of the first one, so nothing drifts. Two searches by ZNCC give the starts of a
+// frame: round the last pose, and round the pose of constant velocity. From both, pose and plane are refined coarse to
+// fine; the better fit wins. Local contrast at one degree of blur is compared (appearance.hpp). A poor fit is tried
+// again from a search on a finer level: the coarsest cannot tell repeated texture apart, and has few pixels of small
+// text. H = R + t theta^T with both free is any homography, so the focal length affects conditioning alone. Weak priors
+// hold what H does not determine: its scale, the plane without parallax, and the perspective of a small quad.
 #ifndef TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
 #define TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
 
@@ -33,22 +31,20 @@ struct PlaneState {
   tp::Vector3<double> theta = tp::Vector3<double>::UnitZ();
 };
 
-/// The same for every video and every image pair.
+/// One set of parameters for every video and every image pair.
 struct PlaneTrackerOptions {
   tp::SelectOptions select;
   tp::PhotometricOptions photometric;
   tp::SolveOptions solve;
-  tp::SearchOptions search;  ///< Before a frame of a video, on grey levels.
+  tp::SearchOptions search;  ///< For the start of a video frame, on grey levels.
   AppearanceOptions appearance;
   double sure = 0.9;        ///< A fit with a lower ZNCC is tried again.
-  tp::SearchOptions again;  ///< Before that, on local contrast.
-  int plane_level = 2;      ///< From here on the plane is free, too.
-  double focal =
-      8;  ///< Of the camera, in sides of a square of the quad's area; its axis goes through the quad's centre.
-  double plane = 1e-3;  ///< Pull of theta to a plane that faces the first camera, as a part of the photometric cost.
-  double turn =
-      0.1;  ///< Pull of turns about the image's axes (rad^2): perspective, which a small quad hardly shows, is held.
-  double lost = 0.5;  ///< A frame with a lower ZNCC than this is lost: the next one begins where this one did.
+  tp::SearchOptions again;  ///< For the second try, on local contrast.
+  int plane_level = 2;      ///< From this level on the plane is free, too.
+  double focal = 8;         ///< Of the camera whose axis meets the quad's centre, in units of sqrt(the quad's area).
+  double plane = 1e-3;      ///< Weight of the prior that the plane faces the first camera, relative to the data.
+  double turn = 0.1;        ///< Weight of the prior on tilt (rad^2): a small quad hardly shows perspective.
+  double lost = 0.5;        ///< A frame with a lower ZNCC is lost: the next one starts where this one did.
 
   PlaneTrackerOptions() {
     select.levels = 4;
@@ -61,14 +57,13 @@ struct PlaneTrackerOptions {
   }
 };
 
-/// Pose and plane together as a problem for tp::minimise(): nine parameters (v, omega, theta), some of them pulled to
-/// where they were.
+/// Pose and plane as a problem for tp::minimise(): nine parameters (v, omega, theta), some with a prior at the start.
 class PosePlaneProblem {
  public:
   using State = PlaneState;
   static constexpr int kParameters = 9;
 
-  /// `from`: what turns are counted from and theta is pulled to, with these weights.
+  /// `from`: the mean of the priors on rotation and theta, with these weights.
   PosePlaneProblem(const tp::PhotometricInput& input, const State& from, double turn, double plane,
                    const tp::PhotometricOptions& options, tp::PhotometricWorkspace& workspace)
       : input_(input), from_(from), options_(options), workspace_(workspace) {
@@ -109,7 +104,7 @@ class PosePlaneProblem {
 
 class PlaneTracker {
  public:
-  /// `quad`: clockwise, px of `first`. status() tells whether it can be tracked.
+  /// `quad`: clockwise, px of `first`. status() says whether it can be tracked.
   PlaneTracker(tp::ImageView8 first, const tp::Quad<double>& quad, const PlaneTrackerOptions& options = {})
       : options_(options) {
     const tp::Vector2<double> centre = tp::centroid(quad);
@@ -124,8 +119,8 @@ class PlaneTracker {
 
   tp::Status status() const noexcept { return patch_.status; }
 
-  /// Where the object is in the next image: an ok status, or why it is not known; the state is then that of the frame
-  /// before.
+  /// Tracks the object to the next image: an ok status, or the reason of the failure; the state is then that of the
+  /// previous frame.
   tp::Status track(tp::ImageView8 image) {
     image_.build(image, options_.select.levels);
     PlaneState found, best;
@@ -156,8 +151,8 @@ class PlaneTracker {
     return status;
   }
 
-  /// Coarse to fine from `state`, in place: first with the plane that is known, then with a free one; and again where
-  /// that is not good.
+  /// Aligns coarse to fine from `state`, in place: first with the known plane, then with a free one. A poor fit is
+  /// tried again.
   tp::Status align(const tp::PyramidView& image, PlaneState& state) {
     const PlaneState start = state;
     const tp::Status status = descend(image, kAllLevels, state);
@@ -204,7 +199,7 @@ class PlaneTracker {
                                  workspace_);
         tp::NormalEquations<9> system;
         status = tp::minimise(problem, state, options_.solve, &system).status;
-        // No step that lowers the cost: as good as it gets, and ZNCC says how good.
+        // No step lowers the cost: the fit is converged, and ZNCC rates it.
         if (status == tp::Status::diverged) status = tp::Status::converged;
         zncc_ = system.zncc;
       }
@@ -212,7 +207,7 @@ class PlaneTracker {
     return status;
   }
 
-  // What came of `start` with zncc_, or where that is not good what comes of a search round it, if this is better.
+  // The fit from `start` with zncc_; where it is poor, that of a search round it if it is better.
   tp::Status again(const tp::PyramidView& image, const PlaneState& start, tp::Status status, PlaneState& state) {
     const double zncc = tp::is_ok(status) ? zncc_ : -1.0;
     if (zncc >= options_.sure) return status;
@@ -220,7 +215,7 @@ class PlaneTracker {
     const Window window =
         appearance_.window(image.level[static_cast<std::size_t>(level)], tp::quad_to_level(quad(start), level));
     if (window.image.valid()) {
-      tp::PyramidView view;  // of which the search sees this level alone
+      tp::PyramidView view;  // this level alone, for the search
       view.levels = level + 1;
       view.level[static_cast<std::size_t>(level)] = window.image;
       tp::Pinhole<double> camera = camera_;

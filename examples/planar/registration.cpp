@@ -14,8 +14,8 @@ constexpr int kCorners = 1500, kHalf = 15, kReach = 4, kLeast = 12;      // px, 
 constexpr double kBlur = 4, kNoise = 4, kDistance = 12;                  // px, grey levels, px
 constexpr double kCorrelation = 0.7, kThereAndBack = 0.3, kAgree = 0.5;  // none, px, px
 
-/// Where the square round `at` of one photograph is in the other, to a fraction of a pixel by parabolas. False where it
-/// does not fit in either, is not like anything within reach, or most like the edge of that.
+/// The position in the other photograph of the square round `at`, refined by parabolas. False where it leaves either
+/// photograph, correlates with nothing within reach, or best at the edge of the reach.
 bool find_square(const cv::Mat& from, const cv::Mat& to, cv::Point at, cv::Point2d* found) {
   const cv::Rect square(at.x - kHalf, at.y - kHalf, 2 * kHalf + 1, 2 * kHalf + 1);
   const cv::Rect around(square.x - kReach, square.y - kReach, square.width + 2 * kReach, square.height + 2 * kReach);

@@ -1,8 +1,7 @@
-// Where one photograph lies in another by the same camera that hardly moved, whatever the light: what trials take for
-// the truth.
+// Registration of two photographs by a camera that hardly moved, under any light: the truth of the trials.
 //
-// None of textplane takes part, so that the truth does not lean to one aligner: corners of OpenCV, each with the square
-// round it found in the other photograph by exhaustive correlation there and back, and one similarity through all that
+// It uses nothing of textplane, so that the truth favours no aligner. Exhaustive correlation, forward and backward,
+// finds the square round each OpenCV corner in the other photograph; one similarity is fitted to all matches that
 // agree.
 #ifndef TEXTPLANE_EXAMPLES_REGISTRATION_HPP
 #define TEXTPLANE_EXAMPLES_REGISTRATION_HPP
@@ -16,22 +15,21 @@ namespace planar {
 
 namespace tp = textplane;
 
-/// A similarity (px of one photograph to px of another) and how far it can be trusted.
+/// A similarity (px of one photograph to px of another) and its precision.
 struct Registration {
   tp::Matrix3<double> H = tp::Matrix3<double>::Identity();
-  int matches = 0;      ///< That agree to half a pixel.
+  int matches = 0;      ///< Matches that agree to half a pixel.
   double residual = 0;  ///< px: their mean distance.
 };
 
-/// Registers photographs that were compared with their surroundings once: compare() of each. Throws std::runtime_error
-/// where fewer than a dozen matches are found.
+/// Registers photographs that were normalised by compare(). Throws std::runtime_error for fewer than a dozen matches.
 Registration register_still(const cv::Mat& first, const cv::Mat& other);
 
-/// A grey photograph with the mean of its surroundings taken away and divided by their deviation.
+/// A grey photograph minus the mean of its surroundings, divided by their deviation.
 cv::Mat compare(const cv::Mat& grey);
 
-/// Mean and largest difference, px, at points between the registration 0 to j and that by way of i, over all pairs i <
-/// j: from[i][j].
+/// Mean and largest difference, px at the points, between the registration 0 to j and that by way of i, over all pairs
+/// i < j: from[i][j].
 struct Consistency {
   double mean = 0, largest = 0;
 };

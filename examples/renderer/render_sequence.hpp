@@ -36,9 +36,9 @@ struct RenderOptions {
 /// The names that RenderOptions::kind takes.
 std::vector<std::string> render_kinds();
 
-/// Renders the sequence. `progress`, if not empty, is called after every frame, one call at a time, with increasing `done`.
-/// Throws InputError for an unknown kind or invalid sizes, std::runtime_error where no font is found (naming the
-/// package to install) or a file cannot be written.
+/// Renders the sequence. `progress`, if not empty, is called after every frame, one call at a time, with increasing
+/// `done`. Throws InputError for an unknown kind or invalid sizes, std::runtime_error where no font is found (naming
+/// the package to install) or a file cannot be written.
 void render_sequence(const RenderOptions& options, const std::function<void(int done, int total)>& progress = {});
 
 }  // namespace textslam

@@ -39,7 +39,7 @@ std::string reason(int error) {
   return text;
 }
 
-// `image` turned by quarters of a turn, clockwise.
+// `image` rotated clockwise by multiples of 90 degrees.
 Image<std::uint8_t> turned(const Image<std::uint8_t>& image, int quarters) {
   if (quarters == 0) return image;
   const int w = image.width(), h = image.height();
@@ -58,7 +58,7 @@ class LibavVideo final : public VideoFile {
  public:
   explicit LibavVideo(const std::string& path) : path_(path), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
     if (!packet_ || !frame_) throw std::bad_alloc();
-    av_log_set_level(AV_LOG_QUIET);  // what matters is said in our line
+    av_log_set_level(AV_LOG_QUIET);  // our own message says what matters
     open();
     while (next_picture()) {
       const std::int64_t stamp = frame_->best_effort_timestamp;
@@ -79,26 +79,26 @@ class LibavVideo final : public VideoFile {
     const bool ahead = position_ == 0 || stamps_.at(index) > stamps_[position_ - 1];
     if (!ahead) seek(stamps_[index]);
     if (advance_to(index)) return kept_.back().second;
-    // The container pointed behind the frame.
+    // The seek landed after the frame.
     open();
     if (advance_to(index)) return kept_.back().second;
     throw InputError(path_, 0, "frame " + std::to_string(index) + " does not decode");
   }
 
  private:
-  // Opens the file anew, the decoder before its first frame.
+  // Opens the file again, with the decoder before its first frame.
   void open() {
     scaler_.reset();
     decoder_.reset();
     format_.reset();
     AVFormatContext* format = nullptr;
     AVDictionary* options = nullptr;
-    av_dict_set(&options, "protocol_whitelist", "file", 0);  // a playlist must not reach into the network
+    av_dict_set(&options, "protocol_whitelist", "file", 0);  // a playlist must not use the network
     const int opened = avformat_open_input(&format, ("file:" + path_).c_str(), nullptr, &options);
     av_dict_free(&options);
     if (opened < 0) throw InputError(path_, 0, "this is not a folder, nor a video: " + reason(opened));
     format_.reset(format);
-    // Demuxers that take any text, or an image by itself, for a video.
+    // These demuxers accept any text, or a single image, as a video.
     const std::string kind = format->iformat->name;
     if (kind == "tty" || kind == "image2" || kind.find("_pipe") != std::string::npos)
       throw InputError(path_, 0, "this is not a folder, nor a video");
@@ -122,7 +122,7 @@ class LibavVideo final : public VideoFile {
     drained_ = false;
   }
 
-  // Phones write the picture as the sensor has it, and how to turn it beside it.
+  // Phones store the raw picture of the sensor and, beside it, its rotation.
   int rotation() const {
     const std::uint8_t* matrix = av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
     if (!matrix) return 0;
@@ -138,7 +138,7 @@ class LibavVideo final : public VideoFile {
     restart();
   }
 
-  // Into frame_; false at the end. Pictures with damage are passed over.
+  // Decodes the next picture into frame_; false at the end. Damaged pictures are skipped.
   bool next_picture() {
     for (;;) {
       const int got = avcodec_receive_frame(decoder_.get(), frame_.get());
@@ -151,11 +151,11 @@ class LibavVideo final : public VideoFile {
     }
   }
 
-  // The next packet of the video to the decoder; at the end of the file what makes it give the pictures that it holds.
+  // Sends the next packet of the video to the decoder; at the end of the file, the request to flush.
   void send_packet() {
     while (av_read_frame(format_.get(), packet_.get()) >= 0) {
       const bool ours = packet_->stream_index == stream_->index;
-      if (ours) avcodec_send_packet(decoder_.get(), packet_.get());  // one that is broken gives no picture
+      if (ours) avcodec_send_packet(decoder_.get(), packet_.get());  // a broken packet gives no picture
       av_packet_unref(packet_.get());
       if (ours) return;
     }
@@ -209,9 +209,9 @@ class LibavVideo final : public VideoFile {
   Owned<AVCodecContext> decoder_;
   Owned<SwsContext> scaler_;
   AVStream* stream_ = nullptr;
-  int quarters_ = 0;          // that turn the picture upright, clockwise
+  int quarters_ = 0;          // clockwise turns of 90 degrees that make the picture upright
   std::size_t position_ = 0;  // one past the last frame that came from the decoder; 0 after a restart
-  bool drained_ = false;      // the decoder has had the last packet
+  bool drained_ = false;      // the decoder has received the last packet
   std::vector<std::int64_t> stamps_;
   std::vector<double> times_;
   std::deque<std::pair<std::size_t, Image<std::uint8_t>>> kept_;
