@@ -103,7 +103,7 @@ def test_page(browser, path, screenshots):
             check((back < 0.3 and text > 0.7) if dark else (back > 0.9 and text < 0.3), f"{path}: dark {dark}: {back}, {text}")
             if screenshots:
                 name = f"{path.parent.name}_{path.stem}-{width}-{'dark' if dark else 'light'}.png"
-                browser.screenshot(screenshots / name)
+                browser.screenshot(screenshots / name, tallest=3 * height)
     check(not browser.troubles, f"{path}: the browser complains: {browser.troubles}")
     return formulas
 

@@ -133,10 +133,11 @@ class Browser:
     def mouse(self, kind, x, y, **more):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
 
-    def screenshot(self, path):
+    def screenshot(self, path, tallest=16000):
+        """The page from its top, down to `tallest` px."""
         size = self.run("({w: document.documentElement.clientWidth, h: document.documentElement.scrollHeight})")
         shot = self.call("Page.captureScreenshot", captureBeyondViewport=True,
-                         clip={"x": 0, "y": 0, "width": size["w"], "height": size["h"], "scale": 1})
+                         clip={"x": 0, "y": 0, "width": size["w"], "height": min(size["h"], tallest), "scale": 1})
         pathlib.Path(path).write_bytes(base64.b64decode(shot["data"]))
 
     def __enter__(self):
