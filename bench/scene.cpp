@@ -5,12 +5,14 @@
 #include <numeric>
 #include <vector>
 
-#include "random.hpp"
+#include "support/random.hpp"
 #include "textplane/geometry/homography.hpp"
 
 namespace textplane_bench {
 
 namespace {
+
+using textplane_test::Random;
 
 // In [0, 1), the same for the same cell.
 double hash(int x, int y, unsigned seed) {
@@ -32,12 +34,6 @@ double value_noise(double x, double y, unsigned seed) {
   const double upper = hash(x0, y0, seed) * (1 - u) + hash(x0 + 1, y0, seed) * u;
   const double lower = hash(x0, y0 + 1, seed) * (1 - u) + hash(x0 + 1, y0 + 1, seed) * u;
   return upper * (1 - v) + lower * v;
-}
-
-tp::SE3d small_motion(Random& random, double translation, double rotation) {
-  tp::Vector6<double> xi;
-  for (int i = 0; i < 6; ++i) xi[i] = random.uniform(-1, 1) * (i < 3 ? translation : rotation);
-  return tp::se3_exp<double>(xi);
 }
 
 // The rectangle: 100 x 40, or as much larger as the pixels need, around the middle and moved a little from scene to scene.
@@ -94,7 +90,7 @@ void scatter_pixels(int n, Random& random, Scene* s) {
 
 // Moves pose and plane in a random direction until the corner error is `px`.
 void displace_start(double px, Random& random, Scene* s) {
-  const tp::Vector6<double> xi = tp::se3_log(small_motion(random, 0.02, 0.01));
+  const tp::Vector6<double> xi = tp::se3_log(random.pose(0.02, 0.01));
   const tp::Vector3<double> tilt(random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
                                  random.uniform(-0.005, 0.005));
   double low = 0, high = 8;
@@ -168,7 +164,7 @@ Scene make_scene(int n, unsigned seed, double px, const Light& light, double mot
   Random random(seed * 7919 + 17);
   const tp::Vector3<double> normal(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), -1);
   s.theta = -normal.normalized() / 2.0;
-  s.T_t_h = small_motion(random, 0.06 * motion, 0.03 * motion);
+  s.T_t_h = random.pose(0.06 * motion, 0.03 * motion);
   choose_rectangle(n, random, &s);
   render(seed, light, random, &s);
   scatter_pixels(n, random, &s);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "random.hpp"
 #include "scene.hpp"
+#include "support/random.hpp"
 
 namespace textplane_bench {
 
@@ -78,10 +78,7 @@ class Builder {
     images_[static_cast<std::size_t>(f)].build(image.view(), 1);
   }
 
-  tp::Vector3<double> vector(double size) {
-    const double x = random_.uniform(-size, size), y = random_.uniform(-size, size), z = random_.uniform(-size, size);
-    return {x, y, z};
-  }
+  bool chance(double p) { return random_.uniform(0, 1) < p; }
 
   // A direction that the cameras turn to, rad.
   double somewhere() { return random_.uniform(-0.4, step_ * (size_.frames - 1) + 0.4); }
@@ -104,8 +101,8 @@ class Builder {
       tp::WindowPointObservation o;
       o.frame = f;
       o.point = static_cast<int>(w_.points.size());
-      if (!sees(f, point.p_w, &o.px) || !random_.chance(kSeen)) continue;
-      const double size = random_.chance(0.03) ? 15 : 1;
+      if (!sees(f, point.p_w, &o.px) || !chance(kSeen)) continue;
+      const double size = chance(0.03) ? 15 : 1;
       o.px[0] += size * random_.normal();
       o.px[1] += size * random_.normal();
       w_.point_observations.push_back(o);
@@ -132,7 +129,7 @@ class Builder {
       const tp::Vector3<double> ray = (corner[0] - frame(f).T_w_c.t).normalized();
       bool inside = ray.dot(outwards) > 0.5;  // Within 60 degrees of facing it.
       for (int c = 0; c < 4; ++c) inside = inside && sees(f, corner[c], &quad.corner[static_cast<std::size_t>(c)]);
-      if (!inside || !random_.chance(kSeen)) continue;
+      if (!inside || !chance(kSeen)) continue;
       if (seen.empty()) host_quad = quad;
       seen.push_back(f);
     }
@@ -171,18 +168,18 @@ class Builder {
   void disturb() {
     for (tp::WindowFrame& f : w_.frames) {
       tp::Vector6<double> xi;
-      xi << vector(0.004), vector(0.001);
+      xi << random_.vector<3>(0.004), random_.vector<3>(0.001);
       if (!f.fixed) f.T_w_c = f.T_w_c * tp::se3_exp(xi);
     }
-    for (tp::WindowPoint& p : w_.points) p.p_w += vector(0.05);
-    for (tp::WindowText& t : w_.texts) t.theta += t.theta.norm() * vector(0.005);
+    for (tp::WindowPoint& p : w_.points) p.p_w += random_.vector<3>(0.05);
+    for (tp::WindowText& t : w_.texts) t.theta += t.theta.norm() * random_.vector<3>(0.005);
   }
 
   const WindowSize size_;
   tp::Window& w_;
   std::vector<tp::Pyramid>& images_;
   std::vector<tp::TextPatch>& patches_;
-  Random random_;
+  textplane_test::Random random_;
   double step_ = 0;
   const tp::Matrix3<double> wall_frame_[4] = {wall_frame(0), wall_frame(1), wall_frame(2), wall_frame(3)};
 };

@@ -1,6 +1,7 @@
 // A monocular tracker like ORB-SLAM, written without textplane: ORB key points, a pose-only optimisation of every
 // frame, key frames, triangulation, local bundle adjustment, relocalisation. text.hpp and the lines of other files that
 // are marked `// text` add text features: fewer than 60 lines, counted by tests/programs/foreign_tracker.cmake.
+// It shows that text features fit into a system that is not built on this library.
 #ifndef FOREIGN_TRACKER_TRACKER_HPP
 #define FOREIGN_TRACKER_TRACKER_HPP
 
