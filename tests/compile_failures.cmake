@@ -1,4 +1,5 @@
-# Compiles SOURCE, which must fail with every message that it expects: cmake -DCOMPILER= "-DFLAGS=" -DSOURCE= -P this
+# SOURCE must not compile, and the errors must hold each message that it expects.
+# Run as: cmake -DCOMPILER=<compiler> "-DFLAGS=<flags>" -DSOURCE=<file> -P compile_failures.cmake
 cmake_minimum_required(VERSION 3.21)
 separate_arguments(flags UNIX_COMMAND "${FLAGS}")
 execute_process(COMMAND ${COMPILER} -std=c++17 -fsyntax-only ${flags} ${SOURCE} RESULT_VARIABLE result ERROR_VARIABLE messages OUTPUT_QUIET)

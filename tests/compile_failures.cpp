@@ -1,4 +1,4 @@
-// What must not compile, and what the compiler has to say about each: compile_failures.cmake looks for the text after "expected:".
+// Code that must not compile. compile_failures.cmake looks for the text after "expected:" in the errors.
 #include "textplane/adapters/sophus.hpp"
 #include "textplane/photometry/residual.hpp"
 

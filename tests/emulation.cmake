@@ -25,7 +25,7 @@ if(TEXTPLANE_QEMU_X86_64)
         PASS_REGULAR_EXPRESSION "targets run:[a-z0-9 ]* sse41\n[^|]*PASSED" FAIL_REGULAR_EXPRESSION "FAILED")
     endif()
   endforeach()
-  # A CPU with AVX2 and no AVX-512 gets the former.
+  # A CPU with AVX2 and without AVX-512 runs the target avx2.
   if(TARGET test_vectors)
     add_test(NAME emulation.haswell.dispatch COMMAND ${TEXTPLANE_QEMU_X86_64} -cpu Haswell $<TARGET_FILE:test_vectors> --gtest_brief=1 --gtest_filter=Dispatch.*)
     set_tests_properties(emulation.haswell.dispatch PROPERTIES LABELS emulation TIMEOUT 600
@@ -35,7 +35,7 @@ else()
   message(STATUS "no qemu-x86_64: nothing is run on an old CPU")
 endif()
 
-# The AVX-512 bodies, with their lanes and masks, on AVX2: on CPUs that do not run them as they are.
+# The AVX-512 bodies with emulated intrinsics, on CPUs that have AVX2 only.
 find_path(TEXTPLANE_SIMDE simde/x86/avx512.h)
 include(CheckCXXSourceRuns)
 set(CMAKE_REQUIRED_FLAGS "-mavx2 -mfma -mpopcnt")
@@ -45,7 +45,7 @@ check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx512vnni\"
 if(TEXTPLANE_RUNS_AVX512 AND NOT TEXTPLANE_TEST_LONG)
   message(STATUS "this CPU has AVX-512: its kernels are not emulated")
 elseif(TEXTPLANE_SIMDE AND TEXTPLANE_RUNS_AVX2 AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # 64-byte vectors are passed in memory then: their layout in a call is of no concern within one program.
+  # -Wno-psabi: 64-byte vectors are passed in memory here, which matters only between programs.
   add_library(textplane_emulated INTERFACE)
   target_link_libraries(textplane_emulated INTERFACE textplane_developer GTest::gtest GTest::gtest_main)
   target_include_directories(textplane_emulated INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})

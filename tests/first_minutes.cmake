@@ -1,4 +1,4 @@
-# The program that docs/first_minutes.md prints is the one that consumers.single_header builds and runs.
+# docs/first_minutes.md prints the program that the test consumers.single_header builds and runs.
 file(READ ${ROOT}/docs/first_minutes.md page)
 file(READ ${ROOT}/tests/consumers/single_header/main.cpp program)
 string(FIND "${page}" "```cpp\n${program}```" at)

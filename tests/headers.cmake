@@ -2,8 +2,8 @@
 # twice if its library is there; that a unit with a fixed SIMD target has the kernels of no other.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
-  add_test(NAME headers.manners COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/manners_test.py ${PROJECT_SOURCE_DIR})
-  textplane_label(headers.manners first_look sanitizers)
+  add_test(NAME headers.rules COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/header_rules_test.py ${PROJECT_SOURCE_DIR})
+  textplane_label(headers.rules first_look sanitizers)
 endif()
 if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
@@ -11,12 +11,12 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     "-DFLAGS=-DTEXTPLANE_EXTERN_KERNELS -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cpp
     -P ${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cmake)
   textplane_label(headers.compile_failures sanitizers)
-  # As robots are built: without exceptions and run-time types, from the image to pose and plane.
+  # Without exceptions and run-time types, as robots are built: from the image to pose and plane.
   add_test(NAME headers.no_exceptions COMMAND ${CMAKE_COMMAND} -DMODE=variants -DVARIANTS=no_exceptions -DCOMPILER=${CMAKE_CXX_COMPILER}
     "-DFLAGS=-O0 -Wall -Wextra -Werror -fno-exceptions -fno-rtti -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
     -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
   textplane_label(headers.no_exceptions sanitizers)
-  # With its target fixed a unit holds the kernels of that one alone.
+  # A unit whose target is fixed holds the kernels of that target alone.
   find_program(TEXTPLANE_NM nm)
   set(targets scalar)
   if(TEXTPLANE_RUNS_AVX512)

@@ -14,9 +14,10 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Four corners, clockwise from the text's top left, px or normalised.
+/// A quad in px or normalised coordinates.
 template <class S>
 struct Quad {
+  /// Clockwise on the screen, from the text's top left.
   std::array<Vector2<S>, 4> corner{Vector2<S>::Zero(), Vector2<S>::Zero(), Vector2<S>::Zero(), Vector2<S>::Zero()};
 
   /// The same of another scalar.

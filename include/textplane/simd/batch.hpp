@@ -93,10 +93,12 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace simd {
 
-/// Costs alone (P = 0), normal equations of the pose (6), of pose and plane (9), for all objects.
+/// The costs of all objects.
 TEXTPLANE_KERNEL void batch_evaluate(const BatchArgs& args) noexcept TEXTPLANE_SIMD_BODY(batch_evaluate(args));
+/// Their normal equations by the pose.
 TEXTPLANE_KERNEL void batch_linearise_pose(const BatchArgs& args) noexcept
     TEXTPLANE_SIMD_BODY(batch_linearise_pose(args));
+/// Their normal equations by pose and plane.
 TEXTPLANE_KERNEL void batch_linearise_pose_plane(const BatchArgs& args) noexcept
     TEXTPLANE_SIMD_BODY(batch_linearise_pose_plane(args));
 

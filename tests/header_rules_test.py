@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What the headers may not do to those who include them. Run as manners_test.py ROOT.
+"""Rules that headers keep for those who include them. Run as header_rules_test.py ROOT.
 
-No macro without the prefix, no using-directive, no dependency but Eigen and the standard library outside of adapters/, nothing that
-includes an adapter but adapters, no object but the one atomic of run-time dispatch. And one version, wherever it is written.
+Macros have the prefix; there is no using-directive; outside adapters/ only Eigen and the standard library are included, and no
+adapter; the one global object is the atomic of the dispatch. The version is the same wherever it is written.
 """
 import pathlib
 import re
@@ -13,8 +13,15 @@ INCLUDE = ROOT / "include/textplane"
 ADAPTER_NEEDS = {"ceres": "ceres/", "ceres_pose": "ceres/", "ceres_window": "ceres/", "opencv": "opencv2/"}
 
 SYSTEM = re.compile(r"(Eigen/(Core|Geometry)|c?[a-z_]+|(immintrin|arm_neon|cpuid)\.h)$")
-OBJECT = re.compile(r"^(inline |static |thread_local |extern )+(?!constexpr)[\w:<>,\s*&]+?\b(\w+)\s*(\{[^}]*\}|=[^=].*)?;", re.M)
+OBJECT = re.compile(r"^(inline |static |thread_local |extern )+(?!constexpr)[\w:<>,\s*&]+?\b(\w+)\s*"
+                    r"(\{[^}]*\}|=[^=].*)?;", re.M)
 OBJECTS_ALLOWED = {"simd_target"}
+VERSIONS = [("include/textplane/config.hpp", r'VERSION_STRING "([\d.]+)"'),
+            ("CMakeLists.txt", r"project\(textplane VERSION ([\d.]+)"),
+            ("package.xml", r"<version>([\d.]+)<"),
+            ("conanfile.py", r'version = "([\d.]+)"'),
+            ("packaging/vcpkg/textplane/vcpkg.json", r'"version": "([\d.]+)"'),
+            ("CITATION.cff", r"^version: ([\d.]+)$")]
 
 
 def without_comments(text):
@@ -48,10 +55,9 @@ def check(path):
 def versions():
     """The version wherever it is written."""
     config = (INCLUDE / "config.hpp").read_text(encoding="utf-8")
-    expected = ".".join(re.search(rf"define TEXTPLANE_VERSION_{part} (\d+)", config)[1] for part in ("MAJOR", "MINOR", "PATCH"))
-    for name, pattern in (("include/textplane/config.hpp", r'VERSION_STRING "([\d.]+)"'), ("CMakeLists.txt", r"project\(textplane VERSION ([\d.]+)"),
-                          ("package.xml", r"<version>([\d.]+)<"), ("conanfile.py", r'version = "([\d.]+)"'),
-                          ("packaging/vcpkg/textplane/vcpkg.json", r'"version": "([\d.]+)"'), ("CITATION.cff", r"^version: ([\d.]+)$")):
+    parts = [re.search(rf"define TEXTPLANE_VERSION_{part} (\d+)", config)[1] for part in ("MAJOR", "MINOR", "PATCH")]
+    expected = ".".join(parts)
+    for name, pattern in VERSIONS:
         found = re.search(pattern, (ROOT / name).read_text(encoding="utf-8"), re.M)
         if not found or found[1] != expected:
             yield f"{ROOT / name}: says version {found and found[1]}, config.hpp {expected}"
@@ -59,9 +65,11 @@ def versions():
 
 def self_test():
     """The patterns find what they should."""
-    objects = [m[2] for m in OBJECT.finditer("inline int a = 1;\nstatic std::vector<int> b;\ninline constexpr int c = 1;\ninline int d() {\n")]
+    code = "inline int a = 1;\nstatic std::vector<int> b;\ninline constexpr int c = 1;\ninline int d() {\n"
+    objects = [m[2] for m in OBJECT.finditer(code)]
     assert objects == ["a", "b"], objects
-    assert SYSTEM.match("vector") and SYSTEM.match("Eigen/Core") and not SYSTEM.match("Eigen/Dense") and not SYSTEM.match("opencv2/core.hpp")
+    assert SYSTEM.match("vector") and SYSTEM.match("Eigen/Core")
+    assert not SYSTEM.match("Eigen/Dense") and not SYSTEM.match("opencv2/core.hpp")
 
 
 def main():
