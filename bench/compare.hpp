@@ -1,4 +1,4 @@
-// What benchmarks of normal equations share: the options that they run with, and how far two results are apart.
+// Options of the benchmarks of normal equations, and the difference of two results.
 #ifndef TEXTPLANE_BENCH_COMPARE_HPP
 #define TEXTPLANE_BENCH_COMPARE_HPP
 
@@ -12,7 +12,7 @@ namespace textplane_bench {
 
 namespace tp = textplane;
 
-/// No object is refused: small ones are timed too.
+/// Options that refuse no object, so that small ones are timed too.
 inline tp::PhotometricOptions options(bool huber) {
   tp::PhotometricOptions o;
   o.min_visible = 1;
@@ -37,7 +37,7 @@ Errors errors(const tp::NormalEquations<P>& result, const tp::NormalEquations<P>
   return e;
 }
 
-/// The larger of each.
+/// Raises each error of `to` to that of `from`.
 inline void largest(const Errors& from, Errors* to) {
   for (const auto& [key, value] : from) (*to)[key] = std::max((*to)[key], value);
 }

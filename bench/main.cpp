@@ -1,4 +1,4 @@
-// textplane_bench: ours and the peers in one process, single thread. Options are Google Benchmark's.
+// textplane_bench: our kernels and the peers in one process on one thread. It takes Google Benchmark's options.
 #include <cstdio>
 
 #include "registry.hpp"

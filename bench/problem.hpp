@@ -1,5 +1,5 @@
-// One text object in one target image as plain data: what the benchmarks hand to libraries that are built with other flags
-// than they themselves, where no Eigen type may cross the border.
+// One text object in one target image as plain data, for libraries built with other flags: no Eigen type may pass
+// between them.
 #ifndef TEXTPLANE_BENCH_PROBLEM_HPP
 #define TEXTPLANE_BENCH_PROBLEM_HPP
 

@@ -1,6 +1,6 @@
-// How benchmarks get their names and counters: `<kernel>/<target>/<N>`, time for one call, and counters
-//   ns_pixel   nanoseconds for one pixel (or `items` of whatever the name says)
-//   error, ... what the check before the timing found
+// A benchmark is named `<kernel>/<target>/<N>`, gives the time of one call, and has counters:
+//   ns_pixel   nanoseconds for one pixel, or for one of the items that the name says
+//   error, ... the error of the result, measured before the timing
 #ifndef TEXTPLANE_BENCH_REGISTRY_HPP
 #define TEXTPLANE_BENCH_REGISTRY_HPP
 
@@ -19,14 +19,14 @@ namespace textplane_bench {
 
 using Errors = std::map<std::string, double>;
 
-/// What a benchmark does: `call` once an iteration, with the number of the iteration to cycle operands by.
+/// What a benchmark does. `call` is one iteration; it gets the number of the iteration, to cycle through operands.
 struct Work {
   std::function<void(std::size_t)> call;
   double items = 1;
   Errors errors;
 };
 
-/// Registers `make` under a name. The work is made, and its result checked, when its first repetition runs, and kept.
+/// Registers `make` under a name. The first repetition makes the work and checks its result; later ones reuse it.
 inline benchmark::internal::Benchmark* add(const std::string& name, const std::function<Work()>& make,
                                            const char* target = nullptr) {
   const auto kept = std::make_shared<Work>();
@@ -45,7 +45,7 @@ inline benchmark::internal::Benchmark* add(const std::string& name, const std::f
   });
 }
 
-/// Registers `<kernel>/<target>/<size>` for every target that this machine has.
+/// Registers `<kernel>/<target>/<size>` for every SIMD target of this machine.
 inline void add_targets(const std::string& kernel, const std::string& size, const std::function<Work()>& make) {
   for (int i = 0; i < textplane::simd::kTargetCount; ++i) {
     const auto target = static_cast<textplane::simd::Target>(i);

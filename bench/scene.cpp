@@ -14,7 +14,7 @@ namespace {
 
 using textplane_test::Random;
 
-// In [0, 1), the same for the same cell.
+// A number in [0, 1) that depends on the cell alone.
 double hash(int x, int y, unsigned seed) {
   std::uint32_t h =
       static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U ^ seed * 0xC2B2AE3DU;
@@ -26,7 +26,7 @@ double hash(int x, int y, unsigned seed) {
   return h / 4294967296.0;
 }
 
-// Smooth noise of one cell size.
+// Smooth noise with cells of size 1.
 double value_noise(double x, double y, unsigned seed) {
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
   const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
@@ -36,7 +36,7 @@ double value_noise(double x, double y, unsigned seed) {
   return upper * (1 - v) + lower * v;
 }
 
-// The rectangle: 100 x 40, or as much larger as the pixels need, around the middle and moved a little from scene to scene.
+// The rectangle is 100 x 40, or larger where n pixels need it. It is near the middle, elsewhere in each scene.
 void choose_rectangle(int n, Random& random, Scene* s) {
   s->columns = 100;
   s->rows = 40;

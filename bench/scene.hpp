@@ -1,5 +1,5 @@
-// What the benchmarks work on, made in code: a textured plane seen in two 640 x 480 images, with another exposure and noise in
-// the target and outliers in the host. The texture is a formula, so that the target is rendered without resampling.
+// The scene of the benchmarks: a textured plane in two 640 x 480 images. The target has another exposure and noise, the
+// host has outliers. The texture is a formula, so that the target is rendered without resampling.
 #ifndef TEXTPLANE_BENCH_SCENE_HPP
 #define TEXTPLANE_BENCH_SCENE_HPP
 
@@ -15,7 +15,7 @@ namespace textplane_bench {
 
 namespace tp = textplane;
 
-/// Grey level of the texture at host pixel (x, y): edges and strokes of 4 px and up, in [20, 235].
+/// Grey level of the texture at host pixel (x, y), in [20, 235]. Its edges and strokes are 4 px wide or more.
 double texture(double x, double y, unsigned seed);
 
 /// Change of light and noise of the target, outliers of the host.
@@ -32,7 +32,7 @@ struct Scene {
   tp::Vector3<double> theta, theta_start;  ///< The truth, and where iterations begin.
   tp::SE3d T_t_h, T_start;
   std::vector<float> x, y, intensity;
-  int left = 0, top = 0, columns = 0, rows = 0;  ///< Rectangle that the pixels are from.
+  int left = 0, top = 0, columns = 0, rows = 0;  ///< The rectangle of the pixels.
 
   int n() const { return static_cast<int>(x.size()); }
   tp::ImageView8 target_view() const { return target.view(); }
@@ -46,8 +46,8 @@ struct Scene {
   double corner_error(const tp::Matrix3<double>& H) const;
 };
 
-/// n scattered pixels of a rectangle of 100 x 40 (of all 4000 for n = 4000, of larger ones beyond); the start is off by `px`
-/// pixels of mean corner error. `motion`: between the views, 1 for up to some 25 px.
+/// n scattered pixels of a rectangle of 100 x 40; all of them for n = 4000, a larger rectangle beyond. The start has a
+/// mean corner error of `px` pixels. `motion` scales the motion between the views; 1 is up to some 25 px.
 Scene make_scene(int n, unsigned seed, double px = 1.0, const Light& light = Light(), double motion = 1.0);
 
 /// All pixels of the upper left columns x rows, at most 100 x 40, of make_scene(4000, seed, px).

@@ -1,4 +1,4 @@
-// Elapsed time, and time of the processor: the same on an idle machine, the second alone where others share the core.
+// Elapsed time, and processor time, which load from outside does not change.
 #ifndef TEXTPLANE_BENCH_STOPWATCH_HPP
 #define TEXTPLANE_BENCH_STOPWATCH_HPP
 

@@ -1,5 +1,6 @@
-# The pages: what they name exists, their commands run, the reference is complete, the site works. The style of the code.
-add_test(NAME docs.names COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -P ${CMAKE_CURRENT_SOURCE_DIR}/docs_test.cmake)
+# Tests of the pages (names, first program, reference, site) and of the style of the code.
+add_test(NAME docs.names
+  COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -P ${CMAKE_CURRENT_SOURCE_DIR}/docs_test.cmake)
 textplane_label(docs.names first_look)
 add_test(NAME docs.first_minutes
   COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -P ${CMAKE_CURRENT_SOURCE_DIR}/first_minutes.cmake)

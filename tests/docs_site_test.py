@@ -43,7 +43,8 @@ def build(root, folder):
     if result.returncode == 2:
         skip(result.stderr.strip())
     check(result.returncode == 0, f"docs/build fails:\n{result.stdout}{result.stderr}")
-    unresolved = [line for line in (folder / "reference.log").read_text().splitlines() if "could not be resolved" in line]
+    warnings = (folder / "reference.log").read_text().splitlines()
+    unresolved = [line for line in warnings if "could not be resolved" in line]
     check(not unresolved, "unresolved in the reference:\n" + "\n".join(unresolved))
 
 
@@ -80,7 +81,8 @@ def test_navigation(root, folder):
 def lightness(browser):
     return browser.run("""(() => { const pen = document.createElement('canvas').getContext('2d');
       return ['backgroundColor', 'color'].map((what) => { pen.fillStyle = getComputedStyle(document.body)[what];
-        pen.fillRect(0, 0, 1, 1); return pen.getImageData(0, 0, 1, 1).data.slice(0, 3).reduce((a, b) => a + b) / 765; }); })()""")
+        pen.fillRect(0, 0, 1, 1);
+        return pen.getImageData(0, 0, 1, 1).data.slice(0, 3).reduce((a, b) => a + b) / 765; }); })()""")
 
 
 def test_page(browser, path, screenshots):
@@ -89,8 +91,8 @@ def test_page(browser, path, screenshots):
         browser.open(path, width, height, settle=0)
         shown = browser.run("document.documentElement.scrollWidth")
         check(shown <= width, f"{path} is {shown} px wide on a screen of {width}")
-        formulas, missing = browser.run("""document.fonts.ready.then(() => [document.querySelectorAll('span.math').length,
-          [...document.querySelectorAll('span.math')].filter((m) => !m.querySelector('.katex')).length])""")
+        formulas, missing = browser.run("""document.fonts.ready.then(() => [...document.querySelectorAll('span.math')])
+          .then((all) => [all.length, all.filter((m) => !m.querySelector('.katex')).length])""")
         check(not missing, f"{missing} of {formulas} formulas in {path} are not set")
         if formulas:
             fonts = browser.run("[...document.fonts].filter((f) => f.status === 'loaded').map((f) => f.family)")
@@ -100,7 +102,8 @@ def test_page(browser, path, screenshots):
         for dark in (False, True):
             browser.show(width, height, dark)
             back, text = lightness(browser)
-            check((back < 0.3 and text > 0.7) if dark else (back > 0.9 and text < 0.3), f"{path}: dark {dark}: {back}, {text}")
+            right = back < 0.3 and text > 0.7 if dark else back > 0.9 and text < 0.3
+            check(right, f"{path}: dark {dark}, lightness of background and text {back}, {text}")
             if screenshots:
                 name = f"{path.parent.name}_{path.stem}-{width}-{'dark' if dark else 'light'}.png"
                 browser.screenshot(screenshots / name, tallest=3 * height)
@@ -150,7 +153,8 @@ def main():
     with Browser(program) as browser:
         pages = sorted(folder.glob("*.html")) + sorted((folder / "docs").glob("*.html"))
         pages = [page for page in pages if not page.name.startswith("reference_")]
-        pages += [folder / f"reference/{name}.html" for name in REFERENCE] + sorted((folder / "files").rglob("*.html"))[:3]
+        pages += [folder / f"reference/{name}.html" for name in REFERENCE]
+        pages += sorted((folder / "files").rglob("*.html"))[:3]
         formulas = sum(test_page(browser, page, arguments.screenshots) for page in pages)
         check(formulas > 10, "the pages have no formulas")
         print(f"ok: {len(pages)} pages, {formulas} formulas")

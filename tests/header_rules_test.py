@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Rules that headers keep for those who include them. Run as header_rules_test.py ROOT.
 
-Macros have the prefix; there is no using-directive; outside adapters/ only Eigen and the standard library are included, and no
-adapter; the one global object is the atomic of the dispatch. The version is the same wherever it is written.
+Macros have the prefix; there is no using-directive; outside adapters/ only Eigen and the standard library are included,
+and no adapter; the one global object is the atomic of the dispatch. The version is the same wherever it is written.
 """
 import pathlib
 import re

@@ -3,8 +3,8 @@
 
 usage: style.py [ROOT] [--clang-format PROGRAM] [--only CHECK[,CHECK...]]
 
-Checks: format (clang-format), columns, file (its lines), folder (its units; a header and its source are one), function (its
-lines). Looks at the files that git tracks. Exit code 77 where clang-format is missing and nothing else was asked for.
+Checks: format (clang-format), columns, file (lines), folder (units: a header and its source are one), function (lines). Looks
+at the files that git tracks. Exit code 77 where clang-format is missing and nothing else was asked for.
 """
 import argparse
 import ast
@@ -28,12 +28,13 @@ FORMATTER = "clang-format", "clang-format-14"
 def tracked(root):
     listing = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], capture_output=True, text=True)
     if listing.returncode != 0:
-        return [path.relative_to(root) for path in sorted(root.rglob("*")) if path.is_file() and "build" not in path.parts]
+        files = [path.relative_to(root) for path in sorted(root.rglob("*")) if path.is_file()]
+        return [path for path in files if path.parts[0] != "build"]
     return [pathlib.Path(name) for name in listing.stdout.split("\0") if name and (root / name).is_file()]
 
 
 def without_comments(text):
-    """The C++ text with the same lines, but no comments, literals and preprocessor lines, and one branch of each #if."""
+    """The C++ text, line by line, without comments, literals and preprocessor lines, and with one branch of each #if."""
     literal = r'R"(\w*)\((?:.|\n)*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\''
     text = re.sub(rf"//[^\n]*|/\*(?:.|\n)*?\*/|{literal}", lambda m: "\n" * m[0].count("\n"), text)
     out, skipped, continued = [], [], False
@@ -52,7 +53,7 @@ def without_comments(text):
 
 
 def cpp_functions(text):
-    """(first line, lines) of each function: a brace after a parameter list, where only namespaces and classes are open."""
+    """(first line, lines) of each function: a brace after parentheses, where only namespaces and classes are open."""
     depth, inside, statement, line, first, parentheses = [], None, "", 1, None, 0
     for character in without_comments(text):
         if character == "\n":

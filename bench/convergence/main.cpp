@@ -1,10 +1,10 @@
-// textplane_convergence [TRIALS]: how far off a start may be. TRIALS (200) starts for each of four scenes, off by 1 to 16 px of
-// mean corner error, a 100 x 40 patch, one and three pyramid levels. JSON on standard output, a row a method, number of levels
-// and distance: share of successes (final corner error below 0.5 px) in all and by scene, median final error of the successes,
-// median time of a solve.
+// textplane_convergence [TRIALS]: from how far off each method converges. TRIALS (200) starts in each of four scenes, 1
+// to 16 px of mean corner error off, a 100 x 40 patch, one and three pyramid levels. Prints JSON, a row for each
+// method, number of levels and distance: share of successes (final corner error below 0.5 px) in all and by scene,
+// median final error of the successes, median time of a solve.
 //
-// "pose and plane": both unknown and both wrong at the start, 8 degrees of freedom as findTransformECC's. "pose": the plane
-// is known, as to a tracker, and refine_pose() is what is called.
+// "pose and plane": both are unknown and wrong at the start; 8 degrees of freedom, as for findTransformECC. "pose": the
+// plane is known, as in a tracker, and refine_pose() solves.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -72,7 +72,7 @@ double solve_ecc(const Trials& trials, int levels, const Start& s, Memory&) {
   for (int l = levels - 1; l >= 0; --l) {
     const int step = 1 << l;
     const cv::Rect box(Trials::kLeft / step, Trials::kTop / step, Trials::kColumns / step, Trials::kRows / step);
-    // Level pixels x_l = (x + 0.5) / 2^l - 0.5; the template's own begin at its corner.
+    // Level pixels are x_l = (x + 0.5) / 2^l - 0.5; those of the template count from its corner.
     tp::Matrix3<double> down = tp::Matrix3<double>::Identity(), corner = down;
     down(0, 0) = down(1, 1) = 1.0 / step;
     down(0, 2) = down(1, 2) = 0.5 / step - 0.5;

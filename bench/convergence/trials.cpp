@@ -13,7 +13,7 @@ namespace {
 
 double unit(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
 
-// Letters are strokes, random bars on a grid; blobs are sums of Gaussians.
+// Letters are random bars on a grid; blobs are sums of Gaussians.
 class Texture {
  public:
   explicit Texture(Kind kind) : kind_(kind) {
@@ -39,7 +39,7 @@ class Texture {
   }
 
  private:
-  // A letter is the subset of seven soft-edged bars that its cell's bits choose.
+  // The bits of a cell choose the letter's bars out of seven with soft edges.
   double ink(double x, double y) const {
     const double w = kind_ == Kind::large_print ? 18 : 9, h = kind_ == Kind::large_print ? 30 : 15;
     const double cx = std::floor(x / w), cy = std::floor(y / h), u = (x - cx * w) / w, v = (y - cy * h) / h;
@@ -65,7 +65,8 @@ class Texture {
   std::vector<std::array<double, 4>> blobs_ = std::vector<std::array<double, 4>>(260);
 };
 
-// 2 x 2 samples a pixel, gain, bias, noise of standard deviation sigma. `back`: to host px.
+// A pixel is the mean of 2 x 2 samples, with gain, bias and noise of standard deviation sigma. `back` maps it to host
+// px.
 tp::Image<std::uint8_t> render(const Texture& texture, const tp::Matrix3<double>& back, double gain, double bias,
                                double sigma, std::mt19937& random) {
   tp::Image<std::uint8_t> image(640, 480);

@@ -1,4 +1,5 @@
-// Trials of convergence: made scenes, a 100 x 40 patch, starts whose mean corner error is exact. The same for every method.
+// Trials of convergence: a 100 x 40 patch in rendered scenes, and starts of an exact mean corner error, the same for
+// every method.
 #ifndef TEXTPLANE_BENCH_CONVERGENCE_TRIALS_HPP
 #define TEXTPLANE_BENCH_CONVERGENCE_TRIALS_HPP
 
@@ -9,7 +10,7 @@
 
 namespace textplane_bench {
 
-/// Print of small and of large letters, smooth blobs, and print seen at a slant of 55 degrees and 0.8 of the host's scale.
+/// Small print, large print, smooth blobs, and small print at a slant of 55 degrees and 0.8 of the host's scale.
 enum class Kind { print, large_print, blobs, slanted_print };
 constexpr Kind kKinds[] = {Kind::print, Kind::large_print, Kind::blobs, Kind::slanted_print};
 inline const char* to_string(Kind kind) {
@@ -17,8 +18,8 @@ inline const char* to_string(Kind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-/// Two 640 x 480 images of a plane with a texture that is a formula, so that none is resampled; another gain, bias and
-/// noise in the target. The patch is all pixels of a rectangle, on three levels.
+/// Two 640 x 480 images of a plane. Its texture is a formula, so no image is resampled. The target has another gain,
+/// bias and noise. The patch is all pixels of a rectangle, on three levels.
 struct Trials {
   static constexpr int kLevels = 3, kLeft = 270, kTop = 220, kColumns = 100, kRows = 40;
 
@@ -28,8 +29,8 @@ struct Trials {
   tp::Matrix3<double> homography(const Start& s) const;
   /// Mean distance of the rectangle's corners under H from where they truly are, px.
   double corner_error(const tp::Matrix3<double>& H) const;
-  /// A start near the truth with this corner error: a random direction of the pose, and of the plane too if `tilt`, followed
-  /// until it is reached.
+  /// A start with this corner error, in a random direction from the truth: of the pose, and with `tilt` of the plane
+  /// too.
   Start start(double px, unsigned trial, bool tilt) const;
 
   tp::Image<std::uint8_t> host, target;
@@ -37,7 +38,7 @@ struct Trials {
   tp::Pinhole<double> camera{500, 500, 320, 240};
   Start truth;
   tp::TextPatch patch;
-  std::vector<tp::TemplatePatch> prepared;  ///< One a level.
+  std::vector<tp::TemplatePatch> prepared;  ///< One for each level.
 };
 
 }  // namespace textplane_bench

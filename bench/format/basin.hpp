@@ -8,11 +8,11 @@
 
 namespace textplane_bench {
 
-/// A row a method, unknowns and number of levels: success in % by distance of the start, then of the slanted scene alone at 4
-/// and 8 px, the median final error and the median time at 4 px.
+/// A row for each method, unknowns and number of levels: success in % by distance of the start; success in the slanted
+/// scene at 4 and 8 px; median final error and median time at 4 px.
 std::string basin_table(const Json& rows);
 
-/// Success at `px` of the recommended method against its aim, in %.
+/// The success of the recommended method at `px` beside its aim, in %.
 std::string basin_line(const Json& rows, double px, double aim);
 
 }  // namespace textplane_bench

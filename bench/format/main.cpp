@@ -1,8 +1,8 @@
 // report_format RESULTS ROOT
 //
 // RESULTS: the folder of bench/report's measurements: single.json and growth.json of textplane_bench; where they exist,
-// convergence.json of textplane_convergence and room/timing.json of textslam. ROOT: the repository, or a copy of its docs/.
-// Writes docs/benchmarks.md, docs/images/growth_*.svg and the table of docs/policy.md.
+// convergence.json of textplane_convergence and room/timing.json of textslam. ROOT: the repository, or a copy of its
+// docs/. Writes docs/benchmarks.md, docs/images/growth_*.svg and the table of docs/policy.md.
 #include <exception>
 #include <filesystem>
 #include <iostream>

@@ -1,4 +1,4 @@
-// Pages that a report writes, whole or in part.
+// Writes pages, whole or between marks.
 #ifndef TEXTPLANE_BENCH_FORMAT_PAGE_HPP
 #define TEXTPLANE_BENCH_FORMAT_PAGE_HPP
 
@@ -15,8 +15,8 @@ inline void write(const std::string& path, const std::string& content) {
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
-/// Replaces what stands between `<!-- MARK: begin -->` and `<!-- MARK: end -->` of a file. False, and the file unchanged, where
-/// it has no such marks.
+/// Replaces what stands between `<!-- MARK: begin -->` and `<!-- MARK: end -->` of a file. False, and the file
+/// unchanged, where it has no such marks.
 inline bool replace_block(const std::string& path, const std::string& mark, const std::string& content) {
   std::ifstream in(path);
   std::stringstream all;

@@ -1,4 +1,4 @@
-// Pose and plane of one object: what our convergence benchmarks iterate.
+// The iteration of the convergence benchmarks: pose and plane of one object.
 #ifndef TEXTPLANE_BENCH_KERNELS_ALIGN_HPP
 #define TEXTPLANE_BENCH_KERNELS_ALIGN_HPP
 
@@ -16,9 +16,9 @@ struct Start {
   tp::Vector3<double> theta;
 };
 
-/// Levenberg-Marquardt that linearises at each trial, and stops where a step promises less than `tolerance` of the cost. A
-/// trial that loses more than a tenth of the visible pixels is rejected. (The scale of t and 1 / theta is free, which minimise()
-/// would refuse.)
+/// Levenberg-Marquardt that linearises at each trial. It stops where a step promises less than `tolerance` of the cost,
+/// and rejects a trial that loses more than a tenth of the visible pixels. (minimise() would refuse the problem: the
+/// scale of t and 1 / theta is free.)
 inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch* prepared, tp::LinearisePolicy policy,
                         const tp::PhotometricOptions& options, double tolerance, tp::PhotometricWorkspace& workspace,
                         Start* s) {
@@ -50,8 +50,8 @@ inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch*
   }
 }
 
-/// Coarse to fine; the tolerances of align_level(). A larger one is enough on coarse levels where the start is near.
-/// LinearisePolicy::automatic as in PoseOptions.
+/// align_level() from coarse to fine, with its tolerances: a larger one is enough on coarse levels where the start is
+/// near.
 inline void align(const tp::TextPatch& patch, const std::vector<tp::TemplatePatch>& prepared, int levels,
                   const tp::PyramidView& target, const tp::Pinhole<double>& camera, tp::LinearisePolicy policy,
                   const tp::PhotometricOptions& options, double coarse_tolerance, double finest_tolerance,

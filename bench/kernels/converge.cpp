@@ -1,6 +1,7 @@
-// Ours from 3 px of corner error to convergence, 100 x 40 pixels: pose and plane by each policy, coarse to fine on three levels.
-// The target's levels are part of the work, of the same cut-out that findTransformECC is given. The error is the mean corner
-// error at the end, where a step promises less than 3e-3 of the cost: at most that of findTransformECC, which compares least squares.
+// Ours from 3 px of corner error to convergence: pose and plane of 100 x 40 pixels by each policy, on three levels. The
+// time includes the pyramid of the target's cut-out, the one that findTransformECC is given. A run ends where a step
+// promises less than 3e-3 of the cost; its error is the mean corner error, which is at most that of findTransformECC
+// (least squares).
 #include <cmath>
 #include <memory>
 

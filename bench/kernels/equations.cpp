@@ -1,6 +1,6 @@
-// Ours: normal equations by pose, pose and plane, both poses and plane; template Jacobian and ESM; cost alone; a batch of small
-// objects. Errors are the largest difference from the double reference, over sqrt(H_ii H_jj) for H and over
-// sqrt(H_ii) for b (E is at most 4).
+// Ours: normal equations of pose, pose and plane, both poses and plane; template Jacobian and ESM; cost alone; a batch
+// of small objects. Errors: the largest difference from the double reference, over sqrt(H_ii H_jj) for H, over
+// sqrt(H_ii) for b.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -222,7 +222,7 @@ void add_equations() {
     add_policy<9>("esm", tp::LinearisePolicy::esm, true, size, cycle);
     add_cost(n);
   }
-  // The rectangles that findTransformECC is given.
+  // The same rectangles as for findTransformECC.
   for (const auto& [columns, rows] : {std::pair(16, 16), {40, 25}}) {
     const std::string size = std::to_string(columns) + "x" + std::to_string(rows);
     add_forward<9>("pose_plane", size, dense_cycle_of(columns, rows));

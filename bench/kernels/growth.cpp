@@ -1,4 +1,4 @@
-// How cost grows, on the best target: with the pixels of one object, with the objects of a batch, on one and on two threads.
+// Cost on the best SIMD target, by pixels of one object and by objects of a batch, on one and two threads.
 // Every thread has its own workspace and works on its own objects against the same image.
 #include <algorithm>
 #include <map>
@@ -35,7 +35,7 @@ void pixels(benchmark::State& state, int n) {
   count(state, n);
 }
 
-// 15 pixels each, all over the image, as the signs of a building might be that are to be verified against one frame.
+// Objects of 15 pixels all over the image, like the signs of a building that are verified against one frame.
 void objects(benchmark::State& state, int count_objects) {
   const Scene& scene = scene_of(100000);
   const auto m = static_cast<std::size_t>(count_objects);

@@ -1,5 +1,5 @@
-// Ours: warps of a 100 x 40 patch, FAST, KLT and the pyramid. Errors of the warps are the largest in grey levels against the
-// double reference; those of KLT the median and the 90th percentile of the end-point error in px.
+// Ours: warps of a 100 x 40 patch, FAST, KLT and the pyramid. Errors of warps: the largest difference from the double
+// reference, grey levels. Errors of KLT: median and 90th percentile of the end-point error, px.
 #include <algorithm>
 #include <cmath>
 #include <memory>

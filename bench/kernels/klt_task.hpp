@@ -1,5 +1,4 @@
-// Points to track from one image to another under a known motion of about 8 px, as between two frames of a video: the work of
-// the KLT benchmarks.
+// The points of the KLT benchmarks, under a known motion of about 8 px, as between two frames of a video.
 #ifndef TEXTPLANE_BENCH_KERNELS_KLT_TASK_HPP
 #define TEXTPLANE_BENCH_KERNELS_KLT_TASK_HPP
 

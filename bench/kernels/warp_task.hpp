@@ -1,4 +1,4 @@
-// A 100 x 40 patch unwarped from an image by eight different homographies: the work of the warp benchmarks.
+// The work of the warp benchmarks: a 100 x 40 patch, unwarped from an image by eight homographies.
 #ifndef TEXTPLANE_BENCH_KERNELS_WARP_TASK_HPP
 #define TEXTPLANE_BENCH_KERNELS_WARP_TASK_HPP
 
@@ -34,7 +34,7 @@ struct WarpTask {
 
   tp::ImageView<const S> source() const { return image.view(); }
 
-  /// Largest difference from the reference; for bytes what rounding cannot explain, beyond 0.5.
+  /// Largest difference from the reference; for bytes less 0.5, which rounding explains.
   template <class D>
   double error(std::size_t i, const tp::Image<D>& out) const {
     double worst = 0;

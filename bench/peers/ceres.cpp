@@ -1,4 +1,4 @@
-// Bilinear sampling with its own gradient, chained into the Jet by hand: the cheapest way that automatic differentiation has.
+// Samples value and gradient and chains them into the Jet by hand, the cheapest way for automatic differentiation.
 // All pixels must be visible. Built -O3 -march=native.
 #include "peers/ceres.hpp"
 

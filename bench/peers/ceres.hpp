@@ -6,7 +6,8 @@
 
 namespace textplane_bench {
 
-/// A ceres::AutoDiffCostFunction for one problem: N residuals, parameters (v, omega) of the left perturbation and theta.
+/// A ceres::AutoDiffCostFunction for one problem: N residuals, parameters (v, omega) of the left perturbation and
+/// theta.
 class CeresCost {
  public:
   __attribute__((visibility("default"))) explicit CeresCost(const Problem& problem);
@@ -16,7 +17,7 @@ class CeresCost {
 
   /// Residuals and Jacobian.
   __attribute__((visibility("default"))) void rows();
-  /// The same, then J^T J and J^T r, L2, by Eigen's matrix product.
+  /// rows(), then J^T J and J^T r by Eigen's matrix product, without robust weights.
   __attribute__((visibility("default"))) void equations(Equations* out);
 
  private:

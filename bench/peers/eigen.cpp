@@ -1,6 +1,6 @@
-// Written as a careful SLAM author writes it, and built -O3 -march=native. collect() warps each pixel, samples value and
-// gradient, and keeps its row of dI. accumulate() weights the rows and sums J^T W J: as Eigen's matrix product over chunks of
-// rows, or as one rank-one update a pixel, whichever is faster for the number of parameters.
+// Written as a careful SLAM author writes it, and built -O3 -march=native. collect() warps each pixel, samples value
+// and gradient, and keeps its row of dI. accumulate() weights the rows and sums J^T W J: as Eigen's matrix product over
+// chunks of rows, or as one rank-one update a pixel, whichever is faster for the number of parameters.
 #include "peers/eigen.hpp"
 
 #include <Eigen/Core>

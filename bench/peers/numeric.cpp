@@ -44,7 +44,7 @@ struct Block {
     return T;
   }
 
-  // Of the point where the ray meets the plane, with the four pixels round its projection weighted one by one.
+  // The target at the projection of the point where the ray meets the plane, bilinear.
   static double sample(const Problem& p, const Eigen::Matrix4d& T_t_h, const Eigen::Vector3d& theta,
                        const Eigen::Vector3d& ray) {
     const double inverse_depth = ray.dot(theta);

@@ -1,4 +1,4 @@
-// Numeric differences, of the kind that the published TextSLAM uses.
+// Numeric differences, as the published TextSLAM takes them.
 #ifndef TEXTPLANE_BENCH_PEERS_NUMERIC_HPP
 #define TEXTPLANE_BENCH_PEERS_NUMERIC_HPP
 
@@ -8,10 +8,10 @@
 
 namespace textplane_bench {
 
-/// ceres::NumericDiffCostFunction, central differences, by the world-to-camera poses of host and target (quaternion x y z w and
-/// translation each) and theta: 17 columns. A residual block has eight pixels with rays of their own, mean and norm of both sides
-/// are held. As the published one does, each evaluation makes both 4 x 4 poses, inverts the host's, and meets the plane ray by
-/// ray, H = R + t theta^T being its short form. The host's pose is the identity.
+/// ceres::NumericDiffCostFunction with central differences. Parameters: the world-to-camera poses of host and target
+/// (quaternion x y z w, translation) and theta, 17 columns. A residual block has eight pixels; mean and norm of both
+/// sides are held. Like the published code, each evaluation makes both 4 x 4 poses, inverts the host's, and intersects
+/// each ray with the plane. The host's pose is the identity.
 class NumericCost {
  public:
   __attribute__((visibility("default"))) explicit NumericCost(const Problem& problem);
@@ -21,7 +21,7 @@ class NumericCost {
 
   /// Residuals and Jacobian of all whole blocks.
   __attribute__((visibility("default"))) void rows();
-  /// d r / d theta of the last rows(), three numbers a pixel, and how many pixels.
+  /// Writes d r / d theta of the last rows(), three numbers a pixel; returns the number of pixels.
   __attribute__((visibility("default"))) int theta_rows(std::vector<double>* out) const;
 
  private:

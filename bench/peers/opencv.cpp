@@ -1,4 +1,4 @@
-// OpenCV on our work: findTransformECC, warpPerspective, remap, FAST, calcOpticalFlowPyrLK, pyrDown.
+// OpenCV on the same work: findTransformECC, warpPerspective, remap, FAST, calcOpticalFlowPyrLK, pyrDown.
 #include <memory>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -83,7 +83,7 @@ Work fast_work() {
   return work;
 }
 
-// As ours, pyramids are built beforehand.
+// Pyramids are built beforehand, as ours are.
 Work klt_work(bool light) {
   const auto task = std::make_shared<KltTask>(light);
   const auto first = std::make_shared<std::vector<cv::Mat>>(), second = std::make_shared<std::vector<cv::Mat>>();
@@ -124,7 +124,8 @@ Work pyramid_work() {
   return work;
 }
 
-// ECC on the patch and the target: a margin of it, as a careful user cuts it out, or the whole frame, as ours are given it.
+// ECC on the patch and the target: a cut-out with a margin, as a careful user makes it, or the whole frame, as ours
+// gets it.
 constexpr int kEccMargin = 24;
 struct EccTask {
   Scene scene;
@@ -168,7 +169,7 @@ struct EccTask {
   }
 };
 
-// Per-pixel counter of one iteration: 20 iterations, their common beginning included, as it is in each call.
+// Time for a pixel and iteration: 20 iterations, with the preparation that each call repeats.
 Work ecc_iteration_work(const cv::Size& size, bool whole = false) {
   const auto task = std::make_shared<EccTask>(size, 1, 1.0, whole);
   Work work;

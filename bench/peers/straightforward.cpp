@@ -1,5 +1,5 @@
-// The straightforward double with Eigen, automatic differentiation by Ceres, and numeric differences, each on the scenes that
-// our kernels are timed on, each checked against the double reference first.
+// Double precision with Eigen, automatic differentiation with Ceres, and numeric differences, on the scenes of our
+// kernels. Each is checked against the double reference first.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -93,7 +93,7 @@ Work numeric_work(int n) {
   for (const Scene& s : *all) {
     costs->push_back(std::make_unique<NumericCost>(s.problem()));
     costs->back()->rows();
-    // The share of theta is the only one that does not depend on how a pose is parametrised.
+    // Only the columns of theta do not depend on how the pose is parametrised.
     std::vector<double> theirs, r(static_cast<std::size_t>(n)), J(static_cast<std::size_t>(3 * n));
     const int rows = costs->back()->theta_rows(&theirs);
     tp::PhotometricWorkspace workspace(n);

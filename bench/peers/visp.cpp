@@ -1,5 +1,5 @@
-// ViSP's template trackers with a homography: ZNCC inverse compositional and forward additional, SSD ESM. Ten iterations, the
-// same patch and image as ours; the counter is for one pixel and iteration.
+// ViSP's template trackers with a homography: ZNCC inverse compositional and forward additional, SSD ESM. Ten
+// iterations on the same patch and image as ours; the counter is for one pixel and iteration.
 #include <visp3/core/vpImage.h>
 #include <visp3/tt/vpTemplateTrackerSSDESM.h>
 #include <visp3/tt/vpTemplateTrackerWarpHomography.h>
@@ -23,8 +23,8 @@ vpImage<unsigned char> as_visp(const tp::Image<std::uint8_t>& image) {
   return out;
 }
 
-// The patch with a margin of 24 px, once from the host and once as the target shows it, about 1 px off: the trackers start from
-// the identity, and work on the whole image that they get.
+// The patch with a margin of 24 px, from the host and from the target, about 1 px apart. The trackers start from the
+// identity and use all of the image that they get.
 template <class Tracker, class Warp>
 Work visp_work(int n) {
   struct Kept {

@@ -1,8 +1,8 @@
-// The window of solve_window() given to Ceres by adapters/ceres_window.hpp: the same terms, robust costs, gauge and start, with
-// analytic derivatives, so that solvers are compared and not ways of differentiating.
+// solve_window()'s window solved by Ceres, by adapters/ceres_window.hpp: the same terms, robust costs, gauge, start and
+// analytic derivatives, so that only the solvers differ.
 //
-// A point observation is two residuals under ceres::HuberLoss, a text observation ten that have the kernel's own sums
-// (TextRows::sums). That costs Ceres a tenth of what a row for each of a hundred pixels would.
+// A point observation is two residuals under ceres::HuberLoss. A text observation is ten residuals made of the kernel's
+// sums (TextRows::sums), which costs Ceres a tenth of the time of a hundred pixels with a row each.
 #ifndef TEXTPLANE_BENCH_WINDOW_CERES_HPP
 #define TEXTPLANE_BENCH_WINDOW_CERES_HPP
 
@@ -22,8 +22,9 @@ struct CeresResult {
   double solve_ms = 0, cpu_ms = 0;  ///< ceres::Solve() alone: elapsed, and of the processor.
 };
 
-/// Adjusts the window in place, landmarks eliminated first, on one thread. Every element of it must be usable, as those
-/// of SceneWindow are; of the options robust costs, weights, tolerances, damping and the limit of iterations count.
+/// Adjusts the window in place on one thread, landmarks eliminated first. Every element must be usable, as those of
+/// SceneWindow are. Ceres follows the options on robust costs, weights, tolerances, damping and the limit of
+/// iterations.
 CeresResult solve_with_ceres(tp::Window& window, const tp::WindowOptions& options, CeresSolver solver);
 
 }  // namespace textplane_bench

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cerrno>
 
-// What glibc calls its own functions, for programs that replace malloc().
+// glibc's names of its own functions, for programs that replace malloc().
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);

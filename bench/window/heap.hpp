@@ -1,4 +1,4 @@
-// Bytes that the program holds on the heap, counted by this program's own malloc(), which libraries reach too. glibc only.
+// Heap memory of the program, libraries included, counted by its own malloc(). glibc only.
 #ifndef TEXTPLANE_BENCH_WINDOW_HEAP_HPP
 #define TEXTPLANE_BENCH_WINDOW_HEAP_HPP
 
@@ -6,9 +6,9 @@
 
 namespace textplane_bench {
 
-/// Starts a measurement: the peak becomes what is held now.
+/// Starts a measurement.
 void start_heap_peak();
-/// The most that was held since, less what was held at the start.
+/// The largest growth since the start of the measurement, bytes.
 std::size_t heap_peak();
 
 }  // namespace textplane_bench

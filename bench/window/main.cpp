@@ -1,7 +1,7 @@
 // textplane_scaling [--repetitions N] [--only PART_OF_A_NAME] [--cpu NAME]
 //
-// solve_window() and Ceres on windows of growing size: time, memory, iterations, cost, and the difference of the results.
-// Prints JSON, from which report_scaling writes the table of docs/scaling.md.
+// solve_window() and Ceres on windows of growing size: time, memory, iterations, cost, and the difference of the
+// results. Prints JSON, from which report_scaling writes the table of docs/scaling.md.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -38,7 +38,7 @@ const WindowSize kSizes[] = {
 constexpr int kLocal = 50;        // Key frames of a local window, which is measured more closely.
 constexpr double kEnough = 3000;  // Processor time for one size after which three repetitions do, ms.
 
-// Covariances of planes are left to solve_window() alone: Ceres makes them in another call.
+// Without covariances of planes, which Ceres computes in another call.
 tp::WindowOptions timed() {
   tp::WindowOptions o;
   o.max_iterations = 50;
@@ -46,7 +46,7 @@ tp::WindowOptions timed() {
   return o;
 }
 
-// Where both stop when neither rounding of the kernels nor patience ends them.
+// Runs both to the optimum: precise kernels, small tolerances, more iterations.
 tp::WindowOptions exact() {
   tp::WindowOptions o = timed();
   o.max_iterations = 200;
@@ -122,7 +122,7 @@ Json difference(const Solution& ours, const Solution& peer) {
           {"plane", plane}};
 }
 
-// The same for solutions that are followed to the optimum.
+// The same difference at the optimum.
 Json optimum(const tp::Window& start) {
   Solution ours, sparse;
   solve_ours(start, exact(), &ours);
@@ -135,7 +135,7 @@ Json measure(const WindowSize& size, int repetitions) {
   Solution ours, sparse, dense;
   const bool with_dense = size.frames <= kLocal;
   const Stopwatch watch;
-  // In turn, so that a spell of load from outside hits all alike; fewer of the large ones.
+  // In turn, so that load from outside hits all alike; large windows get fewer repetitions.
   for (int i = 0; i < repetitions && (i < 3 || watch.cpu_ms() < kEnough); ++i) {
     solve_ours(start.window, timed(), &ours);
     solve_ceres(start.window, timed(), CeresSolver::sparse_schur, &sparse);

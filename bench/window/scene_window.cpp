@@ -58,7 +58,7 @@ class Builder {
     frame(f).image = images_[static_cast<std::size_t>(f)].view();
   }
 
-  // Every ray to the nearest wall that it hits from inside.
+  // Follows the ray of each pixel to the nearest wall.
   void render(int f) {
     tp::Image<std::uint8_t> image(kWidth, kHeight);
     const tp::SE3d& T = frame(f).T_w_c;
@@ -164,7 +164,7 @@ class Builder {
     return out;
   }
 
-  // Where a tracker leaves a window: less than 2 px off.
+  // As far off as a tracker leaves a window: less than 2 px.
   void disturb() {
     for (tp::WindowFrame& f : w_.frames) {
       tp::Vector6<double> xi;

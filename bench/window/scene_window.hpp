@@ -1,6 +1,6 @@
-// Windows of any size for the scaling measurement: a camera walks round inside a square room, looking outwards, and sees
-// points near the walls and patches of the walls' own texture, which is a formula. The same size gives the same window
-// on every platform.
+// Windows of any size for the measurement of scaling. A camera walks round in a square room and looks outwards. It sees
+// points near the walls and patches of the walls, whose texture is a formula. The same size gives the same window on
+// every platform.
 #ifndef TEXTPLANE_BENCH_WINDOW_SCENE_WINDOW_HPP
 #define TEXTPLANE_BENCH_WINDOW_SCENE_WINDOW_HPP
 
@@ -13,10 +13,10 @@ namespace textplane_bench {
 
 namespace tp = textplane;
 
-/// How the camera moves, and with it which cameras share landmarks.
+/// How the camera moves. This decides which cameras share landmarks.
 enum class Path {
-  walk,   ///< 5 degrees a key frame, so that 72 make a round: a landmark is seen by some 7 of them a round.
-  stare,  ///< 40 degrees in all: a landmark is seen by most frames, and every camera couples to every other.
+  walk,   ///< 5 degrees a key frame, 72 for a round: some 7 key frames of a round see a landmark.
+  stare,  ///< 40 degrees in all: most frames see a landmark, and every camera shares landmarks with every other.
 };
 std::string to_string(Path path);
 
@@ -25,10 +25,10 @@ struct WindowSize {
   int frames = 0, points = 0, texts = 0;
 };
 
-/// A window with its images and patches. Two frames are fixed; every point has three observations or more, every text
-/// two; point observations carry noise of 1 px and 3 % outliers, images noise of 2 grey levels and another exposure each.
-/// Poses, points and planes start some pixels away from the truth. No patch leaves an image, so that the cost is a sum
-/// over the same pixels at every state.
+/// A window with its images and patches. Two frames are fixed. A point has at least three observations, a text two.
+/// Point observations have noise of 1 px and 3 % outliers; images have noise of 2 grey levels and different exposures.
+/// Poses, points and planes start some pixels off the truth. No patch leaves an image, so the cost always sums over the
+/// same pixels.
 class SceneWindow {
  public:
   explicit SceneWindow(const WindowSize& size);
