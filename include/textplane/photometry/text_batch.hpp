@@ -259,7 +259,7 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   args.camera[2] = camera.cx;
   args.camera[3] = camera.cy;
   args.exact = options.normalisation == Normalisation::exact;
-  args.huber = options.robust.kind == RobustKind::huber;
+  args.robust = static_cast<simd::RobustKind>(options.robust.kind);
   args.delta = options.robust.delta;
   args.min_contrast = options.min_contrast;
   args.min_visible = options.min_visible;

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "textplane/simd/robust.hpp"
 #include "textplane/simd/sample.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -48,7 +49,8 @@ struct BatchArgs {
   std::ptrdiff_t pose_step = 12, t_offset = 9;
   double camera[4] = {1, 1, 0, 0};  ///< fx, fy, cx, cy of the target.
   Image8 target;                    ///< readable(); pairs are not used.
-  bool exact = true, huber = true;
+  bool exact = true;
+  RobustKind robust = RobustKind::huber;
   double delta = 0.5;
   double min_contrast = 0;
   int min_visible = 1;

@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "textplane/simd/robust.hpp"
 #include "textplane/simd/sample.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -42,9 +43,9 @@ struct ResidualArgs {
   double theta[3] = {};        ///< Plane in the host frame, theta^T p = 1.
   double host_camera[4] = {};  ///< fx, fy, cx, cy.
   double target_camera[4] = {};
-  bool exact = true;              ///< Derivatives through mean and s; else both are held.
-  bool huber = true;              ///< Huber's weights, else none.
-  double delta = 0.5;             ///< Of Huber, on r sqrt(N).
+  bool exact = true;  ///< Derivatives through mean and s; else both are held.
+  RobustKind robust = RobustKind::huber;
+  double delta = 0.5;             ///< Of the robust cost, on r sqrt(N).
   double min_contrast = 0;        ///< Least standard deviation of either side, in intensity units.
   int min_visible = 1;            ///< Sums are taken from this many visible pixels on.
   std::uint8_t* flags = nullptr;  ///< If not null: n bytes, 1 for visible pixels, 0 for others.

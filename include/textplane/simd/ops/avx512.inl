@@ -95,6 +95,9 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept {
 // --- conversions ---
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm512_maskz_cvttps_epi32(kAllLanes, a); }
 
+TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm512_castps_si512(a); }
+TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm512_castsi512_ps(a); }
+
 // --- int32 arithmetic ---
 TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept { return _mm512_add_epi32(a, b); }
 TEXTPLANE_SIMD_INLINE vi subi(vi a, vi b) noexcept { return _mm512_sub_epi32(a, b); }

@@ -103,6 +103,9 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return vrndmq_f32(a); }
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return vcvtq_s32_f32(a); }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return vcvtq_f32_s32(a); }
 
+TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return vreinterpretq_s32_f32(a); }
+TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return vreinterpretq_f32_s32(a); }
+
 // --- int32 arithmetic ---
 TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept { return vaddq_s32(a, b); }
 TEXTPLANE_SIMD_INLINE vi subi(vi a, vi b) noexcept { return vsubq_s32(a, b); }

@@ -81,6 +81,18 @@ TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept {
 }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return static_cast<float>(a); }
 
+// The same bits.
+TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept {
+  vi bits;
+  copy_bytes(&bits, &a, 4);
+  return bits;
+}
+TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept {
+  vf value;
+  copy_bytes(&value, &a, 4);
+  return value;
+}
+
 // --- int32 arithmetic: wraps; shr keeps the sign; 0 <= bits < 32 ---
 TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept {
   return static_cast<int>(static_cast<unsigned>(a) + static_cast<unsigned>(b));

@@ -98,6 +98,9 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm_floor_ps(a); }
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm_cvttps_epi32(a); }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm_cvtepi32_ps(a); }
 
+TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm_castps_si128(a); }
+TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm_castsi128_ps(a); }
+
 // --- int32 arithmetic ---
 TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept { return _mm_add_epi32(a, b); }
 TEXTPLANE_SIMD_INLINE vi subi(vi a, vi b) noexcept { return _mm_sub_epi32(a, b); }

@@ -115,9 +115,13 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 }
 
 // The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i c). Costs.
-TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bool huber, float delta, vf host_scale,
-                                       vf target_scale, const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  const vf limit = set1(delta), root_limit = sqrt_(limit);
+// `kind`: l2, huber, or cauchy for both of those that weigh all.
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, simd::RobustKind kind,
+                                       const simd::BatchArgs& a, vf host_scale, vf target_scale, const vf* mean,
+                                       const vf* along, vf* cost, vf* error) noexcept {
+  const bool huber = kind == simd::RobustKind::huber, all = kind == simd::RobustKind::cauchy;
+  const RobustVectors robust = all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), false};
+  const vf limit = set1(huber ? static_cast<float>(a.delta) : 0.0F), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
     float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -129,9 +133,14 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bo
       const vf size = abs_(e), m = min_(size, limit);
       c = madd(m, add(size, sub(size, m)), c);
       root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
+    } else if (all) {
+      vf rho, weight;
+      robust_vector(robust, mul(e, e), &rho, &weight);
+      c = add(c, rho);
+      root = mul(root, weight);
     }
     if (parameters == 0) continue;
-    store(p + kBatchHost * kLanes, huber ? mul(root, e) : e);
+    store(p + kBatchHost * kLanes, huber || all ? mul(root, e) : e);
     for (int j = 0; j < parameters; j += 3) {
       float* row = p + j * kLanes;
       store(row, mul(root, nmadd(i, along[j], sub(load(row), mean[j]))));
@@ -139,8 +148,14 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, bo
       store(row + 2 * kLanes, mul(root, nmadd(i, along[j + 2], sub(load(row + 2 * kLanes), mean[j + 2]))));
     }
   }
-  *cost = huber ? c : s;
+  *cost = huber || all ? c : s;
   *error = s;
+}
+
+// Not inline: one copy for all numbers of parameters.
+TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int parameters, const vf* scales,
+                                          const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
+  batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 
 // One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with pixels.
@@ -208,11 +223,13 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
         c[j] = a.exact ? mul(c[j], square) : zero();
       }
     }
-    const float delta = static_cast<float>(a.delta);
-    if (a.huber)
-      batch_weigh(a.scratch, n, parameters, true, delta, host_scale, target_scale, e, c, &cost, &error);
+    const vf scales[2] = {host_scale, target_scale};
+    if (a.robust == simd::RobustKind::huber)
+      batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
+    else if (simd::weighs_all(a.robust))
+      batch_weigh_all(a, n, parameters, scales, e, c, &cost, &error);
     else
-      batch_weigh(a.scratch, n, parameters, false, 0.0F, host_scale, target_scale, e, c, &cost, &error);
+      batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) {
       const vf inverse_s = div(one, max_(target_s, tiny)), scale = mul(inverse_s, inverse_s);
       const vf scale_b = neg(div(inverse_s, max_(root, one)));

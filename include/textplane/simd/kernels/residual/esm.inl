@@ -109,11 +109,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     }
   }
 
-  double squares = 0, rho = 0;
-  const float delta = static_cast<float>(a.delta);
-  const int outliers = add_costs(s.d, s.i, n, r, a.huber, delta, s.list, &squares, &rho);
-  info->error = squares / count;
-  info->cost = rho / count;
+  const int outliers = add_costs(a, s, n, r, s.list, info);
 
   EsmSums sums;
   unpack_products(8, total, sums.S);
@@ -137,7 +133,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
     WeightedStrip ws;
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
-      weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
+      weigh_strip(a, s, direct ? nullptr : s.list + begin, begin, m, r, root, !direct, &ws, w);
       vf rr = zero();
       for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
       w_rr += hsum_d(rr);

@@ -17,10 +17,7 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const Re
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
   if (status != Status::ok) return status;
-  double squares = 0, rho = 0;
-  add_costs(s.d, s.i, n, r, a.huber, static_cast<float>(a.delta), nullptr, &squares, &rho);
-  info->error = squares / n;
-  info->cost = rho / n;
+  add_costs(a, s, n, r, nullptr, info);
   return Status::ok;
 }
 
@@ -65,11 +62,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   const Status status = make_residual(a, offsets, sides, n, &r, info);
   if (status != Status::ok) return status;
   const double count = n, root = sqrt_d(count);
-  double squares = 0, rho = 0;
-  const float delta = static_cast<float>(a.delta);
-  const int outliers = add_costs(s.d, s.i, n, r, a.huber, delta, s.list, &squares, &rho);
-  info->error = squares / count;
-  info->cost = rho / count;
+  const int outliers = add_costs(a, s, n, r, s.list, info);
 
   WeightedSums sums;
   const double by_s = 1 / r.i_s, by_root = 1 / root;
@@ -95,7 +88,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
     WeightedStrip ws;
     for (int begin = 0; begin < weighted; begin += kStrip) {
       const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
-      weigh_strip(s, direct ? nullptr : s.list + begin, begin, m, r, root, delta, !direct, &ws, w);
+      weigh_strip(a, s, direct ? nullptr : s.list + begin, begin, m, r, root, !direct, &ws, w);
       add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, terms == 0, acc);
       add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
       terms += kStrip / kLanes;

@@ -13,6 +13,22 @@ struct FewPixels {
   float i[kFewStep], e[kFewStep], root[kFewStep];
 };
 
+// With L2's weights in p: applies those of Cauchy or Tukey and returns the sum of their costs.
+TEXTPLANE_SIMD_ENTRY float weigh_few_all(const simd::ResidualArgs& a, double root, int n, FewPixels* p) noexcept {
+  const RobustVectors robust = broadcast_robust(a.robust, a.delta);
+  const vf by = set1(static_cast<float>(root));
+  vf sum = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vf r = load(p->e + k), e = mul(r, by);
+    vf rho, w;
+    robust_vector(robust, mul(e, e), &rho, &w);
+    store(p->e + k, mul(w, r));
+    store(p->root + k, mul(w, load(p->root + k)));
+    sum = add(sum, rho);  // rho(0) = 0
+  }
+  return hsum(sum);
+}
+
 // From n intensities of target and host: residuals, weights, costs. The status is as that of make_residual().
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
@@ -50,6 +66,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
 
+  const bool huber = a.robust == simd::RobustKind::huber;
   const float delta = static_cast<float>(a.delta);
   const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
   const vf by_i = set1(static_cast<float>(i_scale));
@@ -67,7 +84,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
       w = keep(counted, w);
     }
     squares = madd(e, e, squares);
-    if (a.huber) {
+    if (huber) {
       const vf size = abs_(e), m = min_(size, limit);
       rho = madd(m, add(size, sub(size, m)), rho);
       w = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), w);
@@ -76,7 +93,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->e + k, mul(w, mul(e, by_root)));
     store(p->root + k, mul(w, by_s));
   }
-  hsum4(squares, a.huber ? rho : squares, squares, rho, sum);
+  hsum4(squares, huber ? rho : squares, squares, rho, sum);
+  if (simd::weighs_all(a.robust)) sum[1] = weigh_few_all(a, root, n, p);
   info->error = sum[0] * by_count;
   info->cost = sum[1] * by_count;
   return Status::ok;

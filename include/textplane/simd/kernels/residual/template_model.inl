@@ -86,9 +86,9 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
   return s;
 }
 
-// What the weights of the outliers in the list take away from the sums.
-TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outliers, const Residual& r, double root,
-                                             float delta, WeightedSums* sums) noexcept {
+// Takes from the sums what the weights of the outliers in the list take away; where `direct`, sets them to those of all pixels.
+TEXTPLANE_SIMD_INLINE void template_outliers(const simd::ResidualArgs& a, const ResidualArrays& s, int outliers,
+                                             bool direct, const Residual& r, double root, WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };
   float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
   double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
@@ -98,7 +98,7 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
   RowConstants unused;
   for (int begin = 0; begin < outliers; begin += kStrip) {
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
-    weigh_strip(s, s.list + begin, begin, m, r, root, delta, true, &ws, w);
+    weigh_strip(a, s, s.list + begin, begin, m, r, root, !direct, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
     add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
                    acc + (kProducts + 8) * kLanes);
@@ -106,13 +106,14 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const ResidualArrays& s, int outlie
     fold(acc, kAll, begin == 0, other);
   }
   unpack_products(8, other, S);
+  const double rest = direct ? 0 : 1, sign = direct ? 1 : -1;
   for (int k = 0; k < 8; ++k) {
-    sums->w1[k] -= other[kProducts + k];
-    sums->wn[k] -= other[kProducts + 8 + k];
-    sums->wr[k] -= other[kProducts + 16 + k];
-    for (int j = 0; j < 8; ++j) sums->S[k][j] -= S[k][j];
+    sums->w1[k] = rest * sums->w1[k] + sign * other[kProducts + k];
+    sums->wn[k] = rest * sums->wn[k] + sign * other[kProducts + 8 + k];
+    sums->wr[k] = rest * sums->wr[k] + sign * other[kProducts + 16 + k];
+    for (int j = 0; j < 8; ++j) sums->S[k][j] = rest * sums->S[k][j] + sign * S[k][j];
   }
-  for (int k = 0; k < 5; ++k) sums->w[k] -= w[k];
+  for (int k = 0; k < 5; ++k) sums->w[k] = rest * sums->w[k] + sign * w[k];
 }
 
 // Samples and judges; where `derivatives`, normal equations.
@@ -145,12 +146,11 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   const double count = m.n, root = sqrt_d(count);
   const ResidualArrays s = template_arrays(m, a.scratch);
   int outliers = 0;
-  if (a.huber) {
-    double squares = 0, rho = 0;
+  if (a.robust != simd::RobustKind::l2) {
+    const double error = info->error;
     widen_values(values, m.n, s.d);
-    outliers =
-        add_costs(s.d, s.i, m.n, r, true, static_cast<float>(a.delta), derivatives ? s.list : nullptr, &squares, &rho);
-    info->cost = rho / count;
+    outliers = add_costs(a, s, m.n, r, derivatives ? s.list : nullptr, info);
+    info->error = error;  // exact, not that of the float residuals
   }
   if (!derivatives) return;
 
@@ -181,7 +181,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   sums.w[1] = sums.w[3] = 0;
   sums.w[2] = 1;
   sums.w[4] = 0.5 * info->error;
-  template_outliers(s, outliers, r, root, static_cast<float>(a.delta), &sums);
+  template_outliers(a, s, outliers, simd::weighs_all(a.robust), r, root, &sums);
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }

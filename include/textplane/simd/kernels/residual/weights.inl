@@ -1,7 +1,7 @@
 // Costs and weights of the residuals of many pixels. Include before: residual/centre.inl, residual/strip_sums.inl.
 
-// Costs of all n pixels: sum of e^2 and rho(e^2), e = r sqrt(N). `list`, where given, gets the pixels with |e| > delta, and up
-// to a whole vector some pixel; returns how many.
+// Costs of all n pixels: sums of e^2 and rho(e^2), e = r sqrt(N). For L2 and Huber. `list`, where given, gets the pixels with
+// |e| > delta, padded to a full vector with a valid index; returns how many.
 struct CostSums {
   vf squares, rho;
 };
@@ -11,8 +11,8 @@ TEXTPLANE_SIMD_INLINE unsigned cost_vector(vf e, vf limit, CostSums* sums) noexc
   sums->rho = madd(m, add(size, sub(size, m)), sums->rho);
   return bits(gt(size, limit));
 }
-TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const Residual& r, bool huber, float delta,
-                                   std::int32_t* list, double* squares, double* rho) noexcept {
+TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, const Residual& r, bool huber,
+                                         float delta, std::int32_t* list, double* squares, double* rho) noexcept {
   const vf limit = set1(huber ? delta : 3.0e38F), shift = set1(static_cast<float>(r.shift));
   const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
   int listed = 0;
@@ -43,19 +43,58 @@ TEXTPLANE_SIMD_ENTRY int add_costs(const float* d, const float* i, int n, const 
   return listed;
 }
 
+// The same for Cauchy and Tukey.
+TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r,
+                                             simd::RobustKind kind, double delta, double* squares,
+                                             double* rho) noexcept {
+  const RobustVectors robust = broadcast_robust(kind, delta);
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums sums = {zero(), zero()};
+    for (int k = begin; k < end; k += kLanes) {
+      const vf e = keep(first_n(end - k), madd(load(d + k), on_d, madd(load(i + k), on_i, shift))), square = mul(e, e);
+      vf cost, root;
+      robust_vector(robust, square, &cost, &root);
+      sums.squares = add(sums.squares, square);
+      sums.rho = add(sums.rho, cost);
+    }
+    *squares += hsum_d(sums.squares);
+    *rho += hsum_d(sums.rho);
+  }
+}
+
+// Costs of all n pixels, to `info`, and how many of them need weights: for L2 none, for Huber the outliers, which `list` gets where
+// it is given; for Cauchy and Tukey all.
+TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                    std::int32_t* list, simd::ResidualInfo* info) noexcept {
+  double squares = 0, rho = 0;
+  int weighted = n;
+  if (simd::weighs_all(a.robust))
+    add_weighted_costs(s.d, s.i, n, r, a.robust, a.delta, &squares, &rho);
+  else
+    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == simd::RobustKind::huber, static_cast<float>(a.delta), list,
+                               &squares, &rho);
+  info->error = squares / n;
+  info->cost = rho / n;
+  return weighted;
+}
+
 // n <= kStrip pixels that are given weights: coordinates, and gradient and factors times the root of the weight.
 struct WeightedStrip {
   float x[kStrip], y[kStrip], a[kStrip], b[kStrip], p[kStrip], q[kStrip],
       r[kStrip];  // p = 1, q = n, r = r, times the root
 };
 
-// Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is Huber's w, or
-// (complement) 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
-TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_t* list, int begin, int n,
-                                      const Residual& res, double root, float delta, bool complement, WeightedStrip* w,
-                                      double* sums) noexcept {
+// Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is the robust cost's w,
+// or, for Huber (complement), 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
+TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
+                                          const std::int32_t* list, int begin, int n, const Residual& res, double root,
+                                          bool complement, WeightedStrip* w, double* sums) noexcept {
+  const RobustVectors robust = all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), false};
   const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
-  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(delta);
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(static_cast<float>(args.delta));
   const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
   const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
   vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
@@ -65,12 +104,21 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
     const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
     const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
     const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
-    const vf e = madd(d, on_d, madd(i, on_i, shift)), size = abs_(e);
-    const vf inner = min_(size, limit), least = max_(size, set1(1e-30F));
-    vf weight = div(complement ? sub(size, inner) : inner, least);
-    if (!complement) weight = select(gt(size, limit), weight, one);
-    if (n - j < kLanes) weight = keep(first_n(n - j), weight);
-    const vf p = sqrt_(weight), nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
+    const vf e = madd(d, on_d, madd(i, on_i, shift));
+    vf weight, p;
+    if (all) {
+      vf rho;
+      robust_vector(robust, mul(e, e), &rho, &p);
+      if (n - j < kLanes) p = keep(first_n(n - j), p);
+      weight = mul(p, p);
+    } else {
+      const vf size = abs_(e), inner = min_(size, limit), least = max_(size, set1(1e-30F));
+      weight = div(complement ? sub(size, inner) : inner, least);
+      if (!complement) weight = select(gt(size, limit), weight, one);
+      if (n - j < kLanes) weight = keep(first_n(n - j), weight);
+      p = sqrt_(weight);
+    }
+    const vf nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
     const vf q = mul(p, nn), r = mul(p, rr);
     store(w->x + j, x);
     store(w->y + j, y);
@@ -90,6 +138,24 @@ TEXTPLANE_SIMD_ENTRY void weigh_strip(const ResidualArrays& s, const std::int32_
   sums[2] += hsum_d(s2);
   sums[3] += hsum_d(s3);
   sums[4] += hsum_d(s4);
+}
+
+TEXTPLANE_SIMD_ENTRY void weigh_huber(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
+                                      int begin, int n, const Residual& r, double root, bool complement,
+                                      WeightedStrip* w, double* sums) noexcept {
+  weigh_strip_by(false, a, s, list, begin, n, r, root, complement, w, sums);
+}
+TEXTPLANE_SIMD_ENTRY void weigh_all(const simd::ResidualArgs& a, const ResidualArrays& s, int begin, int n,
+                                    const Residual& r, double root, WeightedStrip* w, double* sums) noexcept {
+  weigh_strip_by(true, a, s, nullptr, begin, n, r, root, false, w, sums);
+}
+TEXTPLANE_SIMD_INLINE void weigh_strip(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
+                                       int begin, int n, const Residual& r, double root, bool complement,
+                                       WeightedStrip* w, double* sums) noexcept {
+  if (simd::weighs_all(a.robust))
+    weigh_all(a, s, begin, n, r, root, w, sums);
+  else
+    weigh_huber(a, s, list, begin, n, r, root, complement, w, sums);
 }
 
 // Sums of the rows with the factors p, q and r of the strip, one after the other.
