@@ -59,37 +59,37 @@ TEXTPLANE_SIMD_ENTRY void mask_operations(const float* pa, const float* pb, cons
   const vi i = loadi(pi), j = loadi(pj);
   const vm m = lt(a, b), n = lti(i, j);
   int k = 0;
-  out[k++] = bits(lt(a, b));
-  out[k++] = bits(le(a, b));
-  out[k++] = bits(gt(a, b));
-  out[k++] = bits(ge(a, b));
-  out[k++] = bits(eq(a, b));
-  out[k++] = bits(lti(i, j));
-  out[k++] = bits(gti(i, j));
-  out[k++] = bits(eqi(i, j));
-  out[k++] = bits(and_(m, n));
-  out[k++] = bits(or_(m, n));
-  out[k++] = bits(andnot_(m, n));
-  out[k++] = bits(not_(m));
-  out[k++] = static_cast<unsigned>(count(m));
-  out[k++] = any(m) ? 1u : 0u;
-  out[k++] = all(m) ? 1u : 0u;
+  out[k++] = bits_from_mask(lt(a, b));
+  out[k++] = bits_from_mask(le(a, b));
+  out[k++] = bits_from_mask(gt(a, b));
+  out[k++] = bits_from_mask(ge(a, b));
+  out[k++] = bits_from_mask(eq(a, b));
+  out[k++] = bits_from_mask(lti(i, j));
+  out[k++] = bits_from_mask(gti(i, j));
+  out[k++] = bits_from_mask(eqi(i, j));
+  out[k++] = bits_from_mask(and_(m, n));
+  out[k++] = bits_from_mask(or_(m, n));
+  out[k++] = bits_from_mask(andnot_(m, n));
+  out[k++] = bits_from_mask(not_(m));
+  out[k++] = static_cast<unsigned>(count_true(m));
+  out[k++] = any_true(m) ? 1u : 0u;
+  out[k++] = all_true(m) ? 1u : 0u;
 }
 
 TEXTPLANE_SIMD_ENTRY void reductions(const float* pa, double* out) noexcept {
   const vf a = load(pa);
-  out[0] = static_cast<double>(hsum(a));
-  out[1] = hsum_d(a);
-  out[2] = static_cast<double>(hmin(a));
-  out[3] = static_cast<double>(hmax(a));
+  out[0] = static_cast<double>(reduce_sum(a));
+  out[1] = reduce_sum_double(a);
+  out[2] = static_cast<double>(reduce_min(a));
+  out[3] = static_cast<double>(reduce_max(a));
 }
 
-// hsum4 of the first four vectors, then hsum8 of all.
+// reduce_sum4 of the first four vectors, then reduce_sum8 of all.
 TEXTPLANE_SIMD_ENTRY void eight_sums(const float* p, double* out) noexcept {
   float four[4];
-  hsum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
+  reduce_sum4(load(p), load(p + kLanes), load(p + 2 * kLanes), load(p + 3 * kLanes), four);
   for (int k = 0; k < 4; ++k) out[k] = static_cast<double>(four[k]);
-  stored(out + 4, hsum8(p));
+  stored(out + 4, reduce_sum8(p));
 }
 
 TEXTPLANE_SIMD_ENTRY void taps(const std::uint32_t* words, float* out) noexcept {
@@ -115,7 +115,7 @@ TEXTPLANE_SIMD_ENTRY void partial_store_floats(float* p, const float* from, int 
   store_n(p, load(from), n);
 }
 TEXTPLANE_SIMD_ENTRY void partial_store_ints(int* p, const int* from, int n) noexcept { storei_n(p, loadi(from), n); }
-TEXTPLANE_SIMD_ENTRY unsigned first_lanes(int n) noexcept { return bits(first_n(n)); }
+TEXTPLANE_SIMD_ENTRY unsigned first_lanes(int n) noexcept { return bits_from_mask(first_n(n)); }
 
 TEXTPLANE_SIMD_ENTRY unsigned read_u16(const std::uint8_t* p) noexcept { return load_u16(p); }
 TEXTPLANE_SIMD_ENTRY unsigned read_u32(const std::uint8_t* p) noexcept { return load_u32(p); }

@@ -117,27 +117,28 @@
 #define TEXTPLANE_SIMD_BUILDS(a, number, name, lanes, fused, needs, few, features) \
   || (TEXTPLANE_SIMD_ON_##needs && ((a) >> number & 1))
 
-// TEXTPLANE_SIMD_OPEN and TEXTPLANE_SIMD_CLOSE, Xs of the table, go around a region.
+// TEXTPLANE_SIMD_BEGIN and TEXTPLANE_SIMD_END, Xs of the table, go around a region.
 #define TEXTPLANE_SIMD_TEXT_(text) #text
 #define TEXTPLANE_SIMD_TEXT(text) TEXTPLANE_SIMD_TEXT_(text)
 #if defined(__clang__)
-#define TEXTPLANE_SIMD_ASK(features) \
+#define TEXTPLANE_SIMD_FEATURES_BEGIN(features) \
   _Pragma(TEXTPLANE_SIMD_TEXT(clang attribute push(__attribute__((target(features))), apply_to = function)))
-#define TEXTPLANE_SIMD_ASK_NO_MORE _Pragma("clang attribute pop")
+#define TEXTPLANE_SIMD_FEATURES_END _Pragma("clang attribute pop")
 #else
-#define TEXTPLANE_SIMD_ASK(features) _Pragma("GCC push_options") _Pragma(TEXTPLANE_SIMD_TEXT(GCC target(features)))
-#define TEXTPLANE_SIMD_ASK_NO_MORE _Pragma("GCC pop_options")
+#define TEXTPLANE_SIMD_FEATURES_BEGIN(features) \
+  _Pragma("GCC push_options") _Pragma(TEXTPLANE_SIMD_TEXT(GCC target(features)))
+#define TEXTPLANE_SIMD_FEATURES_END _Pragma("GCC pop_options")
 #endif
-#define TEXTPLANE_SIMD_OPEN_any(features)
-#define TEXTPLANE_SIMD_OPEN_x86(features) TEXTPLANE_SIMD_ASK(features)
-#define TEXTPLANE_SIMD_OPEN_x86_wide(features) TEXTPLANE_SIMD_ASK(features)
-#define TEXTPLANE_SIMD_OPEN_arm(features)
-#define TEXTPLANE_SIMD_CLOSE_any
-#define TEXTPLANE_SIMD_CLOSE_x86 TEXTPLANE_SIMD_ASK_NO_MORE
-#define TEXTPLANE_SIMD_CLOSE_x86_wide TEXTPLANE_SIMD_ASK_NO_MORE
-#define TEXTPLANE_SIMD_CLOSE_arm
-#define TEXTPLANE_SIMD_OPEN(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_OPEN_##needs(features)
-#define TEXTPLANE_SIMD_CLOSE(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_CLOSE_##needs
+#define TEXTPLANE_SIMD_BEGIN_any(features)
+#define TEXTPLANE_SIMD_BEGIN_x86(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
+#define TEXTPLANE_SIMD_BEGIN_x86_wide(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
+#define TEXTPLANE_SIMD_BEGIN_arm(features)
+#define TEXTPLANE_SIMD_END_any
+#define TEXTPLANE_SIMD_END_x86 TEXTPLANE_SIMD_FEATURES_END
+#define TEXTPLANE_SIMD_END_x86_wide TEXTPLANE_SIMD_FEATURES_END
+#define TEXTPLANE_SIMD_END_arm
+#define TEXTPLANE_SIMD_BEGIN(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_BEGIN_##needs(features)
+#define TEXTPLANE_SIMD_END(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_END_##needs
 
 // Clang keeps -ffinite-math-only in functions that a pragma asks to be precise. It may then swap the operands of a minimum, and
 // a NaN would get past a clamp. So the operations hide their minima and maxima from it in assembly.

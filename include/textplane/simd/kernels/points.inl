@@ -29,8 +29,8 @@ TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResul
     warp_vector(vectors, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
     if (a.inside) {
       const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
-      result->inside += count(in);
-      const unsigned b = bits(in);
+      result->inside += count_true(in);
+      const unsigned b = bits_from_mask(in);
       for (int k = 0; k < left; ++k) a.inside[i + k] = static_cast<std::uint8_t>(b >> k & 1U);
     }
     if (left == kLanes) {
@@ -69,8 +69,8 @@ TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointRes
       warp_vector(vectors, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
       cell_vector(cells, tx, ty, &strip, i);
       const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
-      const unsigned b = bits(in);
-      result->inside += count(in);
+      const unsigned b = bits_from_mask(in);
+      result->inside += count_true(in);
       store(x + i, tx);
       store(y + i, ty);
       store(gx + i, keep(in, set1(1.0F)));  // which ones count, until their values are known

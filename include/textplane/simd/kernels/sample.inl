@@ -32,11 +32,12 @@ TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, si
     y_high = max_(py, y_high);
     nothing = madd(add(px, py), zero(), nothing);  // the bounds do not see a NaN
   }
-  out->x_low = hmin(x_low);
-  out->x_high = hmax(x_high);
-  out->y_low = hmin(y_low);
-  out->y_high = hmax(y_high);
-  const double all = hsum_d(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
+  out->x_low = reduce_min(x_low);
+  out->x_high = reduce_max(x_high);
+  out->y_low = reduce_min(y_low);
+  out->y_high = reduce_max(y_high);
+  const double all =
+      reduce_sum_double(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
   out->n = finite_d(all) ? n : 0;
 }
 TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {

@@ -117,7 +117,7 @@ TEXTPLANE_SIMD_INLINE int warp_coordinates(const simd::WarpArgs& a, const WarpBl
     if (path == kWarpSparse) {
       const vm front = gt(madd(z1, u, z0), zero());
       const vm in = and_(front, and_(and_(ge(x, left), le(x, right)), and_(ge(y, top), le(y, bottom))));
-      inside += count(and_(in, first_n(columns - k)));
+      inside += count_true(and_(in, first_n(columns - k)));
       storei(s->inside + k, to_int(keep(in, one)));
       x = min_(max_(x, left), right);  // NaN becomes `left`
       y = min_(max_(y, top), bottom);

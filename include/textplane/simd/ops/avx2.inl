@@ -136,29 +136,29 @@ TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm256_blend
 TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return _mm256_blendv_epi8(b, a, _mm256_castps_si256(m)); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm256_and_ps(m, a); }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return _mm256_castsi256_ps(first_n_bits(n)); }
-TEXTPLANE_SIMD_INLINE unsigned bits(vm m) noexcept { return static_cast<unsigned>(_mm256_movemask_ps(m)); }
-TEXTPLANE_SIMD_INLINE int count(vm m) noexcept { return _mm_popcnt_u32(bits(m)); }
-TEXTPLANE_SIMD_INLINE bool any(vm m) noexcept { return bits(m) != 0; }
-TEXTPLANE_SIMD_INLINE bool all(vm m) noexcept { return bits(m) == 255u; }
+TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return static_cast<unsigned>(_mm256_movemask_ps(m)); }
+TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return _mm_popcnt_u32(bits_from_mask(m)); }
+TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return bits_from_mask(m) != 0; }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return bits_from_mask(m) == 255u; }
 
 // --- reductions ---
-TEXTPLANE_SIMD_INLINE float hsum(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
   const __m128 four = _mm_add_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
   const __m128 two = _mm_add_ps(four, _mm_movehl_ps(four, four));
   return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
-TEXTPLANE_SIMD_INLINE double hsum_d(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
   const __m256d four =
       _mm256_add_pd(_mm256_cvtps_pd(_mm256_castps256_ps128(a)), _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1)));
   const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
   return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
 }
-TEXTPLANE_SIMD_INLINE float hmin(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
   const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
   const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
-TEXTPLANE_SIMD_INLINE float hmax(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
   const __m128 four = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
   const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
   return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
@@ -203,11 +203,11 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
   return vd{_mm256_fmadd_pd(a.low, b.low, c.low), _mm256_fmadd_pd(a.high, b.high, c.high)};
 }
 
-TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = join_pairs(join_lanes(a, b), join_lanes(c, d));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
-TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
   const __m256 q = join_pairs(join_lanes(load(p), load(p + 8)), join_lanes(load(p + 16), load(p + 24)));
   const __m256 r = join_pairs(join_lanes(load(p + 32), load(p + 40)), join_lanes(load(p + 48), load(p + 56)));
   const __m256 s = join_halves(q, r);
@@ -282,7 +282,7 @@ TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
   return _mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xd8);
 }
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
   const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
   const __m128i a = _mm_add_epi32(h, _mm_shuffle_epi32(h, 0x4e));
   return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));

@@ -129,21 +129,21 @@ TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return static_cast<vm>(~a); }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm512_mask_blend_ps(m, b, a); }
 TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return _mm512_mask_blend_epi32(m, b, a); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm512_maskz_mov_ps(m, a); }
-TEXTPLANE_SIMD_INLINE unsigned bits(vm m) noexcept { return m; }
-TEXTPLANE_SIMD_INLINE int count(vm m) noexcept { return _mm_popcnt_u32(m); }
-TEXTPLANE_SIMD_INLINE bool any(vm m) noexcept { return m != 0; }
-TEXTPLANE_SIMD_INLINE bool all(vm m) noexcept { return m == kAllLanes; }
+TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m; }
+TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return _mm_popcnt_u32(m); }
+TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return m != 0; }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kAllLanes; }
 
 // --- reductions ---
 TEXTPLANE_SIMD_INLINE __m256 lower_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 0); }
 TEXTPLANE_SIMD_INLINE __m256 upper_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 1); }
-TEXTPLANE_SIMD_INLINE float hsum(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
   const __m256 eight = _mm256_add_ps(lower_half(a), upper_half(a));
   const __m128 four = _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
   const __m128 two = _mm_add_ps(four, _mm_movehl_ps(four, four));
   return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
-TEXTPLANE_SIMD_INLINE double hsum_d(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
   const __m512d eight =
       _mm512_add_pd(_mm512_maskz_cvtps_pd(0xff, lower_half(a)), _mm512_maskz_cvtps_pd(0xff, upper_half(a)));
   const __m256d four =
@@ -151,13 +151,13 @@ TEXTPLANE_SIMD_INLINE double hsum_d(vf a) noexcept {
   const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
   return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
 }
-TEXTPLANE_SIMD_INLINE float hmin(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
   const __m256 eight = _mm256_min_ps(lower_half(a), upper_half(a));
   const __m128 four = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
   const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
-TEXTPLANE_SIMD_INLINE float hmax(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
   const __m256 eight = _mm256_max_ps(lower_half(a), upper_half(a));
   const __m128 four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
   const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
@@ -191,14 +191,14 @@ TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept { return vd{_mm512_mul_pd(a.a
 TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept { return vd{_mm512_fmadd_pd(a.all, b.all, c.all)}; }
 
 TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept { return _mm256_add_ps(lower_half(a), upper_half(a)); }
-TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
 TEXTPLANE_SIMD_INLINE __m256 half_sum_at(const float* p) noexcept {
   return _mm256_add_ps(_mm256_loadu_ps(p), _mm256_loadu_ps(p + 8));
 }
-TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
   const __m256 a = join_lanes(half_sum_at(p), half_sum_at(p + 16)),
                b = join_lanes(half_sum_at(p + 32), half_sum_at(p + 48));
   const __m256 c = join_lanes(half_sum_at(p + 64), half_sum_at(p + 80)),
@@ -264,7 +264,7 @@ TEXTPLANE_SIMD_INLINE __m512i int16_order(int first, int second, int step) noexc
 TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return _mm512_permutex2var_epi16(a, int16_order(0, 2, 4), b); }
 TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return _mm512_permutex2var_epi16(a, int16_order(1, 3, 4), b); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return low16(low, high); }
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
   const __m256i q =
       _mm256_add_epi32(_mm512_maskz_extracti64x4_epi64(0xf, v, 0), _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
   const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(q), _mm256_extracti128_si256(q, 1));

@@ -136,22 +136,22 @@ TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept {
   return vreinterpretq_f32_u32(vandq_u32(m, vreinterpretq_u32_f32(a)));
 }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return vcltq_s32(ioti(), seti(n)); }
-TEXTPLANE_SIMD_INLINE unsigned bits(vm m) noexcept { return vaddvq_u32(vandq_u32(m, vm{1u, 2u, 4u, 8u})); }
-TEXTPLANE_SIMD_INLINE int count(vm m) noexcept { return static_cast<int>(vaddvq_u32(vshrq_n_u32(m, 31))); }
-TEXTPLANE_SIMD_INLINE bool any(vm m) noexcept { return vmaxvq_u32(m) != 0; }
-TEXTPLANE_SIMD_INLINE bool all(vm m) noexcept { return vminvq_u32(m) != 0; }
+TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return vaddvq_u32(vandq_u32(m, vm{1u, 2u, 4u, 8u})); }
+TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return static_cast<int>(vaddvq_u32(vshrq_n_u32(m, 31))); }
+TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return vmaxvq_u32(m) != 0; }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return vminvq_u32(m) != 0; }
 
 // --- reductions ---
-TEXTPLANE_SIMD_INLINE float hsum(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
   const float32x2_t two = vadd_f32(vget_low_f32(a), vget_high_f32(a));
   return vget_lane_f32(two, 0) + vget_lane_f32(two, 1);
 }
-TEXTPLANE_SIMD_INLINE double hsum_d(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
   const float64x2_t two = vaddq_f64(vcvt_f64_f32(vget_low_f32(a)), vcvt_high_f64_f32(a));
   return vgetq_lane_f64(two, 0) + vgetq_lane_f64(two, 1);
 }
-TEXTPLANE_SIMD_INLINE float hmin(vf a) noexcept { return vminvq_f32(a); }
-TEXTPLANE_SIMD_INLINE float hmax(vf a) noexcept { return vmaxvq_f32(a); }
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept { return vminvq_f32(a); }
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept { return vmaxvq_f32(a); }
 
 // --- bilinear taps ---
 struct taps_t {
@@ -214,10 +214,10 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
              vfmaq_f64(c.part[2], a.part[2], b.part[2]), vfmaq_f64(c.part[3], a.part[3], b.part[3])}};
 }
 
-TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   vst1q_f32(out, vpaddq_f32(vpaddq_f32(a, b), vpaddq_f32(c, d)));
 }
-TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
   const float32x4_t q = vpaddq_f32(vpaddq_f32(load(p), load(p + 4)), vpaddq_f32(load(p + 8), load(p + 12)));
   const float32x4_t r = vpaddq_f32(vpaddq_f32(load(p + 16), load(p + 20)), vpaddq_f32(load(p + 24), load(p + 28)));
   return vd{{vcvt_f64_f32(vget_low_f32(q)), vcvt_high_f64_f32(q), vcvt_f64_f32(vget_low_f32(r)), vcvt_high_f64_f32(r)}};
@@ -324,7 +324,7 @@ TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept {
   return addi(sum, vpaddq_s32(vmull_s16(vget_low_s16(x), vget_low_s16(y)), vmull_high_s16(x, y)));
 }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)); }
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return vaddvq_s32(v); }
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept { return vaddvq_s32(v); }
 TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
                                     v16* second) noexcept {
   std::uint16_t u[8], l[8];

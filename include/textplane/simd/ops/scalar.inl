@@ -126,17 +126,17 @@ TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return !a; }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return m ? a : b; }
 TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return m ? a : b; }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return m ? a : 0.0f; }
-TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return n > 0; }          // lanes below n; any n
-TEXTPLANE_SIMD_INLINE unsigned bits(vm m) noexcept { return m ? 1u : 0u; }  // bit i is lane i
-TEXTPLANE_SIMD_INLINE int count(vm m) noexcept { return m ? 1 : 0; }
-TEXTPLANE_SIMD_INLINE bool any(vm m) noexcept { return m; }
-TEXTPLANE_SIMD_INLINE bool all(vm m) noexcept { return m; }
+TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return n > 0; }                    // lanes below n; any n
+TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m ? 1u : 0u; }  // bit i is lane i
+TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return m ? 1 : 0; }
+TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return m; }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m; }
 
-// --- reductions: the upper half of the lanes joins the lower half until one is left; hsum_d does so in double ---
-TEXTPLANE_SIMD_INLINE float hsum(vf a) noexcept { return a; }
-TEXTPLANE_SIMD_INLINE double hsum_d(vf a) noexcept { return static_cast<double>(a); }
-TEXTPLANE_SIMD_INLINE float hmin(vf a) noexcept { return a; }
-TEXTPLANE_SIMD_INLINE float hmax(vf a) noexcept { return a; }
+// --- reductions: the upper half of the lanes joins the lower half until one is left; reduce_sum_double does so in double ---
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return a; }
+TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept { return static_cast<double>(a); }
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept { return a; }
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept { return a; }
 
 // --- bilinear taps: kLanes cells I(x,y) | I(x+1,y) << 8 | I(x,y+1) << 16 | I(x+1,y+1) << 24 ---
 // value = I(x,y), dx = I(x+1,y) - I(x,y), dy = I(x,y+1) - I(x,y), dxy = I(x,y) - I(x+1,y) - I(x,y+1) + I(x+1,y+1): exact.
@@ -197,15 +197,15 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {  // as madd
   return c;
 }
 
-// hsum of four vectors to out[0 .. 3]: neighbouring lanes join first.
-TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+// reduce_sum of four vectors to out[0 .. 3]: neighbouring lanes join first.
+TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   out[0] = a;
   out[1] = b;
   out[2] = c;
   out[3] = d;
 }
-// The sums of eight vectors that lie one after the other, each as of hsum4.
-TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+// The sums of eight vectors that lie one after the other, each as of reduce_sum4.
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
   vd r;
   for (int i = 0; i < 8; ++i) r.lane[i] = static_cast<double>(p[i]);
   return r;
@@ -309,7 +309,7 @@ TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return sum +
 // 2 kLanes int32 that fit int16, in order.
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
 // Sum of the lanes; it wraps.
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept { return v; }
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept { return v; }
 // Lane i: the two bytes at upper (lower) + offset[i], the first of them low. Reads these bytes alone.
 TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
                                     v16* second) noexcept {

@@ -129,28 +129,28 @@ TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm_blendv_p
 TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return _mm_blendv_epi8(b, a, _mm_castps_si128(m)); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm_and_ps(m, a); }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return lti(ioti(), seti(n)); }
-TEXTPLANE_SIMD_INLINE unsigned bits(vm m) noexcept { return static_cast<unsigned>(_mm_movemask_ps(m)); }
-TEXTPLANE_SIMD_INLINE int count(vm m) noexcept {
+TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return static_cast<unsigned>(_mm_movemask_ps(m)); }
+TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept {
   // The number of ones in four bits, from a table in a word: SSE4.1 has no popcnt.
-  return static_cast<int>((0x4332322132212110ull >> (4 * bits(m))) & 15u);
+  return static_cast<int>((0x4332322132212110ull >> (4 * bits_from_mask(m))) & 15u);
 }
-TEXTPLANE_SIMD_INLINE bool any(vm m) noexcept { return bits(m) != 0; }
-TEXTPLANE_SIMD_INLINE bool all(vm m) noexcept { return bits(m) == 15u; }
+TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return bits_from_mask(m) != 0; }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return bits_from_mask(m) == 15u; }
 
 // --- reductions ---
-TEXTPLANE_SIMD_INLINE float hsum(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
   const __m128 two = _mm_add_ps(a, _mm_movehl_ps(a, a));
   return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
-TEXTPLANE_SIMD_INLINE double hsum_d(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
   const __m128d two = _mm_add_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(_mm_movehl_ps(a, a)));
   return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
 }
-TEXTPLANE_SIMD_INLINE float hmin(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
   const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
   return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
-TEXTPLANE_SIMD_INLINE float hmax(vf a) noexcept {
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
   const __m128 two = _mm_max_ps(a, _mm_movehl_ps(a, a));
   return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
 }
@@ -201,10 +201,10 @@ TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
              _mm_add_pd(p.part[3], c.part[3])}};
 }
 
-TEXTPLANE_SIMD_INLINE void hsum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   _mm_storeu_ps(out, _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, d)));
 }
-TEXTPLANE_SIMD_INLINE vd hsum8(const float* p) noexcept {
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
   const __m128 q = _mm_hadd_ps(_mm_hadd_ps(load(p), load(p + 4)), _mm_hadd_ps(load(p + 8), load(p + 12)));
   const __m128 r = _mm_hadd_ps(_mm_hadd_ps(load(p + 16), load(p + 20)), _mm_hadd_ps(load(p + 24), load(p + 28)));
   return vd{{_mm_cvtps_pd(q), _mm_cvtps_pd(_mm_movehl_ps(q, q)), _mm_cvtps_pd(r), _mm_cvtps_pd(_mm_movehl_ps(r, r))}};
@@ -314,7 +314,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
 }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
-TEXTPLANE_SIMD_INLINE int hsumi(vi v) noexcept {
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
   const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
   return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
 }

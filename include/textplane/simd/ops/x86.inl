@@ -11,28 +11,20 @@ TEXTPLANE_SIMD_INLINE std::ptrdiff_t first_offset(std::uint64_t pair) noexcept {
 TEXTPLANE_SIMD_INLINE std::ptrdiff_t second_offset(std::uint64_t pair) noexcept {
   return static_cast<std::int64_t>(pair) >> 32;
 }
+TEXTPLANE_SIMD_INLINE __m128i gather_pairs8(const std::uint8_t* p, const int* offset) noexcept {
+  __m128i v = _mm_cvtsi32_si128(static_cast<int>(load_u16(p + offset[0])));
+  v = _mm_insert_epi16(v, static_cast<short>(load_u16(p + offset[1])), 1);
+  v = _mm_insert_epi16(v, static_cast<short>(load_u16(p + offset[2])), 2);
+  v = _mm_insert_epi16(v, static_cast<short>(load_u16(p + offset[3])), 3);
+  v = _mm_insert_epi16(v, static_cast<short>(load_u16(p + offset[4])), 4);
+  v = _mm_insert_epi16(v, static_cast<short>(load_u16(p + offset[5])), 5);
+  v = _mm_insert_epi16(v, static_cast<short>(load_u16(p + offset[6])), 6);
+  return _mm_insert_epi16(v, static_cast<short>(load_u16(p + offset[7])), 7);
+}
 TEXTPLANE_SIMD_INLINE void gather_pairs8(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                          __m128i* first, __m128i* second) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  const std::ptrdiff_t o4 = offset[4], o5 = offset[5], o6 = offset[6], o7 = offset[7];
-  __m128i u = _mm_cvtsi32_si128(static_cast<int>(load_u16(upper + o0)));
-  u = _mm_insert_epi16(u, static_cast<short>(load_u16(upper + o1)), 1);
-  u = _mm_insert_epi16(u, static_cast<short>(load_u16(upper + o2)), 2);
-  u = _mm_insert_epi16(u, static_cast<short>(load_u16(upper + o3)), 3);
-  u = _mm_insert_epi16(u, static_cast<short>(load_u16(upper + o4)), 4);
-  u = _mm_insert_epi16(u, static_cast<short>(load_u16(upper + o5)), 5);
-  u = _mm_insert_epi16(u, static_cast<short>(load_u16(upper + o6)), 6);
-  u = _mm_insert_epi16(u, static_cast<short>(load_u16(upper + o7)), 7);
-  __m128i l = _mm_cvtsi32_si128(static_cast<int>(load_u16(lower + o0)));
-  l = _mm_insert_epi16(l, static_cast<short>(load_u16(lower + o1)), 1);
-  l = _mm_insert_epi16(l, static_cast<short>(load_u16(lower + o2)), 2);
-  l = _mm_insert_epi16(l, static_cast<short>(load_u16(lower + o3)), 3);
-  l = _mm_insert_epi16(l, static_cast<short>(load_u16(lower + o4)), 4);
-  l = _mm_insert_epi16(l, static_cast<short>(load_u16(lower + o5)), 5);
-  l = _mm_insert_epi16(l, static_cast<short>(load_u16(lower + o6)), 6);
-  l = _mm_insert_epi16(l, static_cast<short>(load_u16(lower + o7)), 7);
-  *first = u;
-  *second = l;
+  *first = gather_pairs8(upper, offset);
+  *second = gather_pairs8(lower, offset);
 }
 TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* offset) noexcept {
   const std::uint64_t a = two_offsets(offset), b = two_offsets(offset + 2);

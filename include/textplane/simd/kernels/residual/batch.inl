@@ -191,9 +191,10 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                            and_(gt(host_s, least), gt(host_s, mul(root, mul(floor, abs_(host_mean))))));
   const vm enough = and_(ge(counts.visible, set1(static_cast<float>(a.min_visible))), ge(counts.visible, one));
   const vm finite = lt(add(target, host), set1(3e38F));
-  const unsigned good = bits(and_(and_(contrast, enough), finite)), many = bits(enough), sane = bits(finite);
-  const unsigned none = bits(lt(counts.visible, one));
-  const unsigned behind = bits(ge(counts.behind, to_float(loadi(f.n + lane))));
+  const unsigned good = bits_from_mask(and_(and_(contrast, enough), finite)), many = bits_from_mask(enough),
+                 sane = bits_from_mask(finite);
+  const unsigned none = bits_from_mask(lt(counts.visible, one));
+  const unsigned behind = bits_from_mask(ge(counts.behind, to_float(loadi(f.n + lane))));
   const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
   const bool easy = whole && (good & many) == all_lanes;
   unsigned keep_lanes = easy ? all_lanes : 0;

@@ -20,7 +20,7 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
     h2 = madd(q, q, h2);
   }
   float sum[4];
-  hsum4(i1, i2, h1, h2, sum);
+  reduce_sum4(i1, i2, h1, h2, sum);
   const float by_n = 1.0F / static_cast<float>(n), i_mean = sum[0] * by_n, h_mean = sum[2] * by_n;
   const float i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
   Offsets o;
@@ -67,10 +67,10 @@ TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, co
   }
   sums->terms += kStrip / kLanes;
   if (last || sums->terms >= kFoldTerms) {
-    sums->i += hsum_d(s.i);
-    sums->ii += hsum_d(s.ii);
-    sums->h += hsum_d(s.h);
-    sums->hh += hsum_d(s.hh);
+    sums->i += reduce_sum_double(s.i);
+    sums->ii += reduce_sum_double(s.ii);
+    sums->h += reduce_sum_double(s.h);
+    sums->hh += reduce_sum_double(s.hh);
     s.i = s.ii = s.h = s.hh = zero();
     sums->terms = 0;
   }

@@ -59,8 +59,8 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
     const vm finite = le(abs_(h), set1(3.0e38F));
-    const unsigned in_front = b & bits(ahead),
-                   seen = in_front & bits(and_(inside_vector(f.sample, x, y, divisor), finite));
+    const unsigned in_front = b & bits_from_mask(ahead),
+                   seen = in_front & bits_from_mask(and_(inside_vector(f.sample, x, y, divisor), finite));
     if (seen == (1U << kLanes) - 1U) {
       store(s.hx + visible, px);
       store(s.hy + visible, py);

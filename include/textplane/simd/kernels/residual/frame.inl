@@ -17,7 +17,7 @@ TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFr
   const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
   const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
   const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
-  return all(and_(ahead, and_(across, down)));
+  return all_true(and_(ahead, and_(across, down)));
 }
 
 // All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.

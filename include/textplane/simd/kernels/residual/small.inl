@@ -26,7 +26,7 @@ TEXTPLANE_SIMD_ENTRY float weigh_few_all(const simd::ResidualArgs& a, double roo
     store(p->root + k, mul(w, load(p->root + k)));
     sum = add(sum, rho);  // rho(0) = 0
   }
-  return hsum(sum);
+  return reduce_sum(sum);
 }
 
 // From n intensities of target and host: residuals, weights, costs. The status is as that of make_residual().
@@ -40,7 +40,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     t = add(t, load(target + k));
     h = add(h, load_part(host + k, n - k));
   }
-  const float share = 1.0F / static_cast<float>(first), i_offset = hsum(t) * share, h_offset = hsum(h) * share;
+  const float share = 1.0F / static_cast<float>(first), i_offset = reduce_sum(t) * share,
+              h_offset = reduce_sum(h) * share;
   vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
     vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
@@ -56,7 +57,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     h2 = madd(j, j, h2);
   }
   float sum[4];
-  hsum4(i1, i2, h1, h2, sum);
+  reduce_sum4(i1, i2, h1, h2, sum);
   const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
   const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
@@ -93,7 +94,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->e + k, mul(w, mul(e, by_root)));
     store(p->root + k, mul(w, by_s));
   }
-  hsum4(squares, huber ? rho : squares, squares, rho, sum);
+  reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
   if (simd::weighs_all(a.robust)) sum[1] = weigh_few_all(a, root, n, p);
   info->error = sum[0] * by_count;
   info->cost = sum[1] * by_count;
@@ -124,8 +125,8 @@ TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, flo
     t2 = madd(c, i, t2);
   }
   float sum[8];
-  hsum4(s0, s1, s2, s2, sum);
-  hsum4(t0, t1, t2, t2, sum + 4);
+  reduce_sum4(s0, s1, s2, s2, sum);
+  reduce_sum4(t0, t1, t2, t2, sum + 4);
   const vf mean = set1(by_count), along = set1(by_squares);
   s0 = mul(set1(sum[0]), mean);
   s1 = mul(set1(sum[1]), mean);
@@ -158,9 +159,9 @@ TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, fl
     b1 = madd(b, r, b1);
     b2 = madd(c, r, b2);
   }
-  hsum4(s0, s1, s2, s3, out);
-  hsum4(s4, s5, b0, b1, out + 4);
-  out[8] = hsum(b2);
+  reduce_sum4(s0, s1, s2, s3, out);
+  reduce_sum4(s4, s5, b0, b1, out + 4);
+  out[8] = reduce_sum(b2);
 }
 
 // Sums of products of three rows with three others: nine.
@@ -182,9 +183,9 @@ TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n,
     s7 = madd(c, y, s7);
     s8 = madd(c, z, s8);
   }
-  hsum4(s0, s1, s2, s3, out);
-  hsum4(s4, s5, s6, s7, out + 4);
-  out[8] = hsum(s8);
+  reduce_sum4(s0, s1, s2, s3, out);
+  reduce_sum4(s4, s5, s6, s7, out + 4);
+  out[8] = reduce_sum(s8);
 }
 
 // Entries of H (`size` columns): the square at (at, at), the block at (r, c) and its mirror image.

@@ -74,7 +74,7 @@ TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float*
 // Adds the partial sums to the totals, or, where `first`, makes them these; `sums` is rounded up to a multiple of eight.
 TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
   for (int k = 0; k < sums; k += 8) {
-    const vd eight = hsum8(acc + k * kLanes);
+    const vd eight = reduce_sum8(acc + k * kLanes);
     stored(total + k, first ? eight : maddd(setd(1.0), eight, loadd(total + k)));
   }
 }

@@ -262,7 +262,8 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const Image
       }
     }
     std::int64_t total[kTemplateSums];
-    for (int k = 0; k < used; ++k) total[k] = hsumi(low[k]) + static_cast<std::int64_t>(hsumi(high[k])) * 65536;
+    for (int k = 0; k < used; ++k)
+      total[k] = reduce_sum_int(low[k]) + static_cast<std::int64_t>(reduce_sum_int(high[k])) * 65536;
     out.value += total[0];
     out.square += total[1];
     for (int k = 2; k < used; ++k) out.column[k - 2] += total[k];

@@ -9,7 +9,7 @@ TEXTPLANE_SIMD_INLINE unsigned cost_vector(vf e, vf limit, CostSums* sums) noexc
   const vf size = abs_(e), m = min_(size, limit);
   sums->squares = madd(e, e, sums->squares);
   sums->rho = madd(m, add(size, sub(size, m)), sums->rho);
-  return bits(gt(size, limit));
+  return bits_from_mask(gt(size, limit));
 }
 TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, const Residual& r, bool huber,
                                          float delta, std::int32_t* list, double* squares, double* rho) noexcept {
@@ -36,8 +36,8 @@ TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, 
       if (!list) continue;
       for (; word != 0; word &= word - 1) list[listed++] = k + lowest_bit(word);
     }
-    *squares += hsum_d(sums.squares);
-    *rho += hsum_d(sums.rho);
+    *squares += reduce_sum_double(sums.squares);
+    *rho += reduce_sum_double(sums.rho);
   }
   if (list) storei(list + listed, seti(0));
   return listed;
@@ -60,8 +60,8 @@ TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int
       sums.squares = add(sums.squares, square);
       sums.rho = add(sums.rho, cost);
     }
-    *squares += hsum_d(sums.squares);
-    *rho += hsum_d(sums.rho);
+    *squares += reduce_sum_double(sums.squares);
+    *rho += reduce_sum_double(sums.rho);
   }
 }
 
@@ -133,11 +133,11 @@ TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& ar
     s3 = madd(p, r, s3);
     s4 = madd(q, r, s4);
   }
-  sums[0] += hsum_d(s0);
-  sums[1] += hsum_d(s1);
-  sums[2] += hsum_d(s2);
-  sums[3] += hsum_d(s3);
-  sums[4] += hsum_d(s4);
+  sums[0] += reduce_sum_double(s0);
+  sums[1] += reduce_sum_double(s1);
+  sums[2] += reduce_sum_double(s2);
+  sums[3] += reduce_sum_double(s3);
+  sums[4] += reduce_sum_double(s4);
 }
 
 TEXTPLANE_SIMD_ENTRY void weigh_huber(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
