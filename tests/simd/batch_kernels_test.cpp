@@ -119,7 +119,8 @@ TEST(BatchKernels, NeighboursDoNotMatter) {
   }
 }
 
-// A vector whose objects are of one size and wholly visible is summed without masks: to the same bits as beside one that is not.
+// A vector whose objects are of one size and wholly visible is summed without masks: to the same bits as beside one
+// that is not.
 TEST(BatchKernels, WhollyVisibleVectors) {
   for (const tp::simd::Target target : textplane_test::testable_targets()) {
     const textplane_test::TargetScope scope(target);

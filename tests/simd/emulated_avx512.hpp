@@ -1,6 +1,6 @@
-// AVX-512 intrinsics on AVX2, so that the avx512 bodies run, with their sixteen lanes and their masks, on a machine that has
-// none: SIMDe's, and the few that SIMDe 0.7.4 lacks. TEXTPLANE_EMULATED_AVX512 names this header (simd/targets.hpp).
-// An intrinsic that neither of them has is a compile error, never a silent gap.
+// AVX-512 intrinsics on AVX2, so that the avx512 bodies run, with their sixteen lanes and their masks, on a machine
+// that has none: SIMDe's, and the few that SIMDe 0.7.4 lacks. TEXTPLANE_EMULATED_AVX512 names this header
+// (simd/targets.hpp). An intrinsic that neither of them has is a compile error, never a silent gap.
 #ifndef TEXTPLANE_TESTS_SIMD_EMULATED_AVX512_HPP
 #define TEXTPLANE_TESTS_SIMD_EMULATED_AVX512_HPP
 

@@ -51,8 +51,9 @@ inline std::vector<tp::PhotometricOptions> all_options(int min_visible) {
   return all;
 }
 
-/// H within `tolerance` of sqrt(H_ii H_jj), b within it of sqrt(H_ii), costs within it of 1; status and counts equal. The H_ii
-/// are those of `scale`: of few pixels the projection leaves almost nothing, and rounding is that of what was there before.
+/// H within `tolerance` of sqrt(H_ii H_jj), b within it of sqrt(H_ii), costs within it of 1; status and counts equal.
+/// The H_ii are those of `scale`: of few pixels the projection leaves almost nothing, and rounding is that of what was
+/// there before.
 template <int P>
 void expect_close(const tp::NormalEquations<P>& a, const tp::NormalEquations<P>& reference, double tolerance,
                   const tp::NormalEquations<P>& scale) {

@@ -1,5 +1,5 @@
-// Normal equations and cost of the float kernels against the double reference: every target, every number of parameters, both
-// normalisations, Huber and L2, few pixels and many, and the forms of the target image.
+// Normal equations and cost of the float kernels against the double reference: every target, every number of
+// parameters, both normalisations, Huber and L2, few pixels and many, and the forms of the target image.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -21,7 +21,8 @@ TEST(ResidualKernels, EveryNumberOfPixels) {
   }
 }
 
-// 256 is the last number of pixels that takes rows, and a strip; 2048 what the widest sums hold before they go to double.
+// 256 is the last number of pixels that takes rows, and a strip; 2048 what the widest sums hold before they go to
+// double.
 TEST(ResidualKernels, ManyPixels) {
   for (const int n : {100, 160, 161, 255, 256, 257, 1000, 2049, 4001})
     for (int mode = 0; mode < 4; ++mode) {
@@ -103,8 +104,8 @@ TEST(ResidualKernels, StridesAndPreparedTargets) {
   }
 }
 
-// Gain and bias of either side change neither residuals nor, but for the gain, the gradient's scale: what float loses of a large
-// offset stays within the bound.
+// Gain and bias of either side change neither residuals nor, but for the gain, the gradient's scale: what float loses
+// of a large offset stays within the bound.
 TEST(ResidualKernels, GainAndBias) {
   for (const double gain : {0.05, 1.0, 40.0})
     for (const double bias : {-1000.0, 0.0, 3000.0}) {

@@ -1,5 +1,5 @@
-// Which pixels the residual kernels see, and what they answer to input that has no residual: on every target as the double
-// reference, to the pixel and to the status.
+// Which pixels the residual kernels see, and what they answer to input that has no residual: on every target as the
+// double reference, to the pixel and to the status.
 #include <gtest/gtest.h>
 
 #include <cmath>

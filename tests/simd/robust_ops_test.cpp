@@ -41,7 +41,8 @@ TEST(RobustOps, CostsAndWeights) {
   }
 }
 
-// No residual at all, infinite ones, and deltas at the ends of what Robust::valid() lets through: numbers, and weights in [0, 1].
+// No residual at all, infinite ones, and deltas at the ends of what Robust::valid() lets through: numbers, and weights
+// in [0, 1].
 TEST(RobustOps, ExtremesStayNumbers) {
   for (const simd::Target target : textplane_test::testable_targets()) {
     const textplane_test::TargetScope scope(target);

@@ -1,5 +1,5 @@
-// Scattered points through a homography on every target: against double arithmetic, bit for bit between the targets of a group,
-// and without a touch of memory that is not theirs.
+// Scattered points through a homography on every target: against double arithmetic, bit for bit between the targets of
+// a group, and without a touch of memory that is not theirs.
 #include <gtest/gtest.h>
 
 #include <cmath>

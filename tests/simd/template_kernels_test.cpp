@@ -1,5 +1,5 @@
-// Template-Jacobian kernels on every target: fixed-point values against the bilinear interpolant, exact sums, and normal
-// equations against the double reference.
+// Template-Jacobian kernels on every target: fixed-point values against the bilinear interpolant, exact sums, and
+// normal equations against the double reference.
 #include <cstring>
 
 #include "simd/policy_support.hpp"
@@ -91,7 +91,8 @@ TEST(TemplateKernels, ValuesAreWithinTheirBoundAndSumsExact) {
   }
 }
 
-// Two vectors share a division, so positions differ by a rounding between targets; values by no more than two units of 1/64.
+// Two vectors share a division, so positions differ by a rounding between targets; values by no more than two units of
+// 1/64.
 TEST(TemplateKernels, TargetsAgree) {
   Sums first(777), other(777);
   tp::simd::TemplateSums sums;
@@ -148,7 +149,8 @@ TEST(TemplateKernels, NormalEquations) {
   }
 }
 
-// The host seen again, with the same gain or another: the gradient vanishes exactly, whatever the columns were rounded to.
+// The host seen again, with the same gain or another: the gradient vanishes exactly, whatever the columns were rounded
+// to.
 TEST(TemplateKernels, RoundedColumnsDoNotMoveTheFixedPoint) {
   const auto image = textplane_test::texture<std::uint8_t>(120, 90, 9);
   const tp::Pyramid pyramid(image.view(), 1);
@@ -172,7 +174,8 @@ TEST(TemplateKernels, RoundedColumnsDoNotMoveTheFixedPoint) {
       ASSERT_EQ(e.status, tp::Status::ok);
       EXPECT_EQ(e.visible, in.patch.n);
       EXPECT_NEAR(e.error, 0, 1e-12);
-      // The scale direction of (v, theta) has H_ii > 0 each, so this is 1e-9 of a step of 1 in the unit of each parameter.
+      // The scale direction of (v, theta) has H_ii > 0 each, so this is 1e-9 of a step of 1 in the unit of each
+      // parameter.
       for (int i = 0; i < 9; ++i) EXPECT_NEAR(e.b[i], 0, 1e-9 * std::sqrt(e.H(i, i)));
     }
   }

@@ -1,5 +1,6 @@
-// Dense patches through tiles of the target: the same bits as one by one. A target whose rows are 32 KiB apart takes no tiles,
-// so the same pixels out of such a copy are what is expected, whatever the order of the host's pixels, the pose and the border.
+// Dense patches through tiles of the target: the same bits as one by one. A target whose rows are 32 KiB apart takes no
+// tiles, so the same pixels out of such a copy are what is expected, whatever the order of the host's pixels, the pose
+// and the border.
 #include <algorithm>
 #include <cstring>
 
@@ -93,7 +94,8 @@ tp::PhotometricInput input_of(const Patch& patch) {
   return in;
 }
 
-// The patch turned by `angle` about the middle of the host, `scale` times as large, with its middle at (x, y) of the target.
+// The patch turned by `angle` about the middle of the host, `scale` times as large, with its middle at (x, y) of the
+// target.
 tp::SE3d motion(double angle, double scale, double x, double y, const tp::PhotometricInput& in) {
   const double z = 1 / scale, f = in.target_camera.fx;
   tp::SE3d T = tp::se3_exp<double>((tp::Vector6<double>() << 0, 0, 0, 0.002, -0.003, angle).finished());
@@ -154,7 +156,8 @@ TEST(Tiles, SameBitsInEveryOrderAndPose) {
   EXPECT_GT(whole, all / 2);
 }
 
-// From a patch whose tiles just fit to one that touches the border, and beyond; the image ends, or begins, at a forbidden page.
+// From a patch whose tiles just fit to one that touches the border, and beyond; the image ends, or begins, at a
+// forbidden page.
 TEST(Tiles, EveryBorder) {
   for (const int stride : {kWidth, 240})
     for (const bool at_end : {false, true}) {

@@ -1,4 +1,5 @@
-// Every operation of the vectors on arrays of one vector; results of kLanes elements each, in the order of vec_test.cpp.
+// Every operation of the vectors on arrays of one vector; results of kLanes elements each, in the order of
+// vec_test.cpp.
 
 TEXTPLANE_SIMD_ENTRY void float_operations(const float* pa, const float* pb, const float* pc, float* out) noexcept {
   const vf a = load(pa), b = load(pb), c = load(pc);

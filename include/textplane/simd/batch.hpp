@@ -1,12 +1,13 @@
-// Batch kernels: many text objects of a few pixels each against one image, one object a lane. photometry/text_batch.hpp is the
-// typed form; what r, E, H and b are is said in photometry/residual.hpp.
+// Batch kernels: many text objects of a few pixels each against one image, one object a lane. photometry/text_batch.hpp
+// is the typed form; what r, E, H and b are is said in photometry/residual.hpp.
 //
-// Objects lie in groups of kBatchLanes. A group holds, pixel by pixel, the lanes' host coordinates u and v relative to each
-// object's centre and its host intensities; objects of fewer pixels end earlier. Geometry (H, recentred on patch and projected
-// centre) is in double, everything else in float: rows of the parameters, pixel by pixel, in each lane, projected through mean
-// and s before they are multiplied, so that no sum cancels. No sum crosses lanes, so an object's result does not depend on its
-// neighbours. Error against the double reference, samples 1e-4 px clear of pixel lines: coordinates 1e-5 px for patches of 128
-// px, and N 6e-8 of sums of N terms of one sign: H, b and costs as in simd/residual.hpp for objects of up to 256 pixels.
+// Objects lie in groups of kBatchLanes. A group holds, pixel by pixel, the lanes' host coordinates u and v relative to
+// each object's centre and its host intensities; objects of fewer pixels end earlier. Geometry (H, recentred on patch
+// and projected centre) is in double, everything else in float: rows of the parameters, pixel by pixel, in each lane,
+// projected through mean and s before they are multiplied, so that no sum cancels. No sum crosses lanes, so an object's
+// result does not depend on its neighbours. Error against the double reference, samples 1e-4 px clear of pixel lines:
+// coordinates 1e-5 px for patches of 128 px, and N 6e-8 of sums of N terms of one sign: H, b and costs as in
+// simd/residual.hpp for objects of up to 256 pixels.
 #ifndef TEXTPLANE_SIMD_BATCH_HPP
 #define TEXTPLANE_SIMD_BATCH_HPP
 
@@ -23,7 +24,8 @@ namespace simd {
 /// Lanes of a group, on every target.
 constexpr int kBatchLanes = 16;
 
-/// What is known of a group's objects before the pose, one object a lane. Lanes without an object have n = 0 and finite numbers.
+/// What is known of a group's objects before the pose, one object a lane. Lanes without an object have n = 0 and finite
+/// numbers.
 struct BatchGroup {
   double theta[3][kBatchLanes];               ///< Planes in the host frames.
   double ifx[kBatchLanes], ify[kBatchLanes];  ///< 1 / focal lengths of the hosts.
@@ -73,7 +75,8 @@ constexpr std::size_t batch_scratch(int n) noexcept {
 }  // namespace simd
 
 namespace detail {
-// A vector's worth of objects: constants of the warp, of rows and of the image's border, one a lane. `scale` is in rho and t.
+// A vector's worth of objects: constants of the warp, of rows and of the image's border, one a lane. `scale` is in rho
+// and t.
 struct BatchFrame {
   float g[9][simd::kBatchLanes], rho[3][simd::kBatchLanes], t[3][simd::kBatchLanes];
   float u0[simd::kBatchLanes], v0[simd::kBatchLanes];        // normalised target coordinates of the origin

@@ -1,11 +1,11 @@
 // Run-time dispatch: which target the kernels run on.
 //
-// On first use the best target that both CPU and operating system support is chosen, or the one that the environment variable
-// TEXTPLANE_FORCE_TARGET names (scalar, sse41, avx2, avx512, neon). A name that is unknown, or that this machine cannot run,
-// leaves the best target in charge, and forced_target_status() tells. set_target changes it later, for the whole process.
-// Defining the macro TEXTPLANE_TARGET as such a name (-DTEXTPLANE_TARGET=avx2) fixes the target of a translation unit at
-// compile time: its calls go straight to that kernel, the others are not compiled, neither environment nor set_target change it,
-// and the caller promises a CPU that has it.
+// On first use the best target that both CPU and operating system support is chosen, or the one that the environment
+// variable TEXTPLANE_FORCE_TARGET names (scalar, sse41, avx2, avx512, neon). A name that is unknown, or that this
+// machine cannot run, leaves the best target in charge, and forced_target_status() tells. set_target changes it later,
+// for the whole process. Defining the macro TEXTPLANE_TARGET as such a name (-DTEXTPLANE_TARGET=avx2) fixes the target
+// of a translation unit at compile time: its calls go straight to that kernel, the others are not compiled, neither
+// environment nor set_target change it, and the caller promises a CPU that has it.
 //
 // State: one constant-initialised atomic, shared by all translation units of a program whatever their flags.
 #ifndef TEXTPLANE_SIMD_DISPATCH_HPP
@@ -44,8 +44,8 @@ inline Target best_target() noexcept {
 #endif
 }
 
-/// Finds the target called `name` ("scalar", "sse41", "avx2", "avx512", "neon"). False, and `target` unchanged, for a null
-/// pointer and any other name.
+/// Finds the target called `name` ("scalar", "sse41", "avx2", "avx512", "neon"). False, and `target` unchanged, for a
+/// null pointer and any other name.
 inline bool target_from_string(const char* name, Target& target) noexcept {
   if (name == nullptr) return false;
   for (int i = 0; i < kTargetCount; ++i) {
@@ -100,8 +100,8 @@ inline Status set_target(Target target) noexcept {
 
 #else
 
-/// The target that kernels called from this translation unit run on. Thread safe, no allocation; after the first call one
-/// relaxed load.
+/// The target that kernels called from this translation unit run on. Thread safe, no allocation; after the first call
+/// one relaxed load.
 inline Target active_target() noexcept {
   const int state = process::simd_target.load(std::memory_order_relaxed);
   return state >= 0 ? static_cast<Target>(state) : choose_target();
@@ -120,8 +120,8 @@ inline Status set_target(Target target) noexcept {
 }  // namespace simd
 TEXTPLANE_END_NAMESPACE
 
-// TEXTPLANE_SIMD_DISPATCH(halve(a)): the body of an entry point. Returns the result of `halve(a)` of the active target, of scalar
-// for a target that this compiler cannot build.
+// TEXTPLANE_SIMD_DISPATCH(halve(a)): the body of an entry point. Returns the result of `halve(a)` of the active target,
+// of scalar for a target that this compiler cannot build.
 #if defined(TEXTPLANE_TARGET)
 #define TEXTPLANE_SIMD_DISPATCH(call) return ::textplane::detail::TEXTPLANE_TARGET::call;
 #else
@@ -137,8 +137,8 @@ TEXTPLANE_END_NAMESPACE
   }
 #endif
 
-// TEXTPLANE_KERNEL int f(int a) noexcept TEXTPLANE_SIMD_BODY(f(a)); is an entry point. Inline; or, with compiled kernels
-// (targets.hpp), declared everywhere and defined in one file.
+// TEXTPLANE_KERNEL int f(int a) noexcept TEXTPLANE_SIMD_BODY(f(a)); is an entry point. Inline; or, with compiled
+// kernels (targets.hpp), declared everywhere and defined in one file.
 #if !TEXTPLANE_HAS_KERNELS
 #define TEXTPLANE_KERNEL
 #define TEXTPLANE_SIMD_BODY(call)

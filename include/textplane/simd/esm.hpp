@@ -1,10 +1,11 @@
 // Normal equations from the host's gradients, or from the mean of host's and target's (ESM): raw pointers in, sums out.
 // photometry/linearise_policy.hpp says what they are and holds the double reference; docs/equations.md the formulas.
 //
-// The target's gradient is pulled back to the host, d I_target(H m~) / d host pixel, and both gradients are scaled by their
-// side's norm, so that their mean has the form of one: rows j of eight for a homography in host coordinates, whose products
-// are 27 sums. The projections, through mean and norm of target and host, and the change to 9 parameters happen to the sums,
-// in double. Any visible set and any mask. Error against the reference as that of simd/residual.hpp.
+// The target's gradient is pulled back to the host, d I_target(H m~) / d host pixel, and both gradients are scaled by
+// their side's norm, so that their mean has the form of one: rows j of eight for a homography in host coordinates,
+// whose products are 27 sums. The projections, through mean and norm of target and host, and the change to 9 parameters
+// happen to the sums, in double. Any visible set and any mask. Error against the reference as that of
+// simd/residual.hpp.
 #ifndef TEXTPLANE_SIMD_ESM_HPP
 #define TEXTPLANE_SIMD_ESM_HPP
 

@@ -1,13 +1,15 @@
-// Includes the file that TEXTPLANE_SIMD_KERNEL names once in the region of every target, inside `textplane::detail::<target>`, and
-// undefines TEXTPLANE_SIMD_KERNEL at its end. No include guard: each family of kernels includes it once.
+// Includes the file that TEXTPLANE_SIMD_KERNEL names once in the region of every target, inside
+// `textplane::detail::<target>`, and undefines TEXTPLANE_SIMD_KERNEL at its end. No include guard: each family of
+// kernels includes it once.
 //
-// A region is built for its target whatever the command line says, and without contraction of a * b + c: a fused multiply-add is
-// written where it is meant. -ffast-math is off inside, so that a NaN does not get past a clamp. (Clang's own headers of intrinsics
-// keep it, and its -ffp-contract=fast overrides the rest: bits may differ then.)
+// A region is built for its target whatever the command line says, and without contraction of a * b + c: a fused
+// multiply-add is written where it is meant. -ffast-math is off inside, so that a NaN does not get past a clamp.
+// (Clang's own headers of intrinsics keep it, and its -ffp-contract=fast overrides the rest: bits may differ then.)
 //
-// The file must hold non-template functions, constants and plain structs alone: no function of std, Eigen or the C library, no
-// template, no class with members, no lambda, no #include but of another such file. The whole program shares inline functions of
-// those; the linker might keep a copy that was built in a region, and it would kill the program on an older CPU.
+// The file must hold non-template functions, constants and plain structs alone: no function of std, Eigen or the C
+// library, no template, no class with members, no lambda, no #include but of another such file. The whole program
+// shares inline functions of those; the linker might keep a copy that was built in a region, and it would kill the
+// program on an older CPU.
 #ifndef TEXTPLANE_SIMD_KERNEL
 #error "define TEXTPLANE_SIMD_KERNEL as the file to include"
 #endif

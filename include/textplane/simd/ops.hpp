@@ -6,11 +6,11 @@
 //   vd, vp      8 doubles; kDoubles doubles
 //   taps_t      the four pixels around each of kLanes positions
 //
-// Tiles: bilinear taps of pixels that follow each other closely. Eight cells in a row that lie in a tile of 16 x 3 pixels take one
-// shuffle for each of its rows in place of two loads a pixel (kernels/tiles.inl).
+// Tiles: bilinear taps of pixels that follow each other closely. Eight cells in a row that lie in a tile of 16 x 3
+// pixels take one shuffle for each of its rows in place of two loads a pixel (kernels/tiles.inl).
 //
-// ops/scalar.inl defines each operation in plain C++; the other files in ops/ say the same in intrinsics. Only kernels use them:
-// a vector type never crosses the border of a region.
+// ops/scalar.inl defines each operation in plain C++; the other files in ops/ say the same in intrinsics. Only kernels
+// use them: a vector type never crosses the border of a region.
 #ifndef TEXTPLANE_SIMD_OPS_HPP
 #define TEXTPLANE_SIMD_OPS_HPP
 

@@ -1,20 +1,23 @@
-// The photometric residual of a planar text object and its normal equations, in float vectors: raw pointers in, sums out.
-// photometry/residual.hpp is the typed form and says what r, E, H and b are; docs/equations.md holds the formulas used here.
+// The photometric residual of a planar text object and its normal equations, in float vectors: raw pointers in, sums
+// out. photometry/residual.hpp is the typed form and says what r, E, H and b are; docs/equations.md holds the formulas
+// used here.
 //
-//   frame    H in double, recentred on patch and projected centre (simd/sample.hpp); corners of the patch tested for visibility
-//   collect  strips of 256 pixels: warp | taps | interpolation. Where a corner is not visible, or a mask is given, a pass before
-//            closes up the visible pixels
+//   frame    H in double, recentred on patch and projected centre (simd/sample.hpp); are the patch's corners visible?
+//   collect  strips of 256 pixels: warp | taps | interpolation. Where a corner is not visible, or a mask is given,
+//            the visible pixels are moved together first
 //   sums     of products of rows, in float over at most 256 terms a lane, then in double
 //   finish   projection through mean and s, and change of parameters, in double
 //
-// Few pixels (kRowPixels) take rows of the parameters themselves, projected and weighted pixel by pixel. More take one pass of
-// unweighted sums and correct them for the outliers of Huber's cost, which alone have weights other than 1; all 9 parameters then
-// go through the 8 of the pixel homography.
+// Few pixels (kRowPixels) take rows of the parameters themselves, projected and weighted pixel by pixel. More take one
+// pass of unweighted sums. For Huber's cost the weighted sums of the outliers correct them, as other pixels have weight
+// 1; Cauchy's and Tukey's costs sum all pixels again with their weights. All 9 parameters then go through the 8 of the
+// pixel homography.
 //
-// Error against the double reference, while samples keep clear of pixel lines by 1e-4 px, where the gradient jumps, and patches do
-// not exceed some 128 px: coordinates 1e-5 px; r sqrt(N) 1e-5 (1 + |g| / sigma), sigma being the standard deviation of the
-// target's intensities; entries of H and b 3e-5 of sqrt(F_ii F_jj) and sqrt(F_ii), F being H with the normalisation frozen, and
-// for delta < 0.1 more in proportion to 1 / delta, since weights are ratios to delta; cost and E 1e-5 of themselves and 1e-6.
+// Error against the double reference, for samples 1e-4 px clear of pixel lines (where the gradient jumps) and patches of
+// at most 128 px: coordinates 1e-5 px; r sqrt(N) 1e-5 (1 + |g| / sigma), sigma being the standard deviation of the
+// target's intensities; entries of H and b 3e-5 of sqrt(F_ii F_jj) and sqrt(F_ii), F being H with the normalisation
+// frozen (for Cauchy and Tukey: and without weights); cost and E 1e-5 of themselves and 1e-6. For delta < 0.1 the bound
+// of H and b grows as 1 / delta, since weights are ratios to delta.
 #ifndef TEXTPLANE_SIMD_RESIDUAL_HPP
 #define TEXTPLANE_SIMD_RESIDUAL_HPP
 
@@ -66,8 +69,8 @@ struct ResidualInfo {
   double error = 0;    ///< E = sum of r^2.
   double mean = 0;     ///< Of the target intensities.
   double s = 0;        ///< ||I - mean|| of the same.
-  /// ok; too_few below min_visible; no_contrast; rank_deficient where float or the homography's inverse do not carry the case,
-  /// and the double reference must take it.
+  /// ok; too_few below min_visible; no_contrast; rank_deficient where float or the homography's inverse do not carry
+  /// the case, and the double reference must take it.
   Status status = Status::invalid_argument;
 };
 

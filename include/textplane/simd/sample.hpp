@@ -1,12 +1,12 @@
 // Scattered points through a homography and out of an 8-bit image: raw pointers in, raw pointers out.
 //
-// Point (x, y) goes to the pixel q_xy / q_z, q = H (x, y, 1). Coordinates are kept relative to two origins: u = x - hx, v = y -
-// hy with (hx, hy) the centre of the points, and target pixels relative to the integer pixel (ox, oy) nearest to where that
-// centre goes. H is recentred in double and rounded to float once, so that the error grows with the size of the patch, not of
-// the image: 1e-5 px for patches of 128 px.
+// Point (x, y) goes to the pixel q_xy / q_z, q = H (x, y, 1). Coordinates are kept relative to two origins: u = x - hx,
+// v = y - hy with (hx, hy) the centre of the points, and target pixels relative to the integer pixel (ox, oy) nearest
+// to where that centre goes. H is recentred in double and rounded to float once, so that the error grows with the size
+// of the patch, not of the image: 1e-5 px for patches of 128 px.
 //
-// Interpolation is bilinear, its gradient that of the interpolant. The cell is clamped to the image before anything is read,
-// whatever the coordinates are: no byte outside of its pixels is touched.
+// Interpolation is bilinear, its gradient that of the interpolant. The cell is clamped to the image before anything is
+// read, whatever the coordinates are: no byte outside of its pixels is touched.
 //
 // Two forms of the target image: the plain rows, or pairs prepared once a frame, which save one of two loads a point.
 #ifndef TEXTPLANE_SIMD_SAMPLE_HPP
@@ -47,8 +47,8 @@ struct Warp8 {
   int ox, oy;
 };
 
-/// Bounds of n points, so that they need not be found again in every call. n = 0: not known; whatever n, the kernels use them
-/// for exactly as many points only, and find them where they are not given.
+/// Bounds of n points, so that they need not be found again in every call. n = 0: not known; whatever n, the kernels
+/// use them for exactly as many points only, and find them where they are not given.
 struct PointBounds {
   float x_low = 0, x_high = 0, y_low = 0, y_high = 0;
   int n = 0;
@@ -70,8 +70,8 @@ struct PointArgs {
   float* gy = nullptr;
 };
 
-/// What they return: the origin, and how many points are inside; -1 (and nothing is written) for an H that is not finite, a
-/// negative n, null pointers, or an image that is not readable().
+/// What they return: the origin, and how many points are inside; -1 (and nothing is written) for an H that is not
+/// finite, a negative n, null pointers, or an image that is not readable().
 struct PointResult {
   int ox = 0, oy = 0;
   int inside = -1;
@@ -83,8 +83,8 @@ namespace detail {
 // Points are worked on in strips, so that what passes from one short loop to the next stays in the first cache.
 enum : int { kStrip = 256 };
 
-// Between the loops over a strip: position inside the cell, offset of the cell in bytes or pairs, its four pixels; for tiles
-// the cell itself.
+// Between the loops over a strip: position inside the cell, offset of the cell in bytes or pairs, its four pixels; for
+// tiles the cell itself.
 struct SampleStrip {
   float fx[kStrip], fy[kStrip];
   std::int32_t offset[kStrip];
@@ -129,8 +129,8 @@ inline PointBounds point_bounds(const float* x, const float* y, int n) noexcept 
   return out;
 }
 
-/// Target pixels of scattered points. Same bits on avx2, avx512 and neon, and on scalar and sse41; between the groups, and to
-/// the exact value, about 1e-5 px as said above.
+/// Target pixels of scattered points. Same bits on avx2, avx512 and neon, and on scalar and sse41; between the groups,
+/// and to the exact value, about 1e-5 px as said above.
 inline PointResult warp_points(const PointArgs& args) noexcept {
   PointResult result;
   detail::warp_points(args, &result);
@@ -144,9 +144,9 @@ inline PointResult sample_points(const PointArgs& args) noexcept {
   return result;
 }
 
-/// Writes pairs(x, y) = I(x, y) | I(x, y + 1) << 8, y < height - 1, to `pairs`, `pair_stride` int16 from row to row. The caller
-/// guarantees an image that is readable() and room for (height - 2) * pair_stride + width int16. Costs about what a copy of the
-/// image does.
+/// Writes pairs(x, y) = I(x, y) | I(x, y + 1) << 8, y < height - 1, to `pairs`, `pair_stride` int16 from row to row.
+/// The caller guarantees an image that is readable() and room for (height - 2) * pair_stride + width int16. Costs about
+/// what a copy of the image does.
 TEXTPLANE_KERNEL void prepare_pair16(const Image8& image, std::uint16_t* pairs, std::ptrdiff_t pair_stride) noexcept
     TEXTPLANE_SIMD_BODY(prepare_pair16(image, pairs, pair_stride));
 

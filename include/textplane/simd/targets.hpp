@@ -1,21 +1,22 @@
 // The table of SIMD targets: the instruction sets that kernels are built for.
 //
-// A *region* is a stretch of source inside `textplane::detail::<target>` that the compiler builds for that instruction set,
-// whatever the command line says (foreach_target.inl opens them). Code outside stays baseline, so one plain -O2 build holds
-// kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
+// A *region* is a stretch of source inside `textplane::detail::<target>` that the compiler builds for that instruction
+// set, whatever the command line says (foreach_target.inl opens them). Code outside stays baseline, so one plain -O2
+// build holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
 //
-// GCC and Clang build the x86-64 targets (MinGW: SSE4.1 alone, its stack is not aligned for more) and NEON on little-endian
-// AArch64. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where TEXTPLANE_TARGET fixes
-// a target (dispatch.hpp), a translation unit builds only what that one needs.
+// GCC and Clang build the x86-64 targets (MinGW: SSE4.1 alone, its stack is not aligned for more) and NEON on
+// little-endian AArch64. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where
+// TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only what that one needs.
 //
 // Compiled kernels, an option: every file that calls a kernel compiles all its targets, which takes time. Where
-// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see only declarations of kernels and solvers, and one file,
+// TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see only declarations of kernels and solvers, and
+// one file,
 //
 //   #define TEXTPLANE_DEFINE_KERNELS
 //   #include <textplane/textplane.hpp>
 //
-// holds the kernels (CMake: link textplane::kernels, which is both). Results are the same. Flags that would make another
-// textplane (config.hpp) make the linker miss its kernels.
+// holds the kernels (CMake: link textplane::kernels, which is both). Results are the same. Flags that would make
+// another textplane (config.hpp) make the linker miss its kernels.
 #ifndef TEXTPLANE_SIMD_TARGETS_HPP
 #define TEXTPLANE_SIMD_TARGETS_HPP
 
@@ -101,8 +102,8 @@
   TEXTPLANE_SIMD_ROW(4)(X, a) TEXTPLANE_SIMD_ROW(5)(X, a) TEXTPLANE_SIMD_ROW(6)(X, a) TEXTPLANE_SIMD_ROW(7)(X, a)
 // clang-format on
 
-// TEXTPLANE_SIMD_WANTED: bit `number` is set where this translation unit wants that target. Passed as `a`, it makes of the X
-// TEXTPLANE_SIMD_BUILDS "|| 1" or "|| 0", for #if and for C++: whether the target is built.
+// TEXTPLANE_SIMD_WANTED: bit `number` is set where this translation unit wants that target. Passed as `a`, it makes of
+// the X TEXTPLANE_SIMD_BUILDS "|| 1" or "|| 0", for #if and for C++: whether the target is built.
 #define TEXTPLANE_SIMD_NUMBER(a, number, name, lanes, fused, needs, few, features) number
 #define TEXTPLANE_SIMD_FEW(a, number, name, lanes, fused, needs, few, features) few
 #if defined(TEXTPLANE_TARGET)
@@ -140,8 +141,8 @@
 #define TEXTPLANE_SIMD_BEGIN(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_BEGIN_##needs(features)
 #define TEXTPLANE_SIMD_END(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_END_##needs
 
-// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise. It may then swap the operands of a minimum, and
-// a NaN would get past a clamp. So the operations hide their minima and maxima from it in assembly.
+// Clang keeps -ffinite-math-only in functions that a pragma asks to be precise. It may then swap the operands of a
+// minimum, and a NaN would get past a clamp. So the operations hide their minima and maxima from it in assembly.
 #if defined(__clang__) && defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #define TEXTPLANE_SIMD_HIDE_MINIMA 1
 #else
@@ -176,8 +177,9 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
-/// The instruction sets that kernels are built for: scalar = 0 (plain C++), sse41 = 1 (SSE4.1), avx2 = 2 (AVX2, FMA and POPCNT:
-/// Haswell, Zen and later), avx512 = 3 (AVX-512 F, BW, DQ, VL and VNNI besides: Ice Lake, Zen 4 and later), neon = 4 (AArch64).
+/// The instruction sets that kernels are built for: scalar = 0 (plain C++), sse41 = 1 (SSE4.1), avx2 = 2 (AVX2, FMA and
+/// POPCNT: Haswell, Zen and later), avx512 = 3 (AVX-512 F, BW, DQ, VL and VNNI besides: Ice Lake, Zen 4 and later),
+/// neon = 4 (AArch64).
 enum class Target : int {
 #define TEXTPLANE_SIMD_X(a, number, name, ...) name = number,
   TEXTPLANE_SIMD_TARGETS(TEXTPLANE_SIMD_X, 0)
@@ -217,7 +219,8 @@ constexpr const char* to_string(Target target) noexcept {
   return known(target) ? detail::kTargets[static_cast<int>(target)].name : "unknown";
 }
 
-/// True when this translation unit holds kernels for `target`. Whether the CPU runs them is another matter: see supported.
+/// True when this translation unit holds kernels for `target`. Whether the CPU runs them is another matter: see
+/// supported.
 constexpr bool compiled(Target target) noexcept {
   return known(target) && detail::kTargets[static_cast<int>(target)].built;
 }
@@ -227,8 +230,8 @@ constexpr int lanes(Target target) noexcept {
   return known(target) ? detail::kTargets[static_cast<int>(target)].lanes : 1;
 }
 
-/// True when kernels of `target` use fused multiply-add. Kernels that do not reduce give the same bits on all targets of
-/// a group; between the groups each kernel states a bound.
+/// True when kernels of `target` use fused multiply-add. Kernels that do not reduce give the same bits on all targets
+/// of a group; between the groups each kernel states a bound.
 constexpr bool fused(Target target) noexcept {
   return known(target) && detail::kTargets[static_cast<int>(target)].fused;
 }

@@ -1,11 +1,12 @@
-// Homography warp onto a regular output grid: raw pointers in, raw pointers out. photometry/warp_patch.hpp is the typed form.
+// Homography warp onto a regular output grid: raw pointers in, raw pointers out. photometry/warp_patch.hpp is the typed
+// form.
 //
-// Output pixel (x, y) gets the bilinear interpolant of the source at q_xy / q_z, q = H (x, y, 1), where q_z > 0 and the point
-// lies in [0, width - 1] x [0, height - 1], and `fill` elsewhere. No byte is read outside the source's rows.
+// Output pixel (x, y) gets the bilinear interpolant of the source at q_xy / q_z, q = H (x, y, 1), where q_z > 0 and the
+// point lies in [0, width - 1] x [0, height - 1], and `fill` elsewhere. No byte is read outside the source's rows.
 //
-// Coordinates are affine before the one division a pixel. Each block of the output is worked on around its own centre, in
-// float relative to an integer origin near it, so that their error does not grow with the size of image or patch: below
-// 2e-5 px, 0.005 grey levels, while a step in the output moves at most two pixels in the source.
+// Coordinates are affine before the one division a pixel. Each block of the output is worked on around its own centre,
+// in float relative to an integer origin near it, so that their error does not grow with the size of image or patch:
+// below 2e-5 px, 0.005 grey levels, while a step in the output moves at most two pixels in the source.
 #ifndef TEXTPLANE_SIMD_WARP_HPP
 #define TEXTPLANE_SIMD_WARP_HPP
 
@@ -18,8 +19,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace simd {
 
-/// Arguments of the warps. Strides are in bytes. The caller guarantees: pointers not null, output sizes >= 0, `fill` in the
-/// output's range, strides that hold a row. All else is checked.
+/// Arguments of the warps. Strides are in bytes. The caller guarantees: pointers not null, output sizes >= 0, `fill` in
+/// the output's range, strides that hold a row. All else is checked.
 struct WarpArgs {
   const void* source = nullptr;  ///< std::uint8_t or float, as the function's name says first.
   int width = 0, height = 0;     ///< Each at least 2, and height * source_stride below 2^31.
@@ -38,7 +39,8 @@ struct WarpArgs {
 }  // namespace simd
 
 namespace detail {
-// A block of the output, u and v relative to its centre: source x - ox = (x[0] + u x[1] + v x[2]) / (z[0] + u z[1] + v z[2]).
+// A block of the output, u and v relative to its centre: source x - ox = (x[0] + u x[1] + v x[2]) / (z[0] + u z[1] + v
+// z[2]).
 struct WarpBlock {
   double x[3], y[3], z[3];
   int ox, oy;
@@ -69,14 +71,15 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace simd {
 
-/// 8-bit source, float output. Returns how many output pixels lie inside the source; -1, and nothing is written, for a source
-/// below 2 x 2 or too large, or an H that is not finite.
+/// 8-bit source, float output. Returns how many output pixels lie inside the source; -1, and nothing is written, for a
+/// source below 2 x 2 or too large, or an H that is not finite.
 TEXTPLANE_KERNEL int warp_u8_f32(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_u8_f32(args));
 
 /// 8-bit source and output, rounded to the nearest integer. Returns as warp_u8_f32().
 TEXTPLANE_KERNEL int warp_u8_u8(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_u8_u8(args));
 
-/// Float source and output. Pixels of the source that are not finite spread to what they touch. Returns as warp_u8_f32().
+/// Float source and output. Pixels of the source that are not finite spread to what they touch. Returns as
+/// warp_u8_f32().
 TEXTPLANE_KERNEL int warp_f32_f32(const WarpArgs& args) noexcept TEXTPLANE_SIMD_BODY(warp_f32_f32(args));
 
 }  // namespace simd

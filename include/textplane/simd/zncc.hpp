@@ -1,8 +1,9 @@
-// Correlation of one prepared host patch with one image under many candidate poses: raw pointers in, one number a candidate out.
+// Correlation of one prepared host patch with one image under many candidate poses: raw pointers in, one number a
+// candidate out.
 //
 // Per candidate: the homography in double, then warp, value-only sampling in fixed point and three exact integer sums
-// (simd/template.hpp), pixels in lanes. For patches below some 64 pixels the batch kernel (simd/batch.hpp), with candidates in
-// lanes, is the faster one.
+// (simd/template.hpp), pixels in lanes. For patches below some 64 pixels the batch kernel (simd/batch.hpp), with
+// candidates in lanes, is the faster one.
 #ifndef TEXTPLANE_SIMD_ZNCC_HPP
 #define TEXTPLANE_SIMD_ZNCC_HPP
 
@@ -15,7 +16,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace simd {
 
-/// What ZnccArgs::zncc receives where a candidate does not see the whole patch, or the kernel declines: less than any ZNCC.
+/// What ZnccArgs::zncc receives where a candidate does not see the whole patch, or the kernel declines: less than any
+/// ZNCC.
 constexpr float kZnccUnknown = -2.0F;
 
 struct ZnccArgs {
@@ -40,8 +42,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace simd {
 
-/// ZNCC of every candidate. Within 0.05 / sigma of the double reference's, sigma the lesser standard deviation of the two sides
-/// in intensity units, and the same on every target where the float positions are.
+/// ZNCC of every candidate. Within 0.05 / sigma of the double reference's, sigma the lesser standard deviation of the
+/// two sides in intensity units, and the same on every target where the float positions are.
 TEXTPLANE_KERNEL void zncc_candidates(const ZnccArgs& args) noexcept TEXTPLANE_SIMD_BODY(zncc_candidates(args));
 
 }  // namespace simd

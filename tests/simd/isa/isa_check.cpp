@@ -1,4 +1,5 @@
-// Reads the disassembly of an object and checks that instructions beyond the x86-64 baseline stay in the target namespaces.
+// Reads the disassembly of an object and checks that instructions beyond the x86-64 baseline stay in the target
+// namespaces.
 //
 //   isa_check regions OBJECT [HEADER...]   A function may hold the instructions of its own target and no wider ones; whatever
 //                                          is outside the target namespaces has the baseline. There must be AVX2 and AVX-512

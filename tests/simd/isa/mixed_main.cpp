@@ -1,5 +1,6 @@
-// Links translation units for different CPUs, as a user does who compiles one file with -march=native: each must compute the
-// same, and on an old CPU the baseline one must run although the linker has seen wide copies of what the units share.
+// Links translation units for different CPUs, as a user does who compiles one file with -march=native: each must
+// compute the same, and on an old CPU the baseline one must run although the linker has seen wide copies of what the
+// units share.
 #include "scene.hpp"
 
 bool baseline_unit(const std::uint8_t* pixels, int width, int height, double* result);

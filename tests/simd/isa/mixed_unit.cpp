@@ -1,12 +1,12 @@
-// One translation unit of a program whose units are compiled for different CPUs (mixed_main.cpp): what a tracker calls, from
-// the image to pose and plane. TEXTPLANE_TEST_UNIT is the name of its function.
+// One translation unit of a program whose units are compiled for different CPUs (mixed_main.cpp): what a tracker calls,
+// from the image to pose and plane. TEXTPLANE_TEST_UNIT is the name of its function.
 #include <textplane/textplane.hpp>
 
 #include <cstdint>
 #include <vector>
 
-/// Runs corners, KLT, patch, pose and plane on the image (width x height, 8 bits) as host and target; `result` receives six
-/// numbers. True when each of them succeeded.
+/// Runs corners, KLT, patch, pose and plane on the image (width x height, 8 bits) as host and target; `result` receives
+/// six numbers. True when each of them succeeded.
 bool TEXTPLANE_TEST_UNIT(const std::uint8_t* pixels, int width, int height, double* result) {
   namespace tp = textplane;
   const tp::ImageView<const std::uint8_t> image(pixels, width, height, width);

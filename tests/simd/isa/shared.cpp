@@ -1,5 +1,5 @@
-// What the comparison of a baseline object with a wide one must find: without LEAK the weak function that both share does no
-// floating-point arithmetic.
+// What the comparison of a baseline object with a wide one must find: without LEAK the weak function that both share
+// does no floating-point arithmetic.
 inline __attribute__((noinline)) int count(const int* p, int n) { return n > 0 ? p[0] + n : 0; }
 inline __attribute__((noinline)) float sum(const float* p) { return p[0] + p[1]; }
 

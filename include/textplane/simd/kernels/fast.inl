@@ -1,8 +1,8 @@
 // FAST-9/16, kBytes pixels at a time. Include before: the operations.
 //
-// The strength for brighter arcs is (max over the 16 arcs of the least pixel of the arc) - I(p), for darker ones
-// I(p) - (min over the arcs of the largest pixel): minima and maxima of bytes, without a branch. Two arcs that differ by
-// a step share 8 pixels: max(min(s, a), min(s, b)) = min(s, max(a, b)).
+// The strength for brighter arcs is (max over the 16 arcs of the least pixel of the arc) - I(p), for darker ones I(p) -
+// (min over the arcs of the largest pixel): minima and maxima of bytes, without a branch. Two arcs that differ by a
+// step share 8 pixels: max(min(s, a), min(s, b)) = min(s, max(a, b)).
 
 // Loads at p: whole vectors, or n pixels.
 TEXTPLANE_SIMD_INLINE vb fast_load(const std::uint8_t* p, bool whole, int n) noexcept {

@@ -1,8 +1,8 @@
-// KLT: a strip of kShorts columns goes down the rows of a patch; the row below of one step is the row above of the next.
-// Include before: the operations.
+// KLT: a strip of kShorts columns goes down the rows of a patch; the row below of one step is the row above of the
+// next. Include before: the operations.
 //
-// mix_pairs() interpolates along x exactly, in 1/64 grey level; mulhrsh() along y, rounded to 1/64; halving leaves 1/32, so
-// |v| <= 4096. A lane of a sum takes at most 2 products of each row of each strip: 2 * 21 * 3 * 2^24 < 2^31.
+// mix_pairs() interpolates along x exactly, in 1/64 grey level; mulhrsh() along y, rounded to 1/64; halving leaves
+// 1/32, so |v| <= 4096. A lane of a sum takes at most 2 products of each row of each strip: 2 * 21 * 3 * 2^24 < 2^31.
 
 constexpr int kKltCopyStride = 48;  // bytes; at least kPairsReach from the last strip of a row on
 

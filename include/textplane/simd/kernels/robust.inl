@@ -2,7 +2,8 @@
 
 // log(1 + u) within 5e-7 of itself, 0 <= u <= 1e30.
 TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
-  // 1 + u = 2^k (1 + f), 1 + f in [sqrt(1/2), sqrt(2)); with s = f / (2 + f) its logarithm is 2 (s + s^3 / 3 + s^5 / 5 + ...).
+  // 1 + u = 2^k (1 + f), 1 + f in [sqrt(1/2), sqrt(2)); with s = f / (2 + f) its logarithm is 2 (s + s^3 / 3 + s^5 / 5
+  // + ...).
   const vf one = set1(1.0F);
   const vi y = as_int(add(one, u)), k = shr(subi(y, seti(0x3f3504f3)), 23);
   const vf f = select(eqi(k, seti(0)), u, sub(as_float(subi(y, shl(k, 23))), one));

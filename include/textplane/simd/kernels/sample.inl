@@ -1,25 +1,25 @@
-// What every kernel that samples an image at scattered points is made of: warp | taps | interpolation, each a short loop over a
-// strip (simd/sample.hpp). Output arrays have room for whole vectors. Include before: kernels/tiles.inl.
+// What every kernel that samples an image at scattered points is made of: warp | taps | interpolation, each a short
+// loop over a strip (simd/sample.hpp). Output arrays have room for whole vectors. Include before: kernels/tiles.inl.
 
-// kLanes floats of an array of which `left` remain; the others are 0 and not touched.
+// kLanes floats of an array that has `left` more. Lanes beyond are 0; their memory is not touched.
 TEXTPLANE_SIMD_INLINE vf load_part(const float* p, int left) noexcept {
   return left >= kLanes ? load(p) : load_n(p, left);
 }
 
-// Zeroes what the last vector of an array of n holds beyond it.
+// Zeroes the lanes beyond n of the last vector of an array.
 TEXTPLANE_SIMD_INLINE void zero_tail(float* p, int n) noexcept {
   const int rest = n % kLanes;
   if (rest != 0) store(p + (n - rest), keep(first_n(rest), load(p + (n - rest))));
 }
 
-// Every bit pattern but those of NaN and infinity, whatever the compiler assumes of floats.
+// Neither NaN nor infinite. Tests the bits, so that -ffast-math cannot remove it.
 TEXTPLANE_SIMD_INLINE bool finite_d(double x) noexcept {
   std::uint64_t b;
   copy_bytes(&b, &x, 8);
   return (b & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
 }
 
-// Bounds of n > 0 points; n = 0 in the result where a coordinate is not finite, and the other numbers are those of some points.
+// Bounds of n > 0 points; n = 0 in the result where a coordinate is not finite; the other numbers then mean nothing.
 TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept {
   vf x_low = set1(x[0]), x_high = x_low, y_low = set1(y[0]), y_high = y_low, nothing = zero();
   for (int i = 0; i < n; i += kLanes) {
@@ -47,8 +47,9 @@ TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
 TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
 
-// The homography that takes (u, v), relative to the host centre (hx, hy), to a target pixel, h row-major, around the target pixel
-// nearest to where the centre goes; the middle of the image where that lies behind. False where it cannot be written in float.
+// The homography that takes (u, v), relative to the host centre (hx, hy), to a target pixel, h row-major, around the
+// target pixel nearest to the projected centre, or the middle of the image if the centre is behind. False where it
+// cannot be written in float.
 TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
                                              simd::Warp8* w) noexcept {
   const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
@@ -99,7 +100,7 @@ TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const si
   f->y_last = static_cast<float>(image.height - 1 - warp.oy);
 }
 
-// The numbers of a warp in all lanes, to be made before a loop: g++ repeats their making inside.
+// The constants of a warp in all lanes. Made before a loop, since g++ would make them again inside.
 struct WarpVectors {
   vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
 };
@@ -193,8 +194,8 @@ TEXTPLANE_SIMD_INLINE void warp_to_tiles(const simd::Warp8& w, const SampleFrame
   }
 }
 
-// The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs the
-// middle two are exchanged. Faster than gathers, and it reads these pixels only.
+// The four pixels of each cell as a word: I(x,y), I(x+1,y), I(x,y+1), I(x+1,y+1) from the lowest byte on; out of pairs
+// the middle two are exchanged. Faster than gathers, and it reads these pixels only.
 TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
                                       const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
                                       std::uint32_t* TEXTPLANE_SIMD_RESTRICT taps) noexcept {

@@ -1,7 +1,8 @@
 // Taps of neighbouring pixels by tiles. Include before: the operations.
 //
-// Eight neighbours share a guessed 16 x 3 tile; pixels outside it are loaded one by one. The guess: the left-most and the top-most of
-// the eight cells is the first or the last, as the direction of the rows says. The bytes are the same either way.
+// Eight neighbours share a guessed 16 x 3 tile; pixels outside it are loaded one by one. The guess: the left-most and
+// the top-most of the eight cells is the first or the last, as the direction of the rows says. The bytes are the same
+// either way.
 
 // The taps of cells (x, y), 0 <= x <= 14 and 0 <= y <= 1, of the tile at corner[i / kTileLanes].
 TEXTPLANE_SIMD_INLINE taps_t tile_taps(const std::uint8_t* const* corner, std::ptrdiff_t stride, vi x, vi y) noexcept {
@@ -35,7 +36,8 @@ TEXTPLANE_SIMD_INLINE TileGuess guess_tiles(const float* u, const float* v, int 
   return guess;
 }
 
-// (ox, oy) is the pixel at `origin`. False where there is no room for a tile, and where cells or the stride are not int16.
+// (ox, oy) is the pixel at `origin`. False where there is no room for a tile, and where cells or the stride are not
+// int16.
 TEXTPLANE_SIMD_INLINE bool make_tiles(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height, int ox,
                                       int oy, ImageTiles* w) noexcept {
   w->origin = data + (oy * stride + ox);

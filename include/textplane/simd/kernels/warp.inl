@@ -1,7 +1,7 @@
 // The kernels of simd/warp.hpp. Include before: kernels/tiles.inl.
 //
-// Each block has a frame of reference in double; each of its rows takes a pass over the coordinates and a pass that samples.
-// Constant arguments make the variants.
+// Each block has a frame of reference in double; each of its rows takes a pass over the coordinates and a pass that
+// samples. Constant arguments make the variants.
 
 enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
 
@@ -18,14 +18,14 @@ TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
   return x < static_cast<double>(last) ? static_cast<int>(x) : last;
 }
 
-// Whether the block lies inside the source, and how its pixels follow each other in a row. (x1, y1, z1) and so on are source
-// coordinates and their steps as in WarpBlock, origin (0, 0).
+// Whether the block lies inside the source, and how its pixels follow each other in a row. (x1, y1, z1) and so on are
+// source coordinates and their steps as in WarpBlock, origin (0, 0).
 //
 // A homography with q_z > 0 maps the block into the convex hull of the images of its corners. Along a row v,
 // d(x/z)/du = N(v) / z^2 with N = x1 z - x z1 affine in v and z affine in u and v, so corners bound both.
 //
-// Positions are made in float, from divisors whose terms add up to `size`: half of the margin is for what float does to a
-// position where q_z is small beside that.
+// Positions are made in float, from divisors whose terms add up to `size`: half of the margin is for what float does to
+// a position where q_z is small beside that.
 TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
                                          double size, WarpBlock* t) noexcept {
   const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
@@ -63,8 +63,8 @@ TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* 
              steep <= 0.14 * z2_low && x_high < a.width - 16 && y_high < a.height - 3;
 }
 
-// The block whose first pixel is (first_x, first_y). The scale of H is taken out, so that the floats that follow neither
-// overflow nor vanish. The origin is the cell of the projected centre where there is one.
+// The block whose first pixel is (first_x, first_y). The scale of H is taken out, so that the floats that follow
+// neither overflow nor vanish. The origin is the cell of the projected centre where there is one.
 TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x, int first_y) noexcept {
   WarpBlock t;
   t.columns = a.out_width - first_x < kWarpBlockWidth ? a.out_width - first_x : kWarpBlockWidth;
@@ -147,8 +147,8 @@ TEXTPLANE_SIMD_INLINE std::uint32_t warp_cell_taps(const std::uint8_t* p, std::p
   return upper | lower << 16;
 }
 
-// Taps of pixels k to k + kLanes - 1 by shuffles, `origin` being the address of the block's origin. The left-most and the
-// top-most pixel of a tile is its first or its last. *rows collects the rows that pixels lie below the top-most.
+// Taps of pixels k to k + kLanes - 1 by shuffles, `origin` being the address of the block's origin. The left-most and
+// the top-most pixel of a tile is its first or its last. *rows collects the rows that pixels lie below the top-most.
 TEXTPLANE_SIMD_INLINE taps_t warp_tile_taps(const WarpBlock& t, const std::uint8_t* origin, std::ptrdiff_t stride,
                                             int k, const WarpStrip* s, vi* rows) noexcept {
   enum : int { kStep = kTileLanes > 0 ? kTileLanes : 1, kTiles = kLanes / kStep };
@@ -160,7 +160,8 @@ TEXTPLANE_SIMD_INLINE taps_t warp_tile_taps(const WarpBlock& t, const std::uint8
   return tile_taps(corner, stride, x, y);
 }
 
-// Fetches the taps of a row one by one. A pass of its own: vector loads right behind the stores that they need would wait.
+// Fetches the taps of a row one by one. A pass of its own: vector loads right behind the stores that they need would
+// wait.
 TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t stride, int columns, int kind,
                                       WarpStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
   // Lanes beyond the last column repeat it.

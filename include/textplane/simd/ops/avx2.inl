@@ -171,7 +171,7 @@ struct taps_t {
 TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept {
   return taps_t{_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
 }
-// The sum of the four bytes of each word times the four signed bytes of `weights`: products of a pair fit 16 bits.
+// The sum of the four bytes of each cell times the four signed bytes of `weights`: products of a pair fit 16 bits.
 TEXTPLANE_SIMD_INLINE vf tap_dot(taps_t t, int weights) noexcept {
   const __m256i pairs = _mm256_maddubs_epi16(t.cells, _mm256_set1_epi32(weights));
   return _mm256_cvtepi32_ps(_mm256_madd_epi16(pairs, _mm256_set1_epi16(1)));

@@ -1,8 +1,8 @@
 // Operations of the avx512 target: vectors of 512 bits. ops/scalar.inl defines them.
 // Include before: ops/common.inl.
 //
-// The zero-masking forms stand where the plain ones start from an undefined register in the compiler's header, about which g++ 11
-// and 12 warn. With all lanes kept they are the same instructions.
+// The zero-masking forms stand where the plain ones start from an undefined register in the compiler's header, about
+// which g++ 11 and 12 warn. With all lanes kept they are the same instructions.
 #include "textplane/simd/ops/x86.inl"
 #include "textplane/simd/ops/x86_wide.inl"
 
@@ -169,7 +169,7 @@ struct taps_t {
   __m512i cells;
 };
 TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return taps_t{_mm512_loadu_si512(p)}; }
-// The sum of the four bytes of each word times the four signed bytes of `weights`.
+// The sum of the four bytes of each cell times the four signed bytes of `weights`.
 TEXTPLANE_SIMD_INLINE vf tap_dot(taps_t t, int weights) noexcept {
   return to_float(_mm512_dpbusd_epi32(_mm512_setzero_si512(), t.cells, _mm512_set1_epi32(weights)));
 }

@@ -17,7 +17,7 @@ TEXTPLANE_SIMD_INLINE unsigned load_u32_n(const std::uint8_t* p, int n) noexcept
   if (n >= 4) word |= static_cast<unsigned>(p[3]) << 24;
   return word;
 }
-// n >= 0 bytes; the two do not overlap.
+// Copies n >= 0 bytes that do not overlap.
 TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcept {
   std::uint8_t* TEXTPLANE_SIMD_RESTRICT target = static_cast<std::uint8_t*>(to);
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);

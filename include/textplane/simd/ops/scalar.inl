@@ -1,8 +1,8 @@
-// Operations of the scalar target, in plain C++: the definition of every operation. The other files say the same in intrinsics.
-// Include before: ops/common.inl.
+// Operations of the scalar target, in plain C++: the definition of every operation. The other files say the same in
+// intrinsics. Include before: ops/common.inl.
 //
-// Lanes are counted from 0. `_n` loads leave the lanes from n on at zero and touch no memory beyond n; `_n` stores write n
-// elements and no more; 0 <= n <= lanes. Memory need not be aligned.
+// Lanes are counted from 0. `_n` loads leave the lanes from n on at zero and touch no memory beyond n; `_n` stores
+// write n elements and no more; 0 <= n <= lanes. Memory need not be aligned.
 
 // --- floats ---
 constexpr int kLanes = 1;
@@ -18,7 +18,7 @@ TEXTPLANE_SIMD_INLINE vf zero() noexcept { return 0.0f; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
-// The same value, in a register from here on: g++ loads from memory several times what is used several times.
+// The same value, in a register from here on: g++ would load it again for each use.
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { *p = v; }
 TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return *p; }
@@ -44,7 +44,7 @@ TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept {
 TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
 TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
 TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
-// By zero it gives what IEEE says, as in the vectors, where a lane that nobody looks at may do so.
+// A division by zero is allowed, as IEEE defines it: unused lanes of the vectors do it.
 #if defined(__clang__)
 __attribute__((no_sanitize("float-divide-by-zero")))
 #endif
@@ -55,7 +55,7 @@ div(vf a, vf b) noexcept {
 // a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
-// The second operand where either is NaN, and where both are zeros of whatever sign.
+// The second operand where either is NaN, and where both are zero.
 #if TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE bool is_nan_(vf a) noexcept {
   unsigned word = 0;
@@ -132,14 +132,15 @@ TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return m ? 1 : 0; }
 TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m; }
 
-// --- reductions: the upper half of the lanes joins the lower half until one is left; reduce_sum_double does so in double ---
+// --- reductions: the upper half of the lanes joins the lower half until one is left; _double: in double ---
 TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return a; }
 TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept { return static_cast<double>(a); }
 TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept { return a; }
 TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept { return a; }
 
 // --- bilinear taps: kLanes cells I(x,y) | I(x+1,y) << 8 | I(x,y+1) << 16 | I(x+1,y+1) << 24 ---
-// value = I(x,y), dx = I(x+1,y) - I(x,y), dy = I(x,y+1) - I(x,y), dxy = I(x,y) - I(x+1,y) - I(x,y+1) + I(x+1,y+1): exact.
+// value = I(x,y), dx = I(x+1,y) - I(x,y), dy = I(x,y+1) - I(x,y), dxy = I(x,y) - I(x+1,y) - I(x,y+1) + I(x+1,y+1):
+// exact.
 struct taps_t {
   std::uint32_t cells;
 };
@@ -352,8 +353,8 @@ TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept { return m > 0 ? 
 TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept { *p = static_cast<float>(v); }
 
 // --- tiles ---
-// kTileLanes consecutive pixels share a tile where they lie close together: one shuffle a row replaces two loads a pixel. 0: the
-// target has no such shuffle, and what follows is not called. kernels/tiles.inl makes tile_taps() of it.
+// Parts of tile_taps() (kernels/tiles.inl). kTileLanes consecutive pixels share a tile; 0 on a target without byte
+// shuffles, where kernels do not call the others.
 enum : int { kTileLanes = 0 };
 // b[i - i % kTileLanes] in lane i.
 TEXTPLANE_SIMD_INLINE vi per_tile(const int* b) noexcept { return b[0]; }
@@ -364,7 +365,8 @@ TEXTPLANE_SIMD_INLINE vi tile_rows(const std::uint8_t* const*, std::ptrdiff_t) n
 // Four byte numbers a lane, x, x + 1, x, x + 1, for pick_bytes(); 0 <= x <= 14.
 TEXTPLANE_SIMD_INLINE vi tile_picks(vi x) noexcept { return x; }
 TEXTPLANE_SIMD_INLINE vi pick_bytes(vi rows, vi) noexcept { return rows; }
-// Taps out of picks of three rows: the upper pixels from a and the lower ones from b where y is 0, from b and c where it is 1.
+// Taps from the picked bytes of three rows: upper pixels from a and lower ones from b where y is 0; from b and c where
+// y is 1.
 TEXTPLANE_SIMD_INLINE taps_t two_rows(vi, vi, vi, vi) noexcept { return taps_t{0}; }
 // Even and odd ones of 2 kLanes floats.
 TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {

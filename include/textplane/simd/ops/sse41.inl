@@ -162,7 +162,7 @@ struct taps_t {
 TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept {
   return taps_t{_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))};
 }
-// The sum of the four bytes of each word times the four signed bytes of `weights`: products of a pair fit 16 bits.
+// The sum of the four bytes of each cell times the four signed bytes of `weights`: products of a pair fit 16 bits.
 TEXTPLANE_SIMD_INLINE vf tap_dot(taps_t t, int weights) noexcept {
   const __m128i pairs = _mm_maddubs_epi16(t.cells, _mm_set1_epi32(weights));
   return _mm_cvtepi32_ps(_mm_madd_epi16(pairs, _mm_set1_epi16(1)));

@@ -7,8 +7,7 @@ TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16
   _mm_storeu_si128(reinterpret_cast<__m128i*>(out + 4), _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
 }
 
-// What a loop over tiles needs, made before it. The left-most and the top-most cells of groups are `left` and `top` cells away
-// from the first.
+// Constants of a loop over tiles. `left` and `top` are the guessed numbers of a group's left-most and top-most cell.
 struct TileVectors {
   v16 left_ends, top_ends;
   int left, top;
@@ -28,8 +27,8 @@ TEXTPLANE_SIMD_INLINE TileVectors broadcast_tiles(const ImageTiles& w) noexcept 
   return v;
 }
 
-// The pairs (I(x,y), I(x+1,y)) and (I(x,y+1), I(x+1,y+1)) of k16Lanes cells. Bit i of the result: tiles do not hold all of the
-// pixels 4 i .. 4 i + 3, whose pairs may be any.
+// The pairs (I(x,y), I(x+1,y)) and (I(x,y+1), I(x+1,y+1)) of k16Lanes cells. Bit i of the result: some of the pixels 4
+// i .. 4 i + 3 lie outside their tile, and their pairs are arbitrary.
 TEXTPLANE_SIMD_INLINE unsigned tile_pairs(const TileVectors& w, const std::int16_t* x, const std::int16_t* y,
                                           v16* first, v16* second) noexcept {
   const TilePlaces at = find_tiles(x + w.left, y + w.top, w.stride);

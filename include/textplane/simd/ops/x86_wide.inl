@@ -1,6 +1,7 @@
 // What avx2 and avx512 share, in 256 bits. Include before: ops/common.inl.
 
-// Steps of sums across lanes: join_lanes(), then join_pairs(), then join_halves() make of eight vectors one, of the sum of each.
+// Steps of sums across lanes: join_lanes(), then join_pairs(), then join_halves() make of eight vectors one, of the sum
+// of each.
 TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
   return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
 }

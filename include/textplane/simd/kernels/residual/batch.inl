@@ -1,4 +1,5 @@
-// Sums of simd/batch.hpp: one object a lane, sums in registers, a loop over the pixels. Include before: residual/batch_sample.inl.
+// Sums of simd/batch.hpp: one object a lane, sums in registers, a loop over the pixels. Include before:
+// residual/batch_sample.inl.
 
 // Three rows from `row` on: their sums over the pixels, and their sums times the target's intensity.
 TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf* sum, vf* product) noexcept {
@@ -114,8 +115,8 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
   *host = h;
 }
 
-// The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i c). Costs.
-// `kind`: l2, huber, or cauchy for both of those that weigh all.
+// The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i
+// c). Costs. `kind`: l2, huber, or cauchy for both of those that weigh all.
 TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, simd::RobustKind kind,
                                        const simd::BatchArgs& a, vf host_scale, vf target_scale, const vf* mean,
                                        const vf* along, vf* cost, vf* error) noexcept {
@@ -158,7 +159,8 @@ TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int p
   batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 
-// One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with pixels.
+// One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with
+// pixels.
 TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
                                         const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
   BatchStripMemory strip;

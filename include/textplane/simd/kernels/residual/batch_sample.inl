@@ -10,15 +10,16 @@ TEXTPLANE_SIMD_INLINE vp batch_most(vp f0, vp f1, vp f2, vp ru, vp rv) noexcept 
   return madd_p(abs_p(f0), ru, madd_p(abs_p(f1), rv, f2));
 }
 
-// What decides about a lane before its pixels are looked at. `size` is below 1e30 for finite input; the others are the most and
-// the least that the depths reach, and the most of the distances from the image's borders, times the depth. `whole` is positive
-// where, for finite input, all pixels are certainly visible.
+// What decides about a lane before its pixels are looked at. `size` is below 1e30 for finite input; the others are the
+// most and the least that the depths reach, and the most of the distances from the image's borders, times the depth.
+// `whole` is positive where, for finite input, all pixels are certainly visible.
 struct BatchVerdict {
   double size[simd::kBatchLanes], most[simd::kBatchLanes], least[simd::kBatchLanes], inside[simd::kBatchLanes],
       whole[simd::kBatchLanes];
 };
 
-// kDoubles lanes of the frame from `l` on. `pose`: R of each lane, column by column, t a.t_offset numbers from there on.
+// kDoubles lanes of the frame from `l` on. `pose`: R of each lane, column by column, t a.t_offset numbers from there
+// on.
 TEXTPLANE_SIMD_INLINE void batch_lanes(const simd::BatchArgs& a, const simd::BatchGroup& o, const double* const* pose,
                                        int l, BatchFrame* f, BatchVerdict* verdict) noexcept {
   const vp fx = set_p(a.camera[0]), fy = set_p(a.camera[1]), cx = set_p(a.camera[2]), cy = set_p(a.camera[3]);
@@ -95,7 +96,8 @@ TEXTPLANE_SIMD_INLINE void batch_lanes(const simd::BatchArgs& a, const simd::Bat
   store_p(verdict->whole + l, min_p(sub_p(min_p(across, down), mul_p(add_p(margin, margin), front)), least));
 }
 
-// The frame of a group, and what is known of its objects already. A status that is not ok: its pixels need not be looked at.
+// The frame of a group, and what is known of its objects already. A status that is not ok: its pixels need not be
+// looked at.
 TEXTPLANE_SIMD_INLINE void batch_group(const simd::BatchArgs& a, const simd::BatchGroup& o, int first, int members,
                                        BatchFrame* f) noexcept {
   const double* pose[simd::kBatchLanes];
@@ -138,7 +140,8 @@ struct BatchCounts {
   vf visible, behind, target, host;
 };
 
-// Warp of `m` pixels of the lanes from pixel `k` on; weights, host intensities and counts. `whole`: all of them are visible.
+// Warp of `m` pixels of the lanes from pixel `k` on; weights, host intensities and counts. `whole`: all of them are
+// visible.
 TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole, const float* pixels, int k, int m,
                                       int stride, BatchStripMemory* s, float* scratch, BatchCounts* counts) noexcept {
   const vf g0 = load(f.g[0] + lane), g1 = load(f.g[1] + lane), g2 = load(f.g[2] + lane);

@@ -1,7 +1,7 @@
 // Both sides of the residual, centred and scaled. Include before: kernels/sample.inl.
 
-// The target's and the host's offsets, their means over the first strip; and kappa, the ratio of their contrasts there, with which
-// kappa h - i is about as small as the residuals are: its products with rows lose nothing.
+// The target's and the host's offsets, their means over the first strip; and kappa, the ratio of their contrasts there,
+// with which kappa h - i is about as small as the residuals are: its products with rows lose nothing.
 struct Offsets {
   float target, host, kappa;
 };
@@ -31,8 +31,8 @@ TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n
   return o;
 }
 
-// i less its offset, d = kappa (h - offset) - i, and the sums of both sides and their squares: lane by lane, `terms` each, and
-// what went to double. Zero beyond n.
+// i less its offset, d = kappa (h - offset) - i, and the sums of both sides and their squares: lane by lane, `terms`
+// each, and what went to double. Zero beyond n.
 struct CentredSums {
   vf i, ii, h, hh;
 };
@@ -82,16 +82,16 @@ struct Residual {
   double on_d, on_i, shift, i_mean, i_s;
 };
 
-// A side with this sum of squares about its mean has the least contrast. What rounding leaves of a constant side is none. (Squares
-// are compared: roots take time.)
+// A side with this sum of squares about its mean has the least contrast. What rounding leaves of a constant side is
+// none. (Squares are compared: roots take time.)
 TEXTPLANE_SIMD_INLINE bool has_contrast(const simd::ResidualArgs& a, double squares, double mean,
                                         double count) noexcept {
   const double least = a.min_contrast > 0 ? a.min_contrast : 0, floor = 1e-6 * mean;
   return squares > count * (least * least) && squares > count * (floor * floor);
 }
 
-// From the sums of both sides, for N pixels. no_contrast where there is none on either; non_finite for host intensities that are
-// not, or whose squares are not in float.
+// From the sums of both sides, for N pixels. no_contrast where there is none on either; non_finite for host intensities
+// that are not, or whose squares are not in float.
 TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Offsets& o, const SideSums& sums, int n,
                                           Residual* r, simd::ResidualInfo* info) noexcept {
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;

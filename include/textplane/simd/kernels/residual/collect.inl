@@ -14,7 +14,7 @@ TEXTPLANE_SIMD_INLINE void make_arrays(float* scratch, int n, ResidualArrays* s)
   s->list = reinterpret_cast<std::int32_t*>(scratch + 9 * step);
 }
 
-// No byte of n is zero.
+// True if none of n bytes is zero.
 TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
   int i = 0;
   for (; i + 8 <= n; i += 8) {
@@ -104,8 +104,8 @@ TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const 
   return HostPixels{s.hx, s.hy, s.h, info->visible};
 }
 
-// Decides whether these host pixels take tiles. Where they do, no cell is closer to the right or the lower border than a tile
-// and a pixel.
+// Decides whether these host pixels take tiles. Where they do, no cell is closer to the right or the lower border than
+// a tile and a pixel.
 TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                        const HostPixels& host, ResidualFrame* f) noexcept {
   const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
@@ -120,15 +120,16 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
   if (box_inside(*f, inner, bounds)) f->tiles.guess = guess;
 }
 
-// Target coordinates, fractions and taps of n pixels, whole v16, by tiles. (Inlined, it would slow down what is without.)
+// Target coordinates, fractions and taps of n pixels, whole v16, by tiles. (Inlined, it would slow down what is
+// without.)
 TEXTPLANE_SIMD_ENTRY void collect_tiles(const ResidualFrame& f, const float* px, const float* py, int n, float* x,
                                         float* y, SampleStrip* strip) noexcept {
   warp_to_tiles(f.warp, f.sample, f.tiles, px, py, n, x, y, strip);
   fetch_tiles(f.tiles, n, strip);
 }
 
-// Strip of n host pixels from `begin` on: target coordinates, intensities, gradients (unless `values` alone are wanted). Whole
-// vectors are written, zero beyond n.
+// Strip of n host pixels from `begin` on: target coordinates, intensities, gradients (unless `values` alone are
+// wanted). Whole vectors are written, zero beyond n.
 TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
   const float *px = host.x + begin, *py = host.y + begin;

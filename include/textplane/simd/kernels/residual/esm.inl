@@ -1,7 +1,7 @@
 // The kernel of simd/esm.hpp. Include before: residual/large.inl, residual/host_basis.inl.
 //
-// Arrays of the scratch: x and y become host coordinates relative to the patch's centre; a and b the target's gradient by them, then
-// its scaled mean with the host's; i and d are those of residual/centre.inl.
+// Arrays of the scratch: x and y become host coordinates relative to the patch's centre; a and b the target's gradient
+// by them, then its scaled mean with the host's; i and d are those of residual/centre.inl.
 
 // The visible pixels' values of p, closed up into `out`.
 TEXTPLANE_SIMD_INLINE void close_up_like(const std::uint8_t* flags, const float* p, int n, float* out) noexcept {
@@ -28,7 +28,7 @@ TEXTPLANE_SIMD_INLINE void pull_back(const simd::Warp8& w, const float* px, cons
   }
 }
 
-// a <- on_target a + on_host g, and the last term apart. Zero beyond n.
+// a <- on_target a + on_host g; host <- on_host g. Zero beyond n.
 TEXTPLANE_SIMD_INLINE void mix_gradients(float on_target, float on_host, const float* g, int n, float* a,
                                          float* host) noexcept {
   for (int i = 0; i < n; i += kLanes) {
@@ -47,7 +47,8 @@ TEXTPLANE_SIMD_INLINE void residual_sums(const Residual& r, double root, const d
   }
 }
 
-// Weighted sums for rows j - (1, n, r) . (e, cn, cr): products S, sums X with w (1, n, r), and W of w (1, n, r)(1, n, r)^T.
+// Weighted sums for rows j - (1, n, r) . (e, cn, cr): products S, sums X with w (1, n, r), and W of w (1, n, r)(1, n,
+// r)^T.
 struct EsmSums {
   double S[8][8], X[3][8], W[3][3];
 };

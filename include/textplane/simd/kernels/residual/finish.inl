@@ -47,16 +47,15 @@ TEXTPLANE_SIMD_ENTRY void unpack_products(int form, const double* p, double (*S)
   S[7][7] = p[26];
 }
 
-// Sums over all pixels, weighted: products, and with the rows w, w n, w r; of w, w n, w n^2, w r, w n r alone; and unweighted
-// those with 1 / N and n.
+// Sums over all pixels, weighted: products, and with the rows w, w n, w r; of w, w n, w n^2, w r, w n r alone; and
+// unweighted those with 1 / N and n.
 struct WeightedSums {
   double S[8][8];
   double w1[8], wn[8], wr[8], e[8], jn[8];
   double w[5];
 };
 
-// S and wr become H and b of the rows: exact through mean and s, or with both held. (What becomes of lanes beyond `form` nobody
-// reads.)
+// S and wr become H and b of the rows: exact through mean and s, or with both held. (Lanes beyond `form` are not read.)
 TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
   const double scale = 1 / (s * s);
   const vd by = setd(scale);
@@ -79,8 +78,8 @@ TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedS
   stored(k->wr, muld(setd(-scale * s), wr));
 }
 
-// d j / d parameter: columns v, omega, theta of the matrix M, which takes rows of the pixel homography to rows of the parameters.
-// Rows 0 to 7 of the result hold columns 0 to 7; row 8 holds column 8.
+// d j / d parameter: columns v, omega, theta of the matrix M, which takes rows of the pixel homography to rows of the
+// parameters. Rows 0 to 7 of the result hold columns 0 to 7; row 8 holds column 8.
 TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f,
                                            double (*M)[8]) noexcept {
   const double fx = a.target_camera[0], fy = a.target_camera[1], ix = 1 / fx, iy = 1 / fy, c = f.c, d = f.d;
@@ -120,7 +119,7 @@ TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const Re
   }
 }
 
-// The row of `left` times the rows of eight columns. Two sums: half the time to wait for.
+// The row of `left` times the rows of eight columns. Two sums shorten the chain of dependent additions.
 TEXTPLANE_SIMD_INLINE vd row_product(const double* left, std::ptrdiff_t step, const double (*rows)[8]) noexcept {
   const vd one = setd(1.0);
   vd even = muld(setd(left[0]), loadd(rows[0])), odd = muld(setd(left[step]), loadd(rows[1]));
@@ -152,8 +151,8 @@ TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (
     for (int c = 0; c < r; ++c) H[9 * r + c] = H[9 * c + r];
 }
 
-// No entry of H, b and the costs is a NaN or infinite. The diagonal tells of all of H: its sums bound those of other products,
-// and a change of parameters spreads what is not finite over all entries.
+// True if H, b and the costs are finite. The diagonal decides for all of H: its sums bound the other products, and a
+// change of parameters spreads what is not finite over all entries.
 TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H,
                                       const double* b) noexcept {
   double sum = info.cost;

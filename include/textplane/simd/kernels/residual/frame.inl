@@ -2,12 +2,12 @@
 
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 
-// The corners of a square around the origin, as often as fill a vector.
+// The corners of a square around the origin, repeated to fill a vector.
 constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
 constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
 
-// That the points (u, v) are in front of both cameras and project into the target, whose bounds are those of `sample`, with a
-// margin for what rounding does here and in the warp.
+// True if the points (u, v) are in front of both cameras and project into the bounds of `sample`, with a margin for
+// rounding here and in the warp.
 TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
   const float *g = f.warp.g, margin = 1e-3F;
   const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
@@ -20,7 +20,7 @@ TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFr
   return all_true(and_(ahead, and_(across, down)));
 }
 
-// All of the patch is visible if the corners of its box are: what must be positive is affine in u and v.
+// The patch is visible if the corners of its box are: every quantity that must be positive is affine in u and v.
 TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
                                       const simd::PointBounds& bounds) noexcept {
   const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
@@ -30,7 +30,7 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 
-// False where float or H^-1 do not carry the case.
+// False where the numbers exceed float, or H has no inverse.
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
   // Plain locals: in arrays they would pass through memory.
@@ -39,7 +39,7 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double h3 = a.R[3] + t1 * p0, h4 = a.R[4] + t1 * p1, h5 = a.R[5] + t1 * p2;
   const double h6 = a.R[6] + t2 * p0, h7 = a.R[7] + t2 * p1, h8 = a.R[8] + t2 * p2;
 
-  // Larger patches, and those with a position at infinity, float cannot centre. (A NaN compares false.)
+  // Float cannot centre larger patches, nor those with a position at infinity. (A NaN compares false.)
   const double wide = static_cast<double>(bounds.x_high) - static_cast<double>(bounds.x_low);
   const double high = static_cast<double>(bounds.y_high) - static_cast<double>(bounds.y_low);
   if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;

@@ -1,5 +1,5 @@
-// From rows of a homography in host coordinates to the nine parameters, in double (simd/esm.hpp, docs/equations.md). Include
-// before: residual/frame.inl.
+// From rows of a homography in host coordinates to the nine parameters, in double (simd/esm.hpp, docs/equations.md).
+// Include before: residual/frame.inl.
 
 // The eight coefficients of the generator left^T right of a homography in pixels, `step` apart: set, and taken away.
 TEXTPLANE_SIMD_INLINE void set_generator(const double* left, const double* right, std::ptrdiff_t step,
@@ -27,9 +27,9 @@ TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* righ
   m[7 * step] += left[2] * right[1];
 }
 
-// M with j_host . M dp = dI, as change_parameters() takes it: the host pixel (u, v), relative to (hx, hy), moves by
-// K_h H^-1 dH K_h^-1. Parameters v, omega, theta. With h_k the columns of K_h H^-1 and r_k the rows of H K_h^-1 the generators
-// are h_k (theta^T K_h^-1), h_(k+2) r_(k+1) - h_(k+1) r_(k+2), and (K_h H^-1 t) (e_k^T K_h^-1).
+// M with j_host . M dp = dI, as change_parameters() takes it: the host pixel (u, v), relative to (hx, hy), moves by K_h
+// H^-1 dH K_h^-1. Parameters v, omega, theta. With h_k the columns of K_h H^-1 and r_k the rows of H K_h^-1 the
+// generators are h_k (theta^T K_h^-1), h_(k+2) r_(k+1) - h_(k+1) r_(k+2), and (K_h H^-1 t) (e_k^T K_h^-1).
 TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
   const double fx = a.host_camera[0], fy = a.host_camera[1], ifx = 1 / fx, ify = 1 / fy;
   const double c = a.host_camera[2] - f.warp.hx, d = a.host_camera[3] - f.warp.hy, cx = c * ifx, dy = d * ify;

@@ -1,5 +1,5 @@
-// Many pixels: unweighted sums in one pass, then the residuals, then a correction for the outliers' weights. See simd/residual.hpp.
-// Include before: residual/collect.inl, residual/finish.inl, residual/weights.inl.
+// Many pixels: unweighted sums in one pass, then the residuals, then a correction for the outliers' weights. See
+// simd/residual.hpp. Include before: residual/collect.inl, residual/finish.inl, residual/weights.inl.
 
 // The cost of the host pixels, of which there are at least a.min_visible.
 TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
@@ -81,7 +81,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   sums.w[4] = -0.5 * info->error;
 
   if (outliers > 0) {
-    // Where most pixels are outliers their weighted sums are taken directly: little would be left of the others.
+    // If most pixels are outliers, sum them directly: the difference would lose digits.
     const bool direct = outliers > n / 2;
     const int weighted = direct ? n : outliers;
     double w[5] = {0, 0, 0, 0, 0};

@@ -1,8 +1,8 @@
-// Sums of products of the rows of a homography over a strip, for targets with 32 registers (kManyRegisters): more sums a loop than
-// in sums.inl, of rows that never leave the registers. Include before: residual/sums.inl.
+// Sums of products of the rows of a homography over a strip, for targets with 32 registers (kManyRegisters): more sums
+// a loop than in sums.inl, of rows that never leave the registers. Include before: residual/sums.inl.
 
-// The products of (A, Ax, Ay), those of (B, Bx, By), and the mixed ones, in the order of add_squares3() and add_mixed(); and the
-// sums of the six rows.
+// The products of (A, Ax, Ay), those of (B, Bx, By), and the mixed ones, in the order of add_squares3() and
+// add_mixed(); and the sums of the six rows.
 TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh,
                                       float* acc, float* sums) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
@@ -107,8 +107,8 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
   store(sums + kLanes, t1);
 }
 
-// The eight rows times p to `acc`, and, where q is given, times q to `acc2`. With the factor inside, products are shared: half of
-// the additions then go to ports that multiply nothing.
+// The eight rows times p to `acc`, and, where q is given, times q to `acc2`. With the factor inside, products are
+// shared: half of the additions then go to ports that multiply nothing.
 TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float* a, const float* b, const float* p,
                                      const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
   vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);

@@ -1,5 +1,5 @@
-// Rows of derivatives of the intensity over a strip, from target coordinates x, y (relative to the origin) and gradient A, B.
-// X = x - c and Y = y - d are relative to the principal point, D = A X + B Y (docs/equations.md). Include before:
+// Rows of derivatives of the intensity over a strip, from target coordinates x, y (relative to the origin) and gradient
+// A, B. X = x - c and Y = y - d are relative to the principal point, D = A X + B Y (docs/equations.md). Include before:
 // residual/frame.inl.
 
 // Rows of the pixel homography: Ax, Ay, Bx, By, Cx, Cy with C = Ax + By; A and B themselves are rows already.
@@ -17,8 +17,8 @@ TEXTPLANE_SIMD_ENTRY void homography_rows(const float* x, const float* y, const 
   }
 }
 
-// What the rows of the parameters need, rounded once: 1 / q_z rho as an affine function of the target pixel, the same for the
-// host ray, and constants.
+// What the rows of the parameters need, rounded once: 1 / q_z rho as an affine function of the target pixel, the same
+// for the host ray, and constants.
 struct RowConstants {
   float fx, fy, ifx, ify, mu, mv;  // normalised target coordinates: x ifx + mu, y ify + mv
   float k[3];                      // rho / q_z = k0 x + k1 y + k2

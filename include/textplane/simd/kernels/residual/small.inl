@@ -1,14 +1,14 @@
-// Few pixels: rows of the parameters themselves, projected and weighted pixel by pixel (simd/residual.hpp). Include before:
-// residual/collect.inl, residual/rows.inl, residual/centre.inl.
+// Few pixels: rows of the parameters themselves, projected and weighted pixel by pixel (simd/residual.hpp). Include
+// before: residual/collect.inl, residual/rows.inl, residual/centre.inl.
 //
-// Most of the time goes to what happens once a call, so chains of dependent results are short: sums stay in registers to the end,
-// and rows and their sums do without the roots and divisions of the residuals.
+// Most of the time goes to what happens once a call, so chains of dependent results are short: sums stay in registers
+// to the end, and rows and their sums do without the roots and divisions of the residuals.
 
 // Arrays of at most kRowPixels floats and a vector more, and how far they lie apart.
 enum : int { kFewStep = kRowPixels + kMostLanes };
 
-// Of the pixels: intensities less their mean; -r times the root of the weight, and that root over s. With these factors the sums
-// of products are H and b themselves.
+// Of the pixels: intensities less their mean; -r times the root of the weight, and that root over s. With these factors
+// the sums of products are H and b themselves.
 struct FewPixels {
   float i[kFewStep], e[kFewStep], root[kFewStep];
 };
@@ -33,7 +33,7 @@ TEXTPLANE_SIMD_ENTRY float weigh_few_all(const simd::ResidualArgs& a, double roo
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
   const double count = n, by_count = 1 / count;
-  // Offsets that are near the means, or the contrast is large: the means of the first pixels.
+  // Offsets near the means: those of the first pixels.
   const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
   vf t = zero(), h = zero();
   for (int k = 0; k < first; k += kLanes) {
@@ -262,7 +262,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
     put_block(sum[5], 3, 6, parameters, H);
     for (int k = 0; k < 3; ++k) b[6 + k] = static_cast<double>(sum[3][6 + k]);
   }
-  // By the inequality of Schwarz H and b are finite where the squares of the rows and the costs are.
+  // H and b are finite if the squares of the rows and the costs are (Cauchy-Schwarz).
   double squares = 0;
   for (int g = 0; g < parameters; g += 3) {
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];

@@ -1,11 +1,12 @@
 // Sums over strips of many pixels. Include before: residual/rows.inl, residual/sums.inl, residual/moments.inl.
 //
-// `form` is 3 (rows of theta), 6 (rows of v and omega) or 8 (rows of the pixel homography). Sums lie one after the other: products
-// of rows (6, 21, 27), then sums with three factors, one for each row: (1, I, d) for all pixels, (w, w n, w r) for weighted ones.
+// `form` is 3 (rows of theta), 6 (rows of v and omega) or 8 (rows of the pixel homography). Sums lie one after the
+// other: products of rows (6, 21, 27), then sums with three factors, one for each row: (1, I, d) for all pixels, (w, w
+// n, w r) for weighted ones.
 
 TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
 
-// Pixels whose sums are taken at once where no rows are stored: what is kept of them fits the first cache.
+// Pixels summed at once where no rows are stored: their arrays fit the first-level cache.
 enum : int { kBlock = 4 * kStrip };
 
 // Everything one strip needs besides its pixels.
@@ -13,9 +14,8 @@ struct RowStrip {
   float row[6][kStrip];
 };
 
-// Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too. (Where registers hold many sums the
-// homography's rows stay there, are made again for each loop, which takes less time than the way through memory, and `rows` is not
-// used: n may then exceed a strip.)
+// Rows of the n pixels x, y, a, b, and to `acc` their products; where `plain`, their sums too. With kManyRegisters each
+// loop computes the homography's rows again, which is faster than memory; `rows` is not used, and n may exceed a strip.
 TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
                                               const float* y, const float* a, const float* b, int n, RowStrip* rows,
                                               bool fresh, float* acc) noexcept {
@@ -49,8 +49,7 @@ TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowCon
   }
 }
 
-// Sums of the rows of these pixels with the factors p and q, to the sums `first` and `second` of three. Where q is p, `second`
-// receives the same or is left as it is.
+// Sums of the rows times p to `first` and times q to `second`. Where q is p, `second` is the same or stays.
 TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float* y, const float* a, const float* b,
                                           const RowStrip& rows, const float* p, const float* q, int n, bool fresh,
                                           float* first, float* second) noexcept {
@@ -71,7 +70,7 @@ TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float*
   }
 }
 
-// Adds the partial sums to the totals, or, where `first`, makes them these; `sums` is rounded up to a multiple of eight.
+// Adds the partial sums to the totals; where `first`, sets them; `sums` is rounded up to a multiple of eight.
 TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
   for (int k = 0; k < sums; k += 8) {
     const vd eight = reduce_sum8(acc + k * kLanes);

@@ -1,7 +1,8 @@
 // Sums of products of rows over a strip. Include before: the operations.
 //
-// A row is an array of n floats, zero up to the next whole vector. `acc` points to the sums, of kLanes partial sums each. Where
-// `fresh`, they begin at zero and are not read: clearing them first takes longer. At most 12 sums a loop stay in registers.
+// A row is an array of n floats, zero up to the next whole vector. `acc` points to the sums, of kLanes partial sums
+// each. Where `fresh`, they begin at zero and are not read: clearing them first takes longer. At most 12 sums a loop
+// stay in registers.
 TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
 
 // r0 r0, r0 r1, r0 r2, r1 r1, r1 r2, r2 r2.

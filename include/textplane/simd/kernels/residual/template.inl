@@ -1,10 +1,11 @@
 // Sampling and sums of simd/template.hpp. Include before: kernels/sample.inl.
 //
-// A strip of pixels passes through short loops, each near the limit of its ports: divisors | positions, offsets and fractions | taps
-// and interpolation | products. One long loop would exceed what the CPU schedules at once.
+// A strip of pixels passes through short loops, each near the limit of its ports: divisors | positions, offsets and
+// fractions | taps and interpolation | products. One long loop would exceed what the CPU schedules at once.
 //
-// Range of the sums: a product is at most 8191 * 8160, two of them go to a lane, and a strip has 16 vectors: 2.14e9 < 2^31. After a
-// strip the lanes are split into low and high halves, which add up for kTemplateChunk pixels without overflow.
+// Range of the sums: a product is at most 8191 * 8160, two of them go to a lane, and a strip has 16 vectors: 2.14e9 <
+// 2^31. After a strip the lanes are split into low and high halves, which add up for kTemplateChunk pixels without
+// overflow.
 
 enum : int {
   kTemplateStrip = 16 * k16Lanes,
@@ -33,8 +34,8 @@ TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from
   }
 }
 
-// Positions in units of 2^-15 px; of them the offsets of the cells, in elements of what is read, clamped so that a cell lies in the
-// buffer whatever its position, and the fractions. With tiles, the cells instead of offsets.
+// Positions in units of 2^-15 px, split into fractions and offsets of cells, in elements of the image. Offsets are
+// clamped to the buffer. With tiles, the cells in place of offsets.
 TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const ImageTiles* tiles, int from, int stride,
                                           int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
   const float scale = 32768.0f;
@@ -75,8 +76,8 @@ TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) no
   return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
 }
 
-// Asks for the columns that template_products11() will want of the pixels from i on, if a block begins there: it would wait for
-// them, while taps take their time. `rows` is null where nobody wants them; slower products have no need of it.
+// Prefetches the columns that template_products11() reads, if a block begins at i: the taps take long enough to hide
+// the loads. `rows` is null where they are not read.
 TEXTPLANE_SIMD_INLINE void fetch_ahead(const std::int16_t* rows, int i) noexcept {
   enum : int { kStep = simd::kTemplateBlock };
   if (!kManyRegisters || !rows || i % kStep != 0) return;
@@ -104,7 +105,7 @@ TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, con
   }
 }
 
-// The same by tiles, and then of the groups that these do not hold.
+// The same by tiles; groups outside their tiles one by one.
 TEXTPLANE_SIMD_ENTRY void template_tiles(const ImageTiles& w, int n, const TemplateStrip& s, const std::int16_t* rows,
                                          std::int16_t* values) noexcept {
   const TileVectors v = broadcast_tiles(w);
@@ -140,7 +141,8 @@ TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, Te
   }
 }
 
-// `first`: nothing is there yet. (Compilers zero arrays by a string instruction that takes longer than a strip's sums.)
+// `first`: the sums are not set yet. (Compilers would zero the arrays by a string instruction, which takes longer than
+// a strip.)
 TEXTPLANE_SIMD_INLINE void template_flush(vi sum, bool first, vi* low, vi* high) noexcept {
   const vi lower = andi(sum, seti(65535)), upper = shr(sum, 16);
   *low = first ? lower : addi(*low, lower);
@@ -184,7 +186,7 @@ TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const st
   template_flush(c3, first, low + 3, high + 3);
 }
 
-// All of them in one loop, for targets whose registers hold as many sums.
+// All of them in one loop, for kManyRegisters.
 TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
                                               vi* low, vi* high) noexcept {
   enum : int { kStep = simd::kTemplateBlock };

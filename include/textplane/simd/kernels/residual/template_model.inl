@@ -1,7 +1,8 @@
 // Costs and normal equations from the exact sums of template.inl, in double (simd/template.hpp). Include before:
 // residual/template.inl, residual/weights.inl, residual/finish.inl, residual/host_basis.inl.
 
-// The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are visible.
+// The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are
+// visible.
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
                                           ImageTiles* tiles) noexcept {
   if (!f.inside) return false;
@@ -30,7 +31,7 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   t->g[7] = static_cast<float>(g[7]);
   t->ox = f.warp.ox + dx;
   t->oy = f.warp.oy + dy;
-  // A pixel from where a tile would leave the image, no cell is moved.
+  // One pixel clear of the borders where a tile would leave the image, so that no cell is clamped.
   const simd::Image8& target = t->target;
   if (make_tiles(target.data, target.stride, target.width, target.height, t->ox, t->oy, tiles) && !target.pairs &&
       x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
@@ -50,7 +51,7 @@ TEXTPLANE_SIMD_INLINE Status template_residual(const simd::TemplateModel& m, con
   *mean = total / count;
   const double squares = static_cast<double>(sums.square) - total * *mean;
   const double least = a.min_contrast > 0 ? a.min_contrast : 0;
-  // Roundings alone can leave a spread of one unit.
+  // Rounding alone can leave a standard deviation of one unit.
   const double sigma = squares > 0 ? sqrt_d(squares / count) : 0;
   if (!(sigma > 64 * least) || !(sigma > 1.0) || !(m.s > least * root) || !(m.norm > 0)) return Status::no_contrast;
   *norm = sqrt_d(squares);
@@ -74,7 +75,7 @@ TEXTPLANE_SIMD_INLINE void widen_values(const std::int16_t* values, int n, float
   }
 }
 
-// The model's pixels as weigh_strip() and add_costs() take them.
+// The model's pixels as arguments of weigh_strip() and add_costs().
 TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& m, float* scratch) noexcept {
   ResidualArrays s;
   make_arrays(scratch, m.n, &s);
@@ -86,7 +87,8 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
   return s;
 }
 
-// Takes from the sums what the weights of the outliers in the list take away; where `direct`, sets them to those of all pixels.
+// Takes from the sums what the weights of the outliers in the list take away; where `direct`, sets them to those of all
+// pixels.
 TEXTPLANE_SIMD_INLINE void template_outliers(const simd::ResidualArgs& a, const ResidualArrays& s, int outliers,
                                              bool direct, const Residual& r, double root, WeightedSums* sums) noexcept {
   enum : int { kProducts = 27, kAll = 51 };

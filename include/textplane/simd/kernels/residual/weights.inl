@@ -1,7 +1,7 @@
 // Costs and weights of the residuals of many pixels. Include before: residual/centre.inl, residual/strip_sums.inl.
 
-// Costs of all n pixels: sums of e^2 and rho(e^2), e = r sqrt(N). For L2 and Huber. `list`, where given, gets the pixels with
-// |e| > delta, padded to a full vector with a valid index; returns how many.
+// Costs of all n pixels: sums of e^2 and rho(e^2), e = r sqrt(N). For L2 and Huber. `list`, where given, gets the
+// pixels with |e| > delta, padded to a full vector with a valid index; returns how many.
 struct CostSums {
   vf squares, rho;
 };
@@ -19,7 +19,7 @@ TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, 
   for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
     const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
     CostSums sums = {zero(), zero()};
-    // 64 pixels at a time: their outliers are the bits of a word.
+    // 64 pixels at a time: their outliers are the bits of a number.
     for (int k = begin; k < end; k += 64) {
       std::uint64_t word = 0;
       if (end - k >= 64) {
@@ -65,8 +65,8 @@ TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int
   }
 }
 
-// Costs of all n pixels, to `info`, and how many of them need weights: for L2 none, for Huber the outliers, which `list` gets where
-// it is given; for Cauchy and Tukey all.
+// Costs of all n pixels, to `info`. Returns how many need weights: none for L2; the outliers, which go to `list` if
+// given, for Huber; all for Cauchy and Tukey.
 TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
                                     std::int32_t* list, simd::ResidualInfo* info) noexcept {
   double squares = 0, rho = 0;
@@ -87,8 +87,8 @@ struct WeightedStrip {
       r[kStrip];  // p = 1, q = n, r = r, times the root
 };
 
-// Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is the robust cost's w,
-// or, for Huber (complement), 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
+// Fills the strip with the pixels list[0 .. n-1], or, where list is null, those from `begin` on. The weight is the
+// robust cost's w, or, for Huber (complement), 1 - w. Adds up sums of w, w n, w n^2, w r, w n r.
 TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
                                           const std::int32_t* list, int begin, int n, const Residual& res, double root,
                                           bool complement, WeightedStrip* w, double* sums) noexcept {
