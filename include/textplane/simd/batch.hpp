@@ -91,6 +91,8 @@ TEXTPLANE_END_NAMESPACE
 
 #define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/batch_sample.inl"
 #include "textplane/simd/foreach_target.inl"
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/batch_sums.inl"
+#include "textplane/simd/foreach_target.inl"
 #define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/batch.inl"
 #include "textplane/simd/foreach_target.inl"
 

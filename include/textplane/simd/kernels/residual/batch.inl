@@ -1,101 +1,4 @@
-// Sums of simd/batch.hpp: one object a lane, sums in registers, a loop over the pixels. Include before:
-// residual/batch_sample.inl.
-
-// Three rows from `row` on: their sums over the pixels, and their sums times the target's intensity.
-TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf* sum, vf* product) noexcept {
-  vf s0 = zero(), s1 = s0, s2 = s0, p0 = s0, p1 = s0, p2 = s0;
-  for (int k = 0; k < n; ++k) {
-    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf i = hold(load(p + kBatchTarget * kLanes));
-    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
-             c = hold(load(p + (row + 2) * kLanes));
-    s0 = add(s0, a);
-    s1 = add(s1, b);
-    s2 = add(s2, c);
-    p0 = madd(i, a, p0);
-    p1 = madd(i, b, p1);
-    p2 = madd(i, c, p2);
-  }
-  sum[row] = s0;
-  sum[row + 1] = s1;
-  sum[row + 2] = s2;
-  product[row] = p0;
-  product[row + 1] = p1;
-  product[row + 2] = p2;
-}
-
-// Where H(r, c), r <= c, lies in the packed upper triangle.
-TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept {
-  return r * parameters - r * (r - 1) / 2 + c - r;
-}
-
-TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
-  store(out + entry * kBatchStep, value);
-}
-
-// Products of the rows row .. row + 2 among themselves and with r.
-TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
-                                        float* out) noexcept {
-  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
-  for (int k = 0; k < n; ++k) {
-    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
-             c = hold(load(p + (row + 2) * kLanes));
-    const vf r = hold(load(p + kBatchHost * kLanes));
-    s0 = madd(a, a, s0);
-    s1 = madd(a, b, s1);
-    s2 = madd(a, c, s2);
-    s3 = madd(b, b, s3);
-    s4 = madd(b, c, s4);
-    s5 = madd(c, c, s5);
-    b0 = madd(a, r, b0);
-    b1 = madd(b, r, b1);
-    b2 = madd(c, r, b2);
-  }
-  batch_put(out, batch_at(parameters, row, row), mul(scale, s0));
-  batch_put(out, batch_at(parameters, row, row + 1), mul(scale, s1));
-  batch_put(out, batch_at(parameters, row, row + 2), mul(scale, s2));
-  batch_put(out, batch_at(parameters, row + 1, row + 1), mul(scale, s3));
-  batch_put(out, batch_at(parameters, row + 1, row + 2), mul(scale, s4));
-  batch_put(out, batch_at(parameters, row + 2, row + 2), mul(scale, s5));
-  float* b_out = out + (parameters * (parameters + 1) / 2 + row) * kBatchStep;
-  batch_put(b_out, 0, mul(scale_b, b0));
-  batch_put(b_out, 1, mul(scale_b, b1));
-  batch_put(b_out, 2, mul(scale_b, b2));
-}
-
-// Products of the rows from `row` on with those from `column` on.
-TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int parameters, int row, int column, vf scale,
-                                       float* out) noexcept {
-  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
-  for (int k = 0; k < n; ++k) {
-    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
-    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
-             c = hold(load(p + (row + 2) * kLanes));
-    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)),
-             z = hold(load(p + (column + 2) * kLanes));
-    s0 = madd(a, x, s0);
-    s1 = madd(a, y, s1);
-    s2 = madd(a, z, s2);
-    s3 = madd(b, x, s3);
-    s4 = madd(b, y, s4);
-    s5 = madd(b, z, s5);
-    s6 = madd(c, x, s6);
-    s7 = madd(c, y, s7);
-    s8 = madd(c, z, s8);
-  }
-  const int r0 = batch_at(parameters, row, column), r1 = batch_at(parameters, row + 1, column);
-  const int r2 = batch_at(parameters, row + 2, column);
-  batch_put(out, r0, mul(scale, s0));
-  batch_put(out, r0 + 1, mul(scale, s1));
-  batch_put(out, r0 + 2, mul(scale, s2));
-  batch_put(out, r1, mul(scale, s3));
-  batch_put(out, r1 + 1, mul(scale, s4));
-  batch_put(out, r1 + 2, mul(scale, s5));
-  batch_put(out, r2, mul(scale, s6));
-  batch_put(out, r2 + 1, mul(scale, s7));
-  batch_put(out, r2 + 2, mul(scale, s8));
-}
+// Weights, statuses and entry points of simd/batch.hpp. Include before: residual/batch_sums.inl, kernels/robust.inl.
 
 // Scratch: intensities become centred, sums of their squares.
 TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, vf host_mean, vf* target,
@@ -159,36 +62,33 @@ TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int p
   batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 
-// One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with
-// pixels.
-TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
-                                        const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
-  BatchStripMemory strip;
-  BatchCounts counts = {zero(), zero(), zero(), zero()};
-  bool whole = true;
-  for (int l = lane; l < lane + kLanes; ++l) whole = whole && f.whole[l] && f.n[l] == n;
+// Samples all pixels of a vector of objects, strip by strip.
+TEXTPLANE_SIMD_INLINE void batch_strips(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
+                                        int parameters, const float* pixels, int n, BatchStripMemory* strip,
+                                        BatchCounts* counts) noexcept {
   const int stride = static_cast<int>(a.target.stride);
   for (int k = 0; k < n; k += kBatchStrip) {
     const int m = n - k < kBatchStrip ? n - k : kBatchStrip;
     if (whole)
-      batch_warp(f, lane, true, pixels, k, m, stride, &strip, a.scratch, &counts);
+      batch_warp(f, lane, true, pixels, k, m, stride, strip, a.scratch, counts);
     else
-      batch_warp(f, lane, false, pixels, k, m, stride, &strip, a.scratch, &counts);
-    fetch_rows(a.target.data, a.target.stride, strip.offset, m * kLanes, strip.taps);
+      batch_warp(f, lane, false, pixels, k, m, stride, strip, a.scratch, counts);
+    fetch_rows(a.target.data, a.target.stride, strip->offset, m * kLanes, strip->taps);
     if (whole)
-      batch_rows(a, f, lane, true, parameters, pixels, k, m, strip, a.scratch, &counts);
+      batch_rows(a, f, lane, true, parameters, pixels, k, m, *strip, a.scratch, counts);
     else
-      batch_rows(a, f, lane, false, parameters, pixels, k, m, strip, a.scratch, &counts);
+      batch_rows(a, f, lane, false, parameters, pixels, k, m, *strip, a.scratch, counts);
   }
-  const vf one = set1(1.0F), inverse_n = div(one, max_(counts.visible, one)), root = sqrt_(counts.visible);
-  const vf target_mean = mul(counts.target, inverse_n), host_mean = mul(counts.host, inverse_n);
-  vf target, host, cost, error;
-  batch_centre(a.scratch, n, target_mean, host_mean, &target, &host);
-  const vf tiny = set1(1e-30F), target_s = sqrt_(target), host_s = sqrt_(host);
-  const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
+}
 
+// Statuses of the lanes from their counts and sums. Returns the lanes that have a result.
+TEXTPLANE_SIMD_INLINE unsigned batch_judge(const simd::BatchArgs& a, const BatchFrame& f, int lane, int lanes,
+                                           bool whole, const BatchCounts& counts, vf target, vf host, vf target_s,
+                                           vf host_s, vf target_mean, vf host_mean, vf root, unsigned all_lanes,
+                                           Status* status) noexcept {
   // What rounding leaves of a constant side is no contrast either.
-  const vf least = mul(root, set1(static_cast<float>(a.min_contrast > 0 ? a.min_contrast : 0))), floor = set1(1e-6F);
+  const vf least = mul(root, set1(static_cast<float>(a.min_contrast > 0 ? a.min_contrast : 0))), floor = set1(1e-6F),
+           one = set1(1.0F);
   const vm contrast = and_(and_(gt(target_s, least), gt(target_s, mul(root, mul(floor, abs_(target_mean))))),
                            and_(gt(host_s, least), gt(host_s, mul(root, mul(floor, abs_(host_mean))))));
   const vm enough = and_(ge(counts.visible, set1(static_cast<float>(a.min_visible))), ge(counts.visible, one));
@@ -197,7 +97,6 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                  sane = bits_from_mask(finite);
   const unsigned none = bits_from_mask(lt(counts.visible, one));
   const unsigned behind = bits_from_mask(ge(counts.behind, to_float(loadi(f.n + lane))));
-  const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
   const bool easy = whole && (good & many) == all_lanes;
   unsigned keep_lanes = easy ? all_lanes : 0;
   for (int l = 0; l < lanes && !easy; ++l) {
@@ -212,6 +111,44 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
     else
       keep_lanes |= bit;
   }
+  return keep_lanes;
+}
+
+// H and b from the weighted rows.
+TEXTPLANE_SIMD_INLINE void batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
+                                          float* out) noexcept {
+  const vf inverse_s = div(set1(1.0F), max_(target_s, set1(1e-30F))), scale = mul(inverse_s, inverse_s);
+  const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));
+  // Not a loop: with constants for rows, where things lie is known when this is compiled.
+  batch_square(scratch, n, parameters, 0, scale, scale_b, out);
+  batch_square(scratch, n, parameters, 3, scale, scale_b, out);
+  batch_cross(scratch, n, parameters, 0, 3, scale, out);
+  if (parameters > 6) {
+    batch_square(scratch, n, parameters, 6, scale, scale_b, out);
+    batch_cross(scratch, n, parameters, 0, 6, scale, out);
+    batch_cross(scratch, n, parameters, 3, 6, scale, out);
+  }
+}
+
+// One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with
+// pixels.
+TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
+                                        const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
+  BatchStripMemory strip;
+  BatchCounts counts = {zero(), zero(), zero(), zero()};
+  bool whole = true;
+  for (int l = lane; l < lane + kLanes; ++l) whole = whole && f.whole[l] && f.n[l] == n;
+  batch_strips(a, f, lane, whole, parameters, pixels, n, &strip, &counts);
+  const vf one = set1(1.0F), inverse_n = div(one, max_(counts.visible, one)), root = sqrt_(counts.visible);
+  const vf target_mean = mul(counts.target, inverse_n), host_mean = mul(counts.host, inverse_n);
+  vf target, host, cost, error;
+  batch_centre(a.scratch, n, target_mean, host_mean, &target, &host);
+  const vf tiny = set1(1e-30F), target_s = sqrt_(target), host_s = sqrt_(host);
+  const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
+
+  const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
+  const unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
+                                          host_mean, root, all_lanes, status);
 
   const int head = parameters * (parameters + 1) / 2 + parameters;
   if (keep_lanes != 0) {
@@ -233,19 +170,7 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       batch_weigh_all(a, n, parameters, scales, e, c, &cost, &error);
     else
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
-    if (parameters > 0) {
-      const vf inverse_s = div(one, max_(target_s, tiny)), scale = mul(inverse_s, inverse_s);
-      const vf scale_b = neg(div(inverse_s, max_(root, one)));
-      // Not a loop: with constants for rows, where things lie is known when this is compiled.
-      batch_square(a.scratch, n, parameters, 0, scale, scale_b, out);
-      batch_square(a.scratch, n, parameters, 3, scale, scale_b, out);
-      batch_cross(a.scratch, n, parameters, 0, 3, scale, out);
-      if (parameters > 6) {
-        batch_square(a.scratch, n, parameters, 6, scale, scale_b, out);
-        batch_cross(a.scratch, n, parameters, 0, 6, scale, out);
-        batch_cross(a.scratch, n, parameters, 3, 6, scale, out);
-      }
-    }
+    if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
     batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));

@@ -63,6 +63,58 @@ TEXTPLANE_SIMD_INLINE void project_esm(const double (*c)[8], EsmSums* k) noexcep
   for (int i = 0; i < 8; ++i) k->X[2][i] -= WC[2][i];
 }
 
+// Without weights, from the sums of rows (`total`) and of the host's rows; and the projections c.
+TEXTPLANE_SIMD_INLINE void unweighted_esm(const double* total, const double* total_host, const Residual& r,
+                                          double count, double root, double error, EsmSums* sums,
+                                          double (*c)[8]) noexcept {
+  unpack_products(8, total, sums->S);
+  const double* j1 = total + 27;
+  residual_sums(r, root, j1, j1 + 8, j1 + 16, sums->X[1], sums->X[2]);
+  double host_n[8], host_r[8];
+  residual_sums(r, root, total_host, total_host + 8, total_host + 16, host_n, host_r);
+  for (int k = 0; k < 8; ++k) {
+    sums->X[0][k] = j1[k];
+    c[0][k] = j1[k] / count;
+    c[1][k] = sums->X[1][k] + host_r[k];
+    c[2][k] = host_n[k] + host_r[k];
+  }
+  const double w_all[9] = {count, 0, 0, 0, 1, -0.5 * error, 0, -0.5 * error, error};
+  for (int k = 0; k < 9; ++k) sums->W[k / 3][k % 3] = w_all[k];
+}
+
+// As correct_weights().
+TEXTPLANE_SIMD_INLINE void correct_esm(const simd::ResidualArgs& a, const ResidualArrays& s, int n, int outliers,
+                                       const Residual& r, double root, RowStrip* rows, float* acc, float* unused_sums,
+                                       EsmSums* sums) noexcept {
+  enum : int { kProducts = 27, kAll = 51 };
+  const bool direct = outliers > n / 2;
+  const int weighted = direct ? n : outliers;
+  double w[5] = {0, 0, 0, 0, 0}, w_rr = 0, other[kMostSums];
+  RowConstants unused;
+  WeightedStrip ws;
+  for (int begin = 0; begin < weighted; begin += kStrip) {
+    const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
+    weigh_strip(a, s, direct ? nullptr : s.list + begin, begin, m, r, root, !direct, &ws, w);
+    vf rr = zero();
+    for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
+    w_rr += reduce_sum_double(rr);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, rows, true, acc);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, *rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                   acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, *rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
+  }
+  double S[8][8];
+  unpack_products(8, other, S);
+  const double keep_all = direct ? 0 : 1, sign = direct ? 1 : -1;
+  const double w_some[9] = {w[0], w[1], w[3], w[1], w[2], w[4], w[3], w[4], w_rr};
+  for (int k = 0; k < 9; ++k) sums->W[k / 3][k % 3] = keep_all * sums->W[k / 3][k % 3] + sign * w_some[k];
+  for (int k = 0; k < 8; ++k) {
+    for (int p = 0; p < 3; ++p) sums->X[p][k] = keep_all * sums->X[p][k] + sign * other[kProducts + 8 * p + k];
+    for (int j = 0; j < 8; ++j) sums->S[k][j] = keep_all * sums->S[k][j] + sign * S[k][j];
+  }
+}
+
 TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFrame& f, const HostPixels& host,
                                         const float* gx, const float* gy, const ResidualArrays& s,
                                         simd::ResidualInfo* info, double* H, double* b) noexcept {
@@ -87,7 +139,7 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const float on_host = static_cast<float>((e.average ? 0.5 : 1.0) / host_s);
 
   float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
-  double total[kMostSums], other[kMostSums], total_host[32];
+  double total[kMostSums], total_host[32];
   zero_rest(kAll, acc);
   for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
   RowConstants unused;
@@ -113,47 +165,9 @@ TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFr
   const int outliers = add_costs(a, s, n, r, s.list, info);
 
   EsmSums sums;
-  unpack_products(8, total, sums.S);
-  const double* j1 = total + kProducts;
-  residual_sums(r, root, j1, j1 + 8, j1 + 16, sums.X[1], sums.X[2]);
-  double host_n[8], host_r[8], c[3][8];
-  residual_sums(r, root, total_host, total_host + 8, total_host + 16, host_n, host_r);
-  for (int k = 0; k < 8; ++k) {
-    sums.X[0][k] = j1[k];
-    c[0][k] = j1[k] / count;
-    c[1][k] = sums.X[1][k] + host_r[k];
-    c[2][k] = host_n[k] + host_r[k];
-  }
-  const double w_all[9] = {count, 0, 0, 0, 1, -0.5 * info->error, 0, -0.5 * info->error, info->error};
-  for (int k = 0; k < 9; ++k) sums.W[k / 3][k % 3] = w_all[k];
-
-  if (outliers > 0) {
-    const bool direct = outliers > n / 2;
-    const int weighted = direct ? n : outliers;
-    double w[5] = {0, 0, 0, 0, 0}, w_rr = 0;
-    WeightedStrip ws;
-    for (int begin = 0; begin < weighted; begin += kStrip) {
-      const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
-      weigh_strip(a, s, direct ? nullptr : s.list + begin, begin, m, r, root, !direct, &ws, w);
-      vf rr = zero();
-      for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
-      w_rr += reduce_sum_double(rr);
-      add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
-      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
-                     acc + (kProducts + 8) * kLanes);
-      add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, acc_host);
-      fold(acc, kAll, begin == 0, other);
-    }
-    double S[8][8];
-    unpack_products(8, other, S);
-    const double keep_all = direct ? 0 : 1, sign = direct ? 1 : -1;
-    const double w_some[9] = {w[0], w[1], w[3], w[1], w[2], w[4], w[3], w[4], w_rr};
-    for (int k = 0; k < 9; ++k) sums.W[k / 3][k % 3] = keep_all * sums.W[k / 3][k % 3] + sign * w_some[k];
-    for (int k = 0; k < 8; ++k) {
-      for (int p = 0; p < 3; ++p) sums.X[p][k] = keep_all * sums.X[p][k] + sign * other[kProducts + 8 * p + k];
-      for (int j = 0; j < 8; ++j) sums.S[k][j] = keep_all * sums.S[k][j] + sign * S[k][j];
-    }
-  }
+  double c[3][8];
+  unweighted_esm(total, total_host, r, count, root, info->error, &sums, c);
+  if (outliers > 0) correct_esm(a, s, n, outliers, r, root, &rows, acc, acc_host, &sums);
   if (a.exact) project_esm(c, &sums);
   double g[8], M[9][8];
   for (int k = 0; k < 8; ++k) g[k] = -sums.X[2][k];

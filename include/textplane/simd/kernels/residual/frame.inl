@@ -30,6 +30,30 @@ TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame&
   return inside;
 }
 
+// H^-1 and theta^T H^-1, to the frame. (Arguments one by one: arrays would pass through memory.)
+TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, double h4, double h5, double h6,
+                                  double h7, double h8, const double* p, ResidualFrame* f) noexcept {
+  const double i0 = h4 * h8 - h5 * h7, i1 = h2 * h7 - h1 * h8, i2 = h1 * h5 - h2 * h4;
+  const double i3 = h5 * h6 - h3 * h8, i4 = h0 * h8 - h2 * h6, i5 = h2 * h3 - h0 * h5;
+  const double i6 = h3 * h7 - h4 * h6, i7 = h1 * h6 - h0 * h7, i8 = h0 * h4 - h1 * h3;
+  const double det = h0 * i0 + h1 * i3 + h2 * i6;
+  if (!(abs_d(det) > 1e-9)) return false;
+  const double idet = 1 / det;
+  f->inverse[0] = i0 * idet;
+  f->inverse[1] = i1 * idet;
+  f->inverse[2] = i2 * idet;
+  f->inverse[3] = i3 * idet;
+  f->inverse[4] = i4 * idet;
+  f->inverse[5] = i5 * idet;
+  f->inverse[6] = i6 * idet;
+  f->inverse[7] = i7 * idet;
+  f->inverse[8] = i8 * idet;
+  f->q[0] = (p[0] * i0 + p[1] * i3 + p[2] * i6) * idet;
+  f->q[1] = (p[0] * i1 + p[1] * i4 + p[2] * i7) * idet;
+  f->q[2] = (p[0] * i2 + p[1] * i5 + p[2] * i8) * idet;
+  return true;
+}
+
 // False where the numbers exceed float, or H has no inverse.
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -71,25 +95,7 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   f->rho[2] = static_cast<float>(r2);
   if (!(abs_d(r0) < 1e30 && abs_d(r1) < 1e30 && abs_d(r2) < 1e30)) return false;
 
-  const double i0 = h4 * h8 - h5 * h7, i1 = h2 * h7 - h1 * h8, i2 = h1 * h5 - h2 * h4;
-  const double i3 = h5 * h6 - h3 * h8, i4 = h0 * h8 - h2 * h6, i5 = h2 * h3 - h0 * h5;
-  const double i6 = h3 * h7 - h4 * h6, i7 = h1 * h6 - h0 * h7, i8 = h0 * h4 - h1 * h3;
-  const double det = h0 * i0 + h1 * i3 + h2 * i6;
-  if (!(abs_d(det) > 1e-9)) return false;
-  const double idet = 1 / det;
-  f->inverse[0] = i0 * idet;
-  f->inverse[1] = i1 * idet;
-  f->inverse[2] = i2 * idet;
-  f->inverse[3] = i3 * idet;
-  f->inverse[4] = i4 * idet;
-  f->inverse[5] = i5 * idet;
-  f->inverse[6] = i6 * idet;
-  f->inverse[7] = i7 * idet;
-  f->inverse[8] = i8 * idet;
-  f->q[0] = (p0 * i0 + p1 * i3 + p2 * i6) * idet;
-  f->q[1] = (p0 * i1 + p1 * i4 + p2 * i7) * idet;
-  f->q[2] = (p0 * i2 + p1 * i5 + p2 * i8) * idet;
-
+  if (!invert(h0, h1, h2, h3, h4, h5, h6, h7, h8, a.theta, f)) return false;
   f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
   f->tiles.guess.likely = false;
   return true;

@@ -21,6 +21,57 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const Re
   return Status::ok;
 }
 
+// From sums of rows with 1, I and d to those with 1, n and r.
+TEXTPLANE_SIMD_INLINE void unweighted_sums(const double* rows, int form, const Residual& r, double count, double root,
+                                           double error, WeightedSums* sums) noexcept {
+  const double by_s = 1 / r.i_s, by_root = 1 / root;
+  const vd j1 = loadd(rows), ji = loadd(rows + form), jd = loadd(rows + 2 * form);
+  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
+  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
+  stored(sums->e, muld(setd(1 / count), j1));
+  stored(sums->jn, jn);
+  stored(sums->w1, j1);
+  stored(sums->wn, jn);
+  stored(sums->wr, jr);
+  sums->w[0] = count;
+  sums->w[1] = 0;
+  sums->w[2] = 1;
+  sums->w[3] = 0;
+  sums->w[4] = -0.5 * error;
+}
+
+// Makes weighted sums of the unweighted ones in `total` (products) and `sums`: takes away what the outliers' weights
+// do, or sums all pixels again.
+TEXTPLANE_SIMD_INLINE void correct_weights(int form, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                           int outliers, const Residual& r, double root, const RowConstants& constants,
+                                           RowStrip* rows, float* acc, double* total, WeightedSums* sums) noexcept {
+  const int products = product_count(form), all = products + 3 * form;
+  // If most pixels are outliers, sum them directly: the difference would lose digits.
+  const bool direct = outliers > n / 2;
+  const int weighted = direct ? n : outliers;
+  double w[5] = {0, 0, 0, 0, 0}, other[kMostSums];
+  int terms = 0;
+  WeightedStrip ws;
+  for (int begin = 0; begin < weighted; begin += kStrip) {
+    const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
+    weigh_strip(a, s, direct ? nullptr : s.list + begin, begin, m, r, root, !direct, &ws, w);
+    add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, rows, terms == 0, acc);
+    add_strip_weights(form, ws, *rows, m, terms == 0, acc + products * kLanes);
+    terms += kStrip / kLanes;
+    if (terms >= kFoldTerms || begin + kStrip >= weighted) {
+      fold(acc, all, begin < kFoldTerms * kLanes, other);
+      terms = 0;
+    }
+  }
+  const double sign = direct ? 1 : -1;
+  const vd rest = setd(direct ? 0 : 1), by = setd(sign);
+  for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
+  stored(sums->w1, maddd(by, loadd(other + products), muld(rest, loadd(sums->w1))));
+  stored(sums->wn, maddd(by, loadd(other + products + form), muld(rest, loadd(sums->wn))));
+  stored(sums->wr, maddd(by, loadd(other + products + 2 * form), muld(rest, loadd(sums->wr))));
+  for (int k = 0; k < 5; ++k) sums->w[k] = (direct ? 0 : sums->w[k]) + sign * w[k];
+}
+
 // Normal equations of `parameters` (3, 6 or 9) for the host pixels, of which there are at least a.min_visible.
 TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
                                              const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info,
@@ -28,7 +79,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   const int form = parameters == 9 ? 8 : parameters, products = product_count(form), all = products + 3 * form;
   const int n = host.n;
   float acc[(kMostSums + 8) * kMostLanes];
-  double total[kMostSums], other[kMostSums];
+  double total[kMostSums];
   zero_rest(all, acc);
   float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
@@ -61,50 +112,13 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
   Residual r;
   const Status status = make_residual(a, offsets, sides, n, &r, info);
   if (status != Status::ok) return status;
-  const double count = n, root = sqrt_d(count);
+  const double root = sqrt_d(n);
   const int outliers = add_costs(a, s, n, r, s.list, info);
 
   WeightedSums sums;
-  const double by_s = 1 / r.i_s, by_root = 1 / root;
-  const vd j1 = loadd(total + products), ji = loadd(total + products + form), jd = loadd(total + products + 2 * form);
-  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
-  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
-  stored(sums.e, muld(setd(1 / count), j1));
-  stored(sums.jn, jn);
-  stored(sums.w1, j1);
-  stored(sums.wn, jn);
-  stored(sums.wr, jr);
-  sums.w[0] = count;
-  sums.w[1] = 0;
-  sums.w[2] = 1;
-  sums.w[3] = 0;
-  sums.w[4] = -0.5 * info->error;
+  unweighted_sums(total + products, form, r, n, root, info->error, &sums);
 
-  if (outliers > 0) {
-    // If most pixels are outliers, sum them directly: the difference would lose digits.
-    const bool direct = outliers > n / 2;
-    const int weighted = direct ? n : outliers;
-    double w[5] = {0, 0, 0, 0, 0};
-    WeightedStrip ws;
-    for (int begin = 0; begin < weighted; begin += kStrip) {
-      const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
-      weigh_strip(a, s, direct ? nullptr : s.list + begin, begin, m, r, root, !direct, &ws, w);
-      add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, &rows, terms == 0, acc);
-      add_strip_weights(form, ws, rows, m, terms == 0, acc + products * kLanes);
-      terms += kStrip / kLanes;
-      if (terms >= kFoldTerms || begin + kStrip >= weighted) {
-        fold(acc, all, begin < kFoldTerms * kLanes, other);
-        terms = 0;
-      }
-    }
-    const double sign = direct ? 1 : -1;
-    const vd rest = setd(direct ? 0 : 1), by = setd(sign);
-    for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
-    stored(sums.w1, maddd(by, loadd(other + products), muld(rest, j1)));
-    stored(sums.wn, maddd(by, loadd(other + products + form), muld(rest, jn)));
-    stored(sums.wr, maddd(by, loadd(other + products + 2 * form), muld(rest, jr)));
-    for (int k = 0; k < 5; ++k) sums.w[k] = (direct ? 0 : sums.w[k]) + sign * w[k];
-  }
+  if (outliers > 0) correct_weights(form, a, s, n, outliers, r, root, constants, &rows, acc, total, &sums);
   unpack_products(form, total, sums.S);
   project_sums(form, a.exact, r.i_s, &sums);
   if (form == 8) {

@@ -13,22 +13,6 @@ struct FewPixels {
   float i[kFewStep], e[kFewStep], root[kFewStep];
 };
 
-// With L2's weights in p: applies those of Cauchy or Tukey and returns the sum of their costs.
-TEXTPLANE_SIMD_ENTRY float weigh_few_all(const simd::ResidualArgs& a, double root, int n, FewPixels* p) noexcept {
-  const RobustVectors robust = broadcast_robust(a.robust, a.delta);
-  const vf by = set1(static_cast<float>(root));
-  vf sum = zero();
-  for (int k = 0; k < n; k += kLanes) {
-    const vf r = load(p->e + k), e = mul(r, by);
-    vf rho, w;
-    robust_vector(robust, mul(e, e), &rho, &w);
-    store(p->e + k, mul(w, r));
-    store(p->root + k, mul(w, load(p->root + k)));
-    sum = add(sum, rho);  // rho(0) = 0
-  }
-  return reduce_sum(sum);
-}
-
 // From n intensities of target and host: residuals, weights, costs. The status is as that of make_residual().
 TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
                                       FewPixels* p, simd::ResidualInfo* info) noexcept {
@@ -95,10 +79,26 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->root + k, mul(w, by_s));
   }
   reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
-  if (simd::weighs_all(a.robust)) sum[1] = weigh_few_all(a, root, n, p);
   info->error = sum[0] * by_count;
   info->cost = sum[1] * by_count;
   return Status::ok;
+}
+
+// With L2's weights in p: applies those of Cauchy or Tukey, and their cost.
+TEXTPLANE_SIMD_ENTRY void weigh_few_all(const simd::ResidualArgs& a, int n, FewPixels* p,
+                                        simd::ResidualInfo* info) noexcept {
+  const RobustVectors robust = broadcast_robust(a.robust, a.delta);
+  const vf count = set1(static_cast<float>(n));
+  vf sum = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vf r = load(p->e + k);
+    vf rho, w;
+    robust_vector(robust, mul(count, mul(r, r)), &rho, &w);
+    store(p->e + k, mul(w, r));
+    store(p->root + k, mul(w, load(p->root + k)));
+    sum = add(sum, rho);  // rho(0) = 0
+  }
+  info->cost = static_cast<double>(reduce_sum(sum)) / n;
 }
 
 // Three rows become root (row - mean - i (sum i row) / (sum i^2)); with the normalisation held, root row.
@@ -217,7 +217,9 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const Re
   SampleStrip strip;
   collect_values(host, f, 0, host.n, s, &strip);
   FewPixels pixels;
-  return weigh_few(a, s.i, host.h, host.n, &pixels, info);
+  const Status status = weigh_few(a, s.i, host.h, host.n, &pixels, info);
+  if (simd::weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
+  return status;
 }
 
 // Normal equations of `parameters` (3, 6 or 9) for at most kRowPixels host pixels.
@@ -235,6 +237,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
   if (status != Status::ok) return status;
+  if (simd::weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
 
   const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
   float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];

@@ -87,6 +87,24 @@ TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& 
   return s;
 }
 
+// The model's sums without weights.
+TEXTPLANE_SIMD_INLINE void template_unweighted(const simd::TemplateModel& m, const simd::TemplateSums& exact,
+                                               double mean, double norm, double error, WeightedSums* sums) noexcept {
+  const double count = m.n;
+  for (int k = 0; k < 8; ++k) {
+    const double with_n = (static_cast<double>(exact.column[k + 1]) * m.step[k] - mean * count * m.e[k]) / norm;
+    sums->e[k] = m.e[k];
+    sums->jn[k] = sums->wn[k] = m.c[k];
+    sums->w1[k] = count * m.e[k];
+    sums->wr[k] = m.c[k] - with_n;
+    for (int j = 0; j < 8; ++j) sums->S[k][j] = m.S[k][j];
+  }
+  sums->w[0] = count;
+  sums->w[1] = sums->w[3] = 0;
+  sums->w[2] = 1;
+  sums->w[4] = 0.5 * error;
+}
+
 // Takes from the sums what the weights of the outliers in the list take away; where `direct`, sets them to those of all
 // pixels.
 TEXTPLANE_SIMD_INLINE void template_outliers(const simd::ResidualArgs& a, const ResidualArrays& s, int outliers,
@@ -100,22 +118,32 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const simd::ResidualArgs& a, const 
   RowConstants unused;
   for (int begin = 0; begin < outliers; begin += kStrip) {
     const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
-    weigh_strip(a, s, s.list + begin, begin, m, r, root, !direct, &ws, w);
+    if (direct)
+      weigh_all(a, s, begin, m, r, root, &ws, w);
+    else
+      weigh_huber(a, s, s.list + begin, begin, m, r, root, true, &ws, w);
     add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
     add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
                    acc + (kProducts + 8) * kLanes);
     add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
     fold(acc, kAll, begin == 0, other);
   }
-  unpack_products(8, other, S);
-  const double rest = direct ? 0 : 1, sign = direct ? 1 : -1;
-  for (int k = 0; k < 8; ++k) {
-    sums->w1[k] = rest * sums->w1[k] + sign * other[kProducts + k];
-    sums->wn[k] = rest * sums->wn[k] + sign * other[kProducts + 8 + k];
-    sums->wr[k] = rest * sums->wr[k] + sign * other[kProducts + 16 + k];
-    for (int j = 0; j < 8; ++j) sums->S[k][j] = rest * sums->S[k][j] + sign * S[k][j];
+  if (direct) {
+    unpack_products(8, other, sums->S);
+    stored(sums->w1, loadd(other + kProducts));
+    stored(sums->wn, loadd(other + kProducts + 8));
+    stored(sums->wr, loadd(other + kProducts + 16));
+    for (int k = 0; k < 5; ++k) sums->w[k] = w[k];
+    return;
   }
-  for (int k = 0; k < 5; ++k) sums->w[k] = rest * sums->w[k] + sign * w[k];
+  unpack_products(8, other, S);
+  for (int k = 0; k < 8; ++k) {
+    sums->w1[k] -= other[kProducts + k];
+    sums->wn[k] -= other[kProducts + 8 + k];
+    sums->wr[k] -= other[kProducts + 16 + k];
+    for (int j = 0; j < 8; ++j) sums->S[k][j] -= S[k][j];
+  }
+  for (int k = 0; k < 5; ++k) sums->w[k] -= w[k];
 }
 
 // Samples and judges; where `derivatives`, normal equations.
@@ -171,18 +199,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   }
 
   WeightedSums sums;
-  for (int k = 0; k < 8; ++k) {
-    const double with_n = (static_cast<double>(exact.column[k + 1]) * m.step[k] - mean * count * m.e[k]) / norm;
-    sums.e[k] = m.e[k];
-    sums.jn[k] = sums.wn[k] = m.c[k];
-    sums.w1[k] = count * m.e[k];
-    sums.wr[k] = m.c[k] - with_n;
-    for (int j = 0; j < 8; ++j) sums.S[k][j] = m.S[k][j];
-  }
-  sums.w[0] = count;
-  sums.w[1] = sums.w[3] = 0;
-  sums.w[2] = 1;
-  sums.w[4] = 0.5 * info->error;
+  template_unweighted(m, exact, mean, norm, info->error, &sums);
   template_outliers(a, s, outliers, simd::weighs_all(a.robust), r, root, &sums);
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
