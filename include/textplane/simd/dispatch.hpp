@@ -33,14 +33,17 @@ namespace simd {
 /// True when this translation unit holds kernels for `target` and this machine runs them.
 inline bool supported(Target target) noexcept { return compiled(target) && detail::cpu_runs(target); }
 
-/// The supported target with the highest number; where TEXTPLANE_TARGET fixes one, that.
+/// The widest supported target, of two alike the later one; where TEXTPLANE_TARGET fixes one, that.
 inline Target best_target() noexcept {
 #if defined(TEXTPLANE_TARGET)
   return Target::TEXTPLANE_TARGET;
 #else
-  int best = kTargetCount - 1;
-  while (best > 0 && !supported(static_cast<Target>(best))) --best;
-  return static_cast<Target>(best);
+  Target best = Target::scalar;
+  for (int i = 0; i < kTargetCount; ++i) {
+    const Target target = static_cast<Target>(i);
+    if (supported(target) && lanes(target) >= lanes(best)) best = target;
+  }
+  return best;
 #endif
 }
 

@@ -65,8 +65,8 @@
 #endif
 
 // The table. A target's operations are in ops/<name>.inl.
-//   number    simd::Target; does not change between versions. Of the targets that a CPU runs the highest is the best.
-//   lanes     floats in a vector
+//   number    simd::Target; does not change between versions
+//   lanes     floats in a vector; of the targets that a CPU runs the widest is the best, of two alike the later one
 //   fused     whether madd() rounds once
 //   needs     TEXTPLANE_SIMD_ON_<needs>
 //   few       the target whose kernels take patches of few pixels, sooner than its own would
