@@ -2,7 +2,7 @@
 //
 //   images.txt, rgb.txt   `timestamp path` a line, times strictly increasing, `#` comments; the path is relative to the
 //                         folder and runs to the end of the line
-//   a folder of images    .png .jpg .jpeg .pgm .ppm, in the natural order of their names: digits by their value, so that
+//   a folder of images    .png .jpg .jpeg .pgm .ppm, in the natural order of their names: digits by value, so that
 //                         9.png comes before 10.png. Hidden files are skipped. Times: 0, 1/fps, 2/fps, ...
 #ifndef TEXTSLAM_IO_FRAME_LIST_HPP
 #define TEXTSLAM_IO_FRAME_LIST_HPP

@@ -237,19 +237,18 @@ SymmetricEigen<S, N> symmetric_eigen(const Eigen::Matrix<S, N, N>& matrix) noexc
         }
       }
   }
+  const auto swap = [](S& x, S& y) noexcept {
+    const S old = x;
+    x = y;
+    y = old;
+  };
   for (int i = 0; i < N; ++i) e.values[i] = a(i, i);
   for (int i = 0; i < N; ++i)
-    for (int j = i + 1; j < N; ++j)
-      if (e.values[j] < e.values[i]) {
-        const S v = e.values[i];
-        e.values[i] = e.values[j];
-        e.values[j] = v;
-        for (int k = 0; k < N; ++k) {
-          const S w = e.vectors(k, i);
-          e.vectors(k, i) = e.vectors(k, j);
-          e.vectors(k, j) = w;
-        }
-      }
+    for (int j = i + 1; j < N; ++j) {
+      if (!(e.values[j] < e.values[i])) continue;
+      swap(e.values[i], e.values[j]);
+      for (int k = 0; k < N; ++k) swap(e.vectors(k, i), e.vectors(k, j));
+    }
   return e;
 }
 

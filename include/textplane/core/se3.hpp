@@ -113,12 +113,8 @@ Vector3<S> so3_log(const Matrix3<S>& R) noexcept {
     y = v[1];
     z = v[2];
   }
-  if (w < S(0)) {
-    w = -w;
-    x = -x;
-    y = -y;
-    z = -z;
-  }
+  const S sign = w < S(0) ? S(-1) : S(1);
+  w = sign * w;
   const S n2 = x * x + y * y + z * z;
   S factor;
   if (n2 < S(1e-4)) {
@@ -129,7 +125,7 @@ Vector3<S> so3_log(const Matrix3<S>& R) noexcept {
     const S n = sqrt(n2);
     factor = S(2) * atan2(n, w) / n;
   }
-  return factor * Vector3<S>(x, y, z);
+  return (sign * factor) * Vector3<S>(x, y, z);
 }
 
 /// Exp of the twist xi = (v, omega): rotation so3_exp(omega), translation V v with V = I + b [w]x + c [w]x^2.

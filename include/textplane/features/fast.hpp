@@ -19,7 +19,7 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// A corner at pixel (x, y). `score`: the largest threshold (intensity) at which it is a corner, an integer in
-/// [threshold, 254]; 0 without non-maximum suppression, as in OpenCV (see fast_score()).
+/// [threshold, 254]; 0 without non-maximum suppression, as in OpenCV.
 struct Corner {
   float x = 0;      ///< px of the image.
   float y = 0;      ///< Likewise.
@@ -27,47 +27,6 @@ struct Corner {
 };
 
 namespace detail {
-
-// Byte offsets of the circle, clockwise from the pixel below the centre.
-struct FastCircle {
-  std::ptrdiff_t offset[16];
-
-  explicit FastCircle(std::ptrdiff_t stride) noexcept {
-    constexpr int dx[16] = {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1};
-    constexpr int dy[16] = {3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1, 0, 1, 2, 3};
-    for (int k = 0; k < 16; ++k) offset[k] = dx[k] + dy[k] * stride;
-  }
-};
-
-// The largest threshold at which the pixel is a corner: the smallest difference along an arc of 9 pixels, maximised
-// over the 16 arcs, brighter and darker, less one because the comparison is strict. At least -1.
-inline int fast_score(const std::uint8_t* p, const FastCircle& circle) noexcept {
-  int low[24], high[24];  // minimum and maximum of the differences along arcs, whose length doubles in every pass
-  for (int k = 0; k < 16; ++k) low[k] = high[k] = *p - p[circle.offset[k]];
-  for (int k = 16; k < 24; ++k) low[k] = high[k] = low[k - 16];
-  int first_low[16], first_high[16];
-  for (int k = 0; k < 16; ++k) {
-    first_low[k] = low[k + 8];
-    first_high[k] = high[k + 8];
-  }
-  const auto minimum = [](int a, int b) { return a < b ? a : b; };
-  const auto maximum = [](int a, int b) { return a > b ? a : b; };
-  int best = 0;
-  for (int k = 0; k < 23; ++k) {
-    low[k] = minimum(low[k], low[k + 1]);
-    high[k] = maximum(high[k], high[k + 1]);
-  }
-  for (int k = 0; k < 21; ++k) {
-    low[k] = minimum(low[k], low[k + 2]);
-    high[k] = maximum(high[k], high[k + 2]);
-  }
-  for (int k = 0; k < 16; ++k) {
-    const int least = minimum(minimum(low[k], low[k + 4]), first_low[k]);
-    const int most = maximum(maximum(high[k], high[k + 4]), first_high[k]);
-    best = maximum(best, maximum(least, -most));
-  }
-  return best - 1;
-}
 
 // Calls emit(x, y, score) for every corner in raster order. `scratch`: fast_scratch_size() bytes where `suppress`.
 template <class Emit>
@@ -114,13 +73,6 @@ void scan_fast(const ImageView8& image, int threshold, bool suppress, std::uint8
 }
 
 }  // namespace detail
-
-/// FAST score of pixel (x, y): the largest threshold at which it is a corner, -1 where it is none at any threshold or
-/// lies less than 3 px from a border. No allocation.
-inline int fast_score(const ImageView8& image, int x, int y) noexcept {
-  if (!image.valid() || x < 3 || y < 3 || x >= image.width() - 3 || y >= image.height() - 3) return -1;
-  return detail::fast_score(image.row(y) + x, detail::FastCircle(image.stride()));
-}
 
 /// Bytes of scratch that detect_fast() needs for an image of this width.
 constexpr std::size_t fast_scratch_size(int width) noexcept {

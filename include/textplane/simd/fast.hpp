@@ -43,7 +43,7 @@ namespace simd {
 /// The strength of a pixel p is the largest d for which 9 consecutive pixels of the circle of 16 round it are all >=
 /// I(p) + d or all <= I(p) - d. Sets scores[x] = strength - less where strength > threshold, 0 elsewhere, for 3 <= x <
 /// width - 3, and tells whether one of them is not 0. So pixel x is a FAST corner at `threshold` where its strength
-/// counts, and its score in the sense of fast_score() is strength - 1. The same bytes on every target. Reads the pixels
+/// counts, and its score, the largest such threshold, is strength - 1. The same bytes on every target. Reads the pixels
 /// of the row and of the 3 rows on either side alone. No allocation.
 TEXTPLANE_KERNEL bool fast_row(const FastRowArgs& args) noexcept TEXTPLANE_SIMD_BODY(fast_row(args));
 
