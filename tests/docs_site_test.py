@@ -18,7 +18,7 @@ from browser import Browser, check, chromium, skip  # noqa: E402
 
 FUNCTIONS = ["align_pose", "refine_pose", "refine_plane", "make_patch", "plane_from_matches", "solve_window",
              "evaluate_batch", "track_klt", "undistort"]
-REFERENCE = ["index", "namespacemembers_func", "annotated", "files", "namespaces", "namespacetextplane",
+REFERENCE = ["index", "functions", "annotated", "files", "namespaces", "namespacetextplane",
              "namespacetextplane_1_1reference", "namespacetextplane_1_1simd", "structtextplane_1_1SE3",
              "se3_8hpp", "se3_8hpp_source"]
 PHONE, DESKTOP = (390, 844), (1440, 1000)
