@@ -158,7 +158,8 @@ void count_features(const Scene& scene) {
 
   tp::PointPatch patch;
   count("klt_template/21x21", [&] {
-    return is_ok(tp::extract_point_patch(scene.image.view(), {150.3F, 110.6F}, Eigen::Matrix2f::Identity(), 10, &patch));
+    return is_ok(
+        tp::extract_point_patch(scene.image.view(), {150.3F, 110.6F}, Eigen::Matrix2f::Identity(), 10, &patch));
   });
   count("klt_align/21x21", [&] {
     return is_ok(tp::align_point_patch(patch, scene.image.view(), {151.1F, 110.0F}).status);

@@ -93,6 +93,7 @@ class Image {
 
   /// A view of the whole image, valid until the image is resized or destroyed.
   ImageView<T> view() noexcept { return {pixels_.data(), width_, height_}; }
+  /// \overload
   ImageView<const T> view() const noexcept { return {pixels_.data(), width_, height_}; }
 
  private:
