@@ -44,6 +44,7 @@ class Tesseract final : public TextDetector, public TextReader {
 /// Throw InputError where Tesseract has no data for the language.
 std::unique_ptr<TextDetector> make_tesseract_detector(const DetectorOptions& options, const Sequence& sequence);
 std::unique_ptr<TextReader> make_tesseract_reader(const DetectorOptions& options);
+inline bool is_tesseract_ready(const DetectorOptions&) { return true; }
 
 }  // namespace textslam
 

@@ -17,16 +17,15 @@ namespace textslam {
 
 void register_plugins() {
 #ifdef TEXTSLAM_WITH_DNN
-  register_detector({"dnn", make_dnn_detector, {"dnn", "tesseract"}});
-  register_reader({"dnn", make_dnn_reader, is_dnn_reader_ready});
+  register_plugin({"dnn", make_dnn_detector, make_dnn_reader, is_dnn_reader_ready, {"dnn", "tesseract"}});
 #else
-  register_missing("dnn", "TEXTSLAM_DNN", "libopencv-dev");
+  register_plugin(missing_plugin("dnn", "TEXTSLAM_DNN", "libopencv-dev"));
 #endif
 #ifdef TEXTSLAM_WITH_TESSERACT
-  register_detector({"tesseract", make_tesseract_detector, {"tesseract"}, true});
-  register_reader({"tesseract", make_tesseract_reader});
+  register_plugin(
+      {"tesseract", make_tesseract_detector, make_tesseract_reader, is_tesseract_ready, {"tesseract"}, true});
 #else
-  register_missing("tesseract", "TEXTSLAM_TESSERACT", "libtesseract-dev tesseract-ocr-eng");
+  register_plugin(missing_plugin("tesseract", "TEXTSLAM_TESSERACT", "libtesseract-dev tesseract-ocr-eng"));
 #endif
 #ifdef TEXTSLAM_WITH_VIDEO
   register_video(open_libav_video);

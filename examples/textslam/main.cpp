@@ -82,7 +82,7 @@ void render(const textslam::RenderOptions& options) {
 }
 
 // Runs and prints; returns the exit code.
-int run(const textslam::RunOptions& options) {
+int run_and_print(const textslam::RunOptions& options) {
   const textslam::RunResult result = textslam::run(options);
   if (!options.json_lines)
     std::printf("%s  %-22s %s\n", textslam::describe(result.summary).table.c_str(), "output",
@@ -117,7 +117,7 @@ int execute(int argc, char** argv) {
     render(command.render);
     if (command.render_only) return 0;
   }
-  return run(options);
+  return run_and_print(options);
 }
 
 }  // namespace

@@ -42,83 +42,72 @@ class ReadingDetector final : public TextDetector {
   std::unique_ptr<TextReader> reader_;
 };
 
-std::vector<DetectorPlugin>& detectors() {
-  static std::vector<DetectorPlugin> plugins = {
-      {"files",
-       [](const DetectorOptions&, const Sequence& sequence) { return std::make_unique<FileDetector>(sequence); },
-       {}},
-      {"classical", [](const DetectorOptions&, const Sequence&) { return std::make_unique<ClassicalDetector>(); }, {}}};
-  return plugins;
+std::vector<TextPlugin>& plugins() {
+  static std::vector<TextPlugin> all = {
+      {"files", [](auto&, const Sequence& s) { return std::make_unique<FileDetector>(s); }, nullptr},
+      {"classical", [](auto&...) { return std::make_unique<ClassicalDetector>(); }, nullptr}};
+  return all;
 }
 
-std::vector<ReaderPlugin>& readers() {
-  static std::vector<ReaderPlugin> plugins;
-  return plugins;
+auto find(const std::string& name) {
+  return std::find_if(plugins().begin(), plugins().end(), [&](const TextPlugin& p) { return p.name == name; });
 }
 
-template <class Plugin>
-std::vector<std::string> names(const std::vector<Plugin>& plugins) {
+// The names of all that have a detector, or a reader.
+template <class Member>
+std::vector<std::string> names(Member member) {
   std::vector<std::string> out;
-  for (const Plugin& plugin : plugins) out.push_back(plugin.name);
+  for (const TextPlugin& plugin : plugins())
+    if (plugin.*member) out.push_back(plugin.name);
   return out;
 }
 
-template <class Plugin>
-Plugin* find(std::vector<Plugin>& plugins, const std::string& name) {
-  const auto found = std::find_if(plugins.begin(), plugins.end(), [&](const Plugin& p) { return p.name == name; });
-  return found == plugins.end() ? nullptr : &*found;
-}
-
-template <class Plugin>
-Plugin& find(std::vector<Plugin>& plugins, const std::string& name, const char* kind) {
-  if (Plugin* const found = find(plugins, name)) return *found;
+template <class Member>
+const TextPlugin& plugin_with(Member member, const std::string& name, const char* kind) {
+  const auto found = find(name);
+  if (found != plugins().end() && *found.*member) return *found;
   std::string known;
-  for (const std::string& other : names(plugins)) known += (known.empty() ? "" : ", ") + other;
+  for (const std::string& other : names(member)) known += (known.empty() ? "" : ", ") + other;
   throw std::invalid_argument("unknown " + std::string(kind) + " '" + name + "'; known: " + known);
 }
 
-template <class Plugin>
-void add(std::vector<Plugin>& plugins, Plugin plugin) {
-  if (Plugin* const same = find(plugins, plugin.name)) {
-    *same = std::move(plugin);
-  } else {
-    plugins.push_back(std::move(plugin));
-  }
-}
-
-// The reader of --words auto; "none" where nobody reads.
+// The reader of --words auto.
 std::string chosen_reader(const DetectorOptions& options) {
-  for (const std::string& name : find(detectors(), options.name, "detector").readers) {
-    const ReaderPlugin* const reader = find(readers(), name);
-    if (reader != nullptr && (!reader->ready || reader->ready(options))) return name;
-  }
+  for (const std::string& name : plugin_with(&TextPlugin::detector, options.name, "detector").readers)
+    if (find(name) != plugins().end() && find(name)->ready(options)) return name;
   return "none";
 }
 
 }  // namespace
 
-void register_detector(DetectorPlugin plugin) { add(detectors(), std::move(plugin)); }
-void register_reader(ReaderPlugin plugin) { add(readers(), std::move(plugin)); }
-
-void register_missing(const std::string& name, const std::string& option, const std::string& packages) {
-  const std::string how = "this build lacks the plug-in; configure with -D" + option + "=ON (Debian: " + packages + ")";
-  register_detector({name,
-                     [=](const DetectorOptions&, const Sequence&) -> std::unique_ptr<TextDetector> {
-                       throw InputError("--detector " + name, 0, how);
-                     },
-                     {}});
-  register_reader(
-      {name,
-       [=](const DetectorOptions&) -> std::unique_ptr<TextReader> { throw InputError("--words " + name, 0, how); },
-       [](const DetectorOptions&) { return false; }});
+TextPlugin missing_plugin(const std::string& name, const std::string& option, const std::string& packages) {
+  const auto refuse = [=](const char* asked) {
+    return InputError(asked + name, 0,
+                      "this build lacks the plug-in; configure with -D" + option + "=ON (Debian: " + packages + ")");
+  };
+  TextPlugin plugin;
+  plugin.name = name;
+  plugin.detector = [=](auto&&...) -> std::unique_ptr<TextDetector> { throw refuse("--detector "); };
+  plugin.reader = [=](auto&&...) -> std::unique_ptr<TextReader> { throw refuse("--words "); };
+  plugin.ready = [](const DetectorOptions&) { return false; };
+  return plugin;
 }
 
-std::vector<std::string> detector_names() { return names(detectors()); }
-std::vector<std::string> reader_names() { return names(readers()); }
+void register_plugin(TextPlugin plugin) {
+  const auto same = find(plugin.name);
+  if (same != plugins().end()) {
+    *same = std::move(plugin);
+  } else {
+    plugins().push_back(std::move(plugin));
+  }
+}
+
+std::vector<std::string> detector_names() { return names(&TextPlugin::detector); }
+std::vector<std::string> reader_names() { return names(&TextPlugin::reader); }
 
 std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, const Sequence& sequence) {
-  const DetectorPlugin& plugin = find(detectors(), options.name, "detector");
-  std::unique_ptr<TextDetector> detector = plugin.make(options, sequence);
+  const TextPlugin& plugin = plugin_with(&TextPlugin::detector, options.name, "detector");
+  std::unique_ptr<TextDetector> detector = plugin.detector(options, sequence);
   if (plugin.reads && options.words == "auto") return detector;
   std::unique_ptr<TextReader> reader = make_reader(options);
   if (!reader) return detector;
@@ -127,7 +116,7 @@ std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, cons
 
 std::unique_ptr<TextReader> make_reader(const DetectorOptions& options) {
   const std::string name = options.words == "auto" ? chosen_reader(options) : options.words;
-  return name == "none" ? nullptr : find(readers(), name, "reader").make(options);
+  return name == "none" ? nullptr : plugin_with(&TextPlugin::reader, name, "reader").reader(options);
 }
 
 }  // namespace textslam

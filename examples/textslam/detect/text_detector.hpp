@@ -39,26 +39,21 @@ struct DetectorOptions {
   std::string words_model;     ///< Of the reader `dnn`; empty: where scripts/get-detector --reader puts it.
 };
 
-/// A detector by its name. "files" (the sequence's own detections, by any external detector) and "classical" (built in,
-/// no model) are always there. Others are plug-ins that main() registers: examples/plugins.
-struct DetectorPlugin {
+/// What detects or reads text, by its name for --detector and --words. "files" (the sequence's own detections, by any
+/// external detector) and "classical" (built in, no model) are always there; main() registers others: examples/plugins.
+struct TextPlugin {
   std::string name;
-  std::function<std::unique_ptr<TextDetector>(const DetectorOptions&, const Sequence&)> make;
-  std::vector<std::string> readers;  ///< --words auto: the first of them that is ready reads after this detector.
-  bool reads = false;                ///< --words auto: its own detections are read as they come.
+  std::function<std::unique_ptr<TextDetector>(const DetectorOptions&, const Sequence&)> detector;
+  std::function<std::unique_ptr<TextReader>(const DetectorOptions&)> reader;
+  /// Whether --words auto may choose its reader.
+  std::function<bool(const DetectorOptions&)> ready = [](const DetectorOptions&) { return true; };
+  std::vector<std::string> readers = {};  ///< --words auto: the first of them that is ready reads after this detector.
+  bool reads = false;                     ///< --words auto: its own detections are read as they come.
 };
-struct ReaderPlugin {
-  std::string name;
-  std::function<std::unique_ptr<TextReader>(const DetectorOptions&)> make;
-  /// Whether --words auto may choose it; null: always.
-  std::function<bool(const DetectorOptions&)> ready = nullptr;
-};
-/// One of the same name is replaced. Not beside other threads.
-void register_detector(DetectorPlugin plugin);
-void register_reader(ReaderPlugin plugin);
-/// A plug-in that detects and reads, but was not built: asking for it throws InputError with CMake's `option` and
-/// Debian's `packages`.
-void register_missing(const std::string& name, const std::string& option, const std::string& packages);
+/// A plug-in that was not built: asking for it throws InputError with CMake's `option` and Debian's `packages`.
+TextPlugin missing_plugin(const std::string& name, const std::string& option, const std::string& packages);
+/// Replaces one of the same name. Not beside other threads.
+void register_plugin(TextPlugin plugin);
 
 std::vector<std::string> detector_names();
 std::vector<std::string> reader_names();

@@ -1,0 +1,128 @@
+// Boards that stand in a world made by formula, and a map of them.
+#ifndef TESTS_TEXTSLAM_RELOCALISE_BOARDS_SUPPORT_HPP
+#define TESTS_TEXTSLAM_RELOCALISE_BOARDS_SUPPORT_HPP
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "textplane/features/select.hpp"
+#include "textplane/geometry/plane.hpp"
+#include "textslam/common/parameters.hpp"
+#include "textslam/map/map.hpp"
+
+namespace textslam {
+namespace boards_support {
+
+constexpr double kDegree = M_PI / 180;
+
+inline SE3d moved(const Vec3& t, const Vec3& w) { return {textplane::so3_exp<double>(w), t}; }
+inline double turn_between(const SE3d& a, const SE3d& b) {
+  return textplane::so3_log<double>(a.R * b.R.transpose()).norm();
+}
+
+// Three boards that stand in the world; the first key frame, at the origin, sees them all and hosts a text on each.
+class TextRecoveryTest : public testing::Test {
+ protected:
+  struct Board {
+    SE3d T_w_b;  // its x to the right, y down, z away from the reader
+    unsigned print;
+  };
+
+  TextRecoveryTest() {
+    map.camera = {262, 262, 159.5, 119.5};
+    map.width = 320;
+    map.height = 240;
+    map.number = 0;
+    boards = {{moved({-0.9, -0.2, 3}, {0, -0.5, 0}), 1},
+              {moved({0.1, 0.5, 3.4}, {0.3, 0, 0}), 2},
+              {moved({1.0, -0.4, 3.1}, {0, 0.4, 0.1}), 3}};
+    map.keyframes.push_back({frame_at(SE3d{}), SE3d{}, {}});
+    const char* const words[] = {"EXIT", "OPEN", "TAXI"};
+    for (std::size_t i = 0; i < boards.size(); ++i) {
+      TextObject text;
+      text.id = static_cast<int>(i);
+      text.state = TextState::mapped;
+      text.host = 0;
+      const Vec3 normal = -boards[i].T_w_b.R.col(2);
+      text.theta = textplane::plane_from_normal<double>(normal, -normal.dot(boards[i].T_w_b.t));
+      textplane::SelectOptions options;
+      options.levels = parameters.text_levels;
+      text.patch =
+          textplane::make_patch(map.keyframes[0].frame.image->view(), map.camera, quad_of(boards[i], SE3d{}), options);
+      EXPECT_TRUE(textplane::is_ok(text.patch.status));
+      text.votes[words[i]] = 3;
+      map.texts.push_back(std::move(text));
+    }
+  }
+
+  static constexpr double kHalfWidth = 0.35, kHalfHeight = 0.15;
+
+  // Letters of a kind: random spots of 6 cm, other ones for each print.
+  static double spot(int i, int j, unsigned print) {
+    std::uint32_t h =
+        static_cast<std::uint32_t>(i) * 2654435761U ^ static_cast<std::uint32_t>(j) * 2246822519U ^ print * 3266489917U;
+    h = (h ^ (h >> 15)) * 739982445U;
+    h = (h ^ (h >> 12)) * 695872825U;
+    return (h ^ (h >> 15)) % 2 == 0 ? 30 : 220;
+  }
+  static double ink(double x, double y, unsigned print) {
+    const double u = x / 0.06, v = y / 0.06;
+    const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
+    const double a = u - i, b = v - j;
+    return (1 - b) * ((1 - a) * spot(i, j, print) + a * spot(i + 1, j, print)) +
+           b * ((1 - a) * spot(i, j + 1, print) + a * spot(i + 1, j + 1, print));
+  }
+
+  Quad<double> quad_of(const Board& board, const SE3d& T_c_w) const {
+    Quad<double> quad;
+    const double signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (std::size_t i = 0; i < 4; ++i)
+      quad.corner[i] =
+          map.camera.project(T_c_w * board.T_w_b * Vec3(signs[i][0] * kHalfWidth, signs[i][1] * kHalfHeight, 0));
+    return quad;
+  }
+
+  // Boards before a plain wall.
+  Frame frame_at(const SE3d& T_c_w) const {
+    Image<std::uint8_t> image(map.width, map.height, 120);
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x)
+        for (const Board& board : boards) {
+          const SE3d T_b_c = (T_c_w * board.T_w_b).inverse();
+          const Vec3 ray = T_b_c.R * map.camera.unproject(Vec2(x, y));
+          const Vec3 p = T_b_c.t - T_b_c.t.z() / ray.z() * ray;
+          if (std::abs(p.x()) > 1.1 * kHalfWidth || std::abs(p.y()) > 1.1 * kHalfHeight) continue;
+          image(x, y) = static_cast<std::uint8_t>(ink(p.x(), p.y(), board.print));
+        }
+    Frame frame;
+    frame.image = std::make_shared<const Pyramid>(image.view(), parameters.pyramid_levels);
+    return frame;
+  }
+
+  // As a detector sees them: corners a pixel off.
+  Detection detection(std::size_t board, const SE3d& T_c_w, const std::string& word) const {
+    Detection d;
+    d.quad = quad_of(boards[board], T_c_w);
+    for (std::size_t i = 0; i < 4; ++i) d.quad.corner[i] += Vec2(i % 2 == 0 ? 1.0 : -0.6, i < 2 ? -0.8 : 0.7);
+    d.text = word;
+    return d;
+  }
+
+  void expect_pose(const SE3d& found, const SE3d& truth, double metres, double degrees) const {
+    EXPECT_LT((found.inverse().t - truth.inverse().t).norm(), metres);
+    EXPECT_LT(turn_between(found, truth) / kDegree, degrees);
+  }
+
+  Parameters parameters;
+  Map map;
+  std::vector<Board> boards;
+};
+
+}  // namespace boards_support
+}  // namespace textslam
+
+#endif  // TESTS_TEXTSLAM_RELOCALISE_BOARDS_SUPPORT_HPP
