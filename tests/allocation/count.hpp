@@ -1,5 +1,6 @@
-// What is allocated: calls of the global operator new are counted (count.cpp), and Eigen, whose own memory does not come from
-// there, is forbidden to allocate where NoAllocation says so; a violation stops the program with Eigen's message.
+// What is allocated: calls of the global operator new are counted (count.cpp), and Eigen, whose own memory does not
+// come from there, is forbidden to allocate where NoAllocation says so; a violation stops the program with Eigen's
+// message.
 #ifndef TEXTPLANE_TESTS_ALLOCATION_COUNT_HPP
 #define TEXTPLANE_TESTS_ALLOCATION_COUNT_HPP
 

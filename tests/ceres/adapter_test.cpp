@@ -54,8 +54,8 @@ class HalfSquare : public ceres::CostFunction {
   const ceres::CostFunction& inner_;
 };
 
-// The largest difference between derivatives in the tangent space and numeric ones, relative to the largest of their block: some are
-// zero, of which ceres::GradientChecker itself would ask the impossible.
+// The largest difference between derivatives in the tangent space and numeric ones, relative to the largest of their
+// block: some are zero, of which ceres::GradientChecker itself would ask the impossible.
 double derivative_error(const ceres::CostFunction& cost, const std::vector<const double*>& blocks,
                         const std::vector<const ceres::Manifold*>& manifolds) {
   ceres::NumericDiffOptions numeric;

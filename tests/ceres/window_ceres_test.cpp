@@ -1,5 +1,5 @@
-// The window solver and Ceres stop at the same optimum of the same problem: reprojection errors under Huber's loss, and of a text
-// either every pixel's residual, whose derivatives adapter_test.cpp proves, or the sums of the kernels.
+// The window solver and Ceres stop at the same optimum of the same problem: reprojection errors under Huber's loss, and
+// of a text either every pixel's residual, whose derivatives adapter_test.cpp proves, or the sums of the kernels.
 #include <gtest/gtest.h>
 
 #include <cstddef>

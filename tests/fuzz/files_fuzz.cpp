@@ -1,5 +1,5 @@
-// Files that the example programs read: any bytes give a result or an InputError whose message is one line and begins with
-// the file's name. The first byte says what the rest is taken for.
+// Files that the example programs read: any bytes give a result or an InputError whose message is one line and begins
+// with the file's name. The first byte says what the rest is taken for.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 // What the fuzzers share: numbers, images and poses out of the fuzzer's bytes, and the check that ends a run.
 //
-// A number is tame, within the range that its place asks for, or wild: NaN, an infinity, a zero, or a magnitude at the edge
-// of a type. The bytes choose, so the fuzzer finds out what the choice leads to. Bytes that run out read as zero.
+// A number is tame, within the range that its place asks for, or wild: NaN, an infinity, a zero, or a magnitude at the
+// edge of a type. The bytes choose, so the fuzzer finds out what the choice leads to. Bytes that run out read as zero.
 #ifndef TEXTPLANE_TESTS_FUZZ_FUZZ_HPP
 #define TEXTPLANE_TESTS_FUZZ_FUZZ_HPP
 

@@ -1,5 +1,5 @@
-// Planes, quads, homographies and triangulation on any numbers: an ok status never comes with a NaN, areas and overlaps stay
-// in their ranges, and a plane that was fitted fits.
+// Planes, quads, homographies and triangulation on any numbers: an ok status never comes with a NaN, areas and overlaps
+// stay in their ranges, and a plane that was fitted fits.
 #include <cmath>
 #include <vector>
 

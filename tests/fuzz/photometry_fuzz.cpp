@@ -1,6 +1,6 @@
-// The photometric kernels on every target against the double reference: any image, patch, mask, pose and plane. Where the
-// input is tame, statuses are equal and numbers agree; where it is not, nothing is read out of bounds and no ok status
-// comes with a NaN.
+// The photometric kernels on every target against the double reference: any image, patch, mask, pose and plane. Where
+// the input is tame, statuses are equal and numbers agree; where it is not, nothing is read out of bounds and no ok
+// status comes with a NaN.
 #include <cmath>
 #include <vector>
 
@@ -11,7 +11,8 @@
 namespace textplane_fuzz {
 namespace {
 
-// Ten times what the tests hold the kernels to on images like photographs: noise varies by all of its contrast within a px.
+// Ten times what the tests hold the kernels to on images like photographs: noise varies by all of its contrast within a
+// px.
 constexpr double kEntryBound = 3e-4, kCostBound = 1e-3;
 constexpr double kClear = 2e-3;  // px to lines of pixels and to borders
 

@@ -1,4 +1,5 @@
-// Runs a fuzzer's inputs again, with any compiler: each argument is a file, or a folder of files. Prints how many it ran.
+// Runs a fuzzer's inputs again, with any compiler: each argument is a file, or a folder of files. Prints how many it
+// ran.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -2,8 +2,8 @@
 // two blocks of JSON:
 //
 //   <script id="data">  the map, the frames, the parameters: the same bytes whenever the run is the same
-//   <script id="run">   what may differ between equal runs: the command line, the sequence's folder, the SIMD target, the
-//                       milliseconds
+//   <script id="run">   what may differ between equal runs: the command line, the sequence's folder, the SIMD target,
+//                       the milliseconds
 //
 // What is in them: summary.hpp, text_map.hpp, report_data.hpp, report_frames.hpp, report_parameters.hpp, timing.hpp.
 #ifndef TEXTSLAM_REPORT_REPORT_HPP

@@ -39,8 +39,8 @@ std::string text_index_json(const std::vector<IndexedText>& texts);
 std::vector<IndexedText> read_text_index(const std::string& path);
 
 /// Texts that match `word`, whatever the case of letters: first texts of that word, then texts whose word holds it,
-/// then texts with a reading that holds it, then texts with a similar reading (word_similarity() of same_word). Equals are
-/// ordered by score.
+/// then texts with a reading that holds it, then texts with a similar reading (word_similarity() of same_word). Equals
+/// are ordered by score.
 std::vector<IndexedText> query(const std::vector<IndexedText>& texts, const std::string& word);
 
 /// Between the normals of two texts, degrees.

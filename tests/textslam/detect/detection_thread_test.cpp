@@ -1,4 +1,5 @@
-// The detector's thread: it never keeps its caller waiting, takes key frames first, and says which frame a result belongs to.
+// The detector's thread: it never keeps its caller waiting, takes key frames first, and says which frame a result
+// belongs to.
 #include "textslam/detect/detection_thread.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@ namespace detection_thread_test {
 
 using Results = std::vector<DetectionThread::Result>;
 
-// A detector that takes as long as the test wants: each image waits for a call of release(). It finds one quad, at the grey
-// level of the image.
+// A detector that takes as long as the test wants: each image waits for a call of release(). It finds one quad, at the
+// grey level of the image.
 class GatedDetector {
  public:
   DetectionThread::Detect detect() {

@@ -78,8 +78,8 @@ TEST(MotionHypothesesTest, ClearRatioFallsWithTheNumberOfErrors) {
   EXPECT_GT(clear_ratio(0, 5), 1e6) << "without errors nothing is clear";
 }
 
-// By two views the cheaper of the motions is the wrong one about as often as not; by further ones it never is. A camera that goes
-// straight ahead may leave a doubt, and it is not decided then.
+// By two views the cheaper of the motions is the wrong one about as often as not; by further ones it never is. A camera
+// that goes straight ahead may leave a doubt, and it is not decided then.
 TEST(MotionHypothesesTest, FurtherViewsOfAPlaneLeaveTheRightMotion) {
   const Parameters parameters;
   int begun = 0, wrong_at_first = 0, decided = 0;

@@ -14,9 +14,9 @@
 namespace textslam {
 namespace loop_closure_test {
 
-// A map of a walk round a circle and some steps on: points in front of each key frame, seen by it and the next two. The last
-// key frames look at what the first ones saw, and the map does not know. From each key frame to the next, lengths grow by a
-// factor that they should not.
+// A map of a walk round a circle and some steps on: points in front of each key frame, seen by it and the next two. The
+// last key frames look at what the first ones saw, and the map does not know. From each key frame to the next, lengths
+// grow by a factor that they should not.
 class LoopClosureTest : public testing::Test {
  protected:
   static constexpr int kRound = 30, kKeyFrames = 33, kEach = 20;

@@ -9,8 +9,8 @@
 namespace textslam {
 namespace {
 
-// A text 0.6 x 0.2 wide, 3 units before the first of three key frames: the second is nearer, the third so near that a part is
-// outside its image.
+// A text 0.6 x 0.2 wide, 3 units before the first of three key frames: the second is nearer, the third so near that a
+// part is outside its image.
 Map map_of_one_text() {
   Map map;
   map.camera = {500, 500, 319.5, 239.5};

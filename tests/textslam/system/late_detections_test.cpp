@@ -86,7 +86,8 @@ TEST_F(LateDetections, SignsAreMappedWhereTheyAreHoweverLate) {
   }
 }
 
-// Words are voted for by the frames between key frames, too: with as many frames a text has more detections than key frames.
+// Words are voted for by the frames between key frames, too: with as many frames a text has more detections than key
+// frames.
 TEST_F(LateDetections, FramesThatAreNoKeyFramesCount) {
   const std::unique_ptr<System> out = run(5);
   int most = 0;

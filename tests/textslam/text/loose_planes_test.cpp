@@ -18,7 +18,8 @@ double uniform(std::mt19937& random, double low, double high) {
 
 double degrees_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI; }
 
-// Points of a plane seen through a quad, their depths off by up to `noise` (relative); every `stray`-th is somewhere else.
+// Points of a plane seen through a quad, their depths off by up to `noise` (relative); every `stray`-th is somewhere
+// else.
 struct Points {
   std::vector<Vec3> m;
   std::vector<double> rho;
@@ -80,7 +81,8 @@ TEST(LoosePlane, RefusesWhatIsNoPlane) {
   EXPECT_FALSE(fit_loose_plane(points.m, points.rho, parameters).ok) << "a line";
 }
 
-// A camera that moves along x before a wall 3 units away with a text on it; points on the wall, observed in every key frame.
+// A camera that moves along x before a wall 3 units away with a text on it; points on the wall, observed in every key
+// frame.
 class LoosePlanesTest : public testing::Test {
  protected:
   LoosePlanesTest() {

@@ -10,7 +10,8 @@
 namespace textslam {
 namespace text_reading_test {
 
-// A wall that the camera sees at a slant of 50 degrees, with smooth waves on it along its own axes, u to the right, v down.
+// A wall that the camera sees at a slant of 50 degrees, with smooth waves on it along its own axes, u to the right, v
+// down.
 struct Wall {
   Vec3 centre{0.1, 0.05, 3};
   Eigen::Matrix3d R = textplane::so3_exp<double>(Vec3(0.2, 0, 0)) * textplane::so3_exp<double>(Vec3(0, 0.85, 0)) *

@@ -1,5 +1,5 @@
-// The plane of a small text settles on the surface that the text lies on; one that is well known, or lies on nothing that the
-// points show, stays.
+// The plane of a small text settles on the surface that the text lies on; one that is well known, or lies on nothing
+// that the points show, stays.
 #include <gtest/gtest.h>
 
 #include <random>
