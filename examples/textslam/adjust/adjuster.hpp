@@ -1,11 +1,11 @@
 // Adjuster: the adjustment that follows a key frame, in step with the frames or on a thread of its own.
 //
-// It is a local one around the newest key frame, or, whenever the map has grown by a share, one of the whole map: the
-// key frames that a local one holds fixed keep their errors, and live poses inherit them.
+// Local around the newest key frame, or, whenever the map has grown by a share, of the whole map: a local one keeps the
+// errors of the key frames that it holds fixed, and live poses inherit them.
 //
-// In step, the adjustment is done when keyframe_added() returns, and the same frames give the same bytes. In real time
-// it runs on a thread of its own while the tracker goes on with the map as it is; collect() takes the result over
-// between two frames. A key frame that comes during an adjustment waits: the next adjustment covers both.
+// In step, keyframe_added() does it all, and the same frames give the same bytes. In real time it runs beside the
+// tracker; collect() takes the result over between two frames. Key frames that come meanwhile share the next
+// adjustment.
 //
 // Threads: all members are called from one thread, which alone touches the map.
 #ifndef TEXTSLAM_ADJUST_ADJUSTER_HPP

@@ -1,5 +1,4 @@
-// What of the map takes part in an adjustment: key frames and points, which of them stay fixed, and what holds the
-// scale.
+// The part of the map that an adjustment takes: key frames and points, what is fixed, and what holds the scale.
 #ifndef TEXTSLAM_ADJUST_ADJUSTMENT_SELECTION_HPP
 #define TEXTSLAM_ADJUST_ADJUSTMENT_SELECTION_HPP
 

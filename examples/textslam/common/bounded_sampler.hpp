@@ -9,8 +9,7 @@
 
 namespace textslam {
 
-/// Keeps every step-th frame. The step is 1 at first and doubles when more than `most` are kept, so once full, at least
-/// half of `most` remain.
+/// Keeps every step-th frame. The step doubles from 1 on, each time more than `most` are kept.
 template <class T>
 class BoundedSampler {
  public:

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "io/names.hpp"
 #include "textplane/core/se3.hpp"
 
 namespace textslam {

@@ -5,6 +5,14 @@
 #include <cstdlib>
 
 namespace textslam {
+namespace {
+
+Json to_value(Mode mode) { return mode == Mode::text ? "text" : mode == Mode::points ? "points" : "loose"; }
+Json to_value(bool value) { return value; }
+Json to_value(int value) { return value; }
+Json to_value(double value) { return short_number(value); }
+
+}  // namespace
 
 Json short_number(double value) {
   if (!std::isfinite(value)) return nullptr;
@@ -40,6 +48,14 @@ Json short_quad(const Quad<double>& quad) {
     if (!corner.allFinite()) return nullptr;
     for (const double value : {corner.x(), corner.y()}) out.push_back(short_number(std::round(10 * value) / 10));
   }
+  return out;
+}
+
+Json parameters_json(const Parameters& parameters) {
+  Json out = Json::array();
+  for_each_parameter(parameters, [&](const char* section, const char* name, const auto& value, const char* meaning) {
+    out.push_back(Json::array({section, name, to_value(value), meaning}));
+  });
   return out;
 }
 

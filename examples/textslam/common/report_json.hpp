@@ -8,6 +8,7 @@
 #include <string>
 
 #include "io/names.hpp"
+#include "textslam/common/parameters.hpp"
 
 namespace textslam {
 
@@ -23,6 +24,9 @@ Json short_pose(const SE3d& T);
 Json short_corners(const std::array<Vector3<double>, 4>& corners);
 /// [x1, y1, ..., x4, y4] in tenths of a pixel; null where a corner is not finite.
 Json short_quad(const Quad<double>& quad);
+
+/// [[section, name, value, meaning], ...] in the order of the list.
+Json parameters_json(const Parameters& parameters);
 
 /// The text of `json` for the inside of a script element: it holds no `<`, so neither `</script>` nor `<!--`, and
 /// parses to the same value. Bytes that are not UTF-8 become U+FFFD.

@@ -1,9 +1,8 @@
 // ClassicalDetector: text quads without a model, from the image alone.
 //
-// On each level of a pyramid: ink by the mean and deviation of a window (text_ink), letters by connected pieces of ink
-// (text_letters), lines by letters side by side (text_lines), quads around lines (text_quads); then the best of those
-// that overlap. It finds printed lines of three letters or more, at most 60 degrees from the horizontal, and reads
-// nothing.
+// On each level of a pyramid: ink (text_ink), letters by connected pieces of ink (text_letters), lines by letters side
+// by side (text_lines), quads around lines (text_quads); then the best of those that overlap. It finds printed lines of
+// three letters or more, at most 60 degrees from the horizontal, and reads nothing.
 #ifndef TEXTSLAM_DETECT_CLASSICAL_DETECTOR_HPP
 #define TEXTSLAM_DETECT_CLASSICAL_DETECTOR_HPP
 

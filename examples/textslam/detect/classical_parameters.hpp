@@ -1,9 +1,8 @@
 // ClassicalParameters: all thresholds of the classical text detector in one place.
 //
-// Lengths without a unit are shares of the letters' or the line's height; "level px" are pixels of the pyramid level
-// that is searched. Most defaults follow from print in general. ink_sigmas, min_variety, min_score and the limits of
-// ink, cover, lean and quad height were chosen by true and false boxes in one rendered room (seed 1), kitchen video
-// frames and street photographs: results on those images flatter the detector.
+// Lengths without a unit are shares of the letters' or the line's height; "level px" are pixels of the searched pyramid
+// level. ink_sigmas, min_variety, min_score and the limits of ink, cover, lean and quad height were tuned on a rendered
+// room (seed 1), kitchen video and street photographs: results on those flatter the detector.
 #ifndef TEXTSLAM_DETECT_CLASSICAL_PARAMETERS_HPP
 #define TEXTSLAM_DETECT_CLASSICAL_PARAMETERS_HPP
 

@@ -1,11 +1,11 @@
 // DetectionThread: a text detector beside tracking, at its own rate.
 //
-// offer() leaves an image to it. While the detector is busy at most one key frame and one other frame wait, the newest
-// of each, and the key frame goes first: it is the one that new texts are hosted by. What is passed over is never
-// detected. collect(), between two frames, gives what was finished since, each with the frame that it belongs to.
+// offer() leaves an image to it. While the detector is busy, the newest key frame and the newest other frame wait; the
+// key frame goes first, as new texts are hosted by it. Older offers are never detected. collect(), between two frames,
+// returns what was finished since.
 //
-// Threads: all members are called from one thread and never wait for the detector, but for the destructor. `detect` is
-// called from another, for one image at a time.
+// Threads: all members are called from one thread; only the destructor waits. `detect` is called from another, for one
+// image at a time.
 #ifndef TEXTSLAM_DETECT_DETECTION_THREAD_HPP
 #define TEXTSLAM_DETECT_DETECTION_THREAD_HPP
 
@@ -41,8 +41,7 @@ class DetectionThread {
 
   /// After the frame was tracked, and it is known whether it became a key frame.
   void offer(int frame, RawImage image, bool keyframe);
-  /// What is finished, in the order in which it was. Throws what `detect` threw, once what came before has been
-  /// collected: the thread has ended then, and later offers are dropped.
+  /// What is finished, oldest first. Then throws what `detect` threw; the thread has ended, and offers are dropped.
   std::vector<Result> collect();
 
  private:

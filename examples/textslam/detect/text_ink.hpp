@@ -19,9 +19,8 @@ struct InkScratch {
   std::vector<std::uint32_t> prefix, prefix_squares;
 };
 
-/// Writes the class of every pixel: ink where it differs from the mean of the (2 window_radius + 1)^2 window around
-/// it, cut at the image's edges, by more than both ink_sigmas standard deviations of the window and ink_floor grey
-/// levels. `out` takes the image's size. The image must be valid.
+/// Writes the class of every pixel: ink where it differs from the mean of the (2 window_radius + 1)^2 window around it,
+/// cut at the border, by more than ink_sigmas standard deviations and ink_floor. `out` takes the image's size.
 void mark_ink(const ImageView8& image, const ClassicalParameters& parameters, InkScratch& scratch,
               Image<std::uint8_t>& out);
 

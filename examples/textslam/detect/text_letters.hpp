@@ -48,8 +48,7 @@ struct LetterScratch {
   std::vector<int> distance;
 };
 
-/// The letters of an image whose ink is marked (mark_ink()), in the order of their first pixel. Pieces at the image's
-/// edge are left out: they are cut, and so would be the text.
+/// The letters of an image whose ink is marked, by their first pixel. Pieces at the border are left out: they are cut.
 void find_letters(const ImageView8& image, const Image<std::uint8_t>& ink, const ClassicalParameters& parameters,
                   LetterScratch& scratch, std::vector<Letter>& letters);
 

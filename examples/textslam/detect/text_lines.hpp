@@ -26,9 +26,8 @@ struct LineScratch {
   std::vector<char> used;
 };
 
-/// Sets of at least min_letters letters, from the left to the right, that stand side by side: alike in height, stroke
-/// and tones, along a direction within max_angle of the horizontal. A letter is in one line at most. `lines` is
-/// filled anew; the result depends on the letters and their order alone.
+/// Sets of at least min_letters letters, from left to right, side by side: alike in height, stroke and tones, along a
+/// direction within max_angle of the horizontal. A letter is in one line at most. `lines` is filled anew.
 void find_lines(const std::vector<Letter>& letters, const ClassicalParameters& parameters, LineScratch& scratch,
                 std::vector<std::vector<int>>& lines);
 

@@ -14,14 +14,13 @@ struct TextQuad {
   double score = 0;   ///< in (0, 1]; 0 where the line is not text
 };
 
-/// The quad around a line: top and bottom are lines through the letters' tops and bottoms (the text may taper), the
-/// sides lean with the letters. Its score says how much the letters look like print: many of them, on common lines, of
-/// even tones; it is 0 below min_score, and where a pattern (books, railings, tiles, leaves) explains them as well.
+/// The quad around a line: top and bottom through the letters' tops and bottoms (the text may taper), sides that lean
+/// with the letters. The score says how much they look like print: many, on common lines, of even tones. It is 0 below
+/// min_score and for patterns (books, railings, tiles, leaves).
 TextQuad fit_quad(const std::vector<Letter>& letters, const std::vector<int>& line,
                   const ClassicalParameters& parameters);
 
-/// Drops each quad that shares more than max_shared_area of the smaller of the two with one of a better score. Best
-/// first.
+/// Drops each quad that shares more than max_shared_area of the smaller with a better one. Best first.
 void suppress_overlaps(std::vector<TextQuad>& quads, const ClassicalParameters& parameters);
 
 }  // namespace textslam

@@ -15,7 +15,7 @@ class Initialiser {
   explicit Initialiser(const Parameters& parameters) : parameters_(parameters), hypotheses_(parameters) {}
 
   /// Takes the next frame. True when `map` now holds two key frames (the reference and this frame) and their points,
-  /// and `tracks` the corners in this frame. The map's median depth is 1.
+  /// with a median depth of 1, and `tracks` the corners in this frame.
   bool add(const Frame& frame, Map& map, std::vector<Track>* tracks);
   /// Of a frame added before: they matter if it is the reference.
   void add_detections(int frame, std::vector<Detection> detections);

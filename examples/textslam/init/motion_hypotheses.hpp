@@ -1,9 +1,7 @@
 // MotionHypotheses: motions that two views cannot tell apart, kept until more views do.
 //
-// Two motions explain two views of one plane equally well, and the noise decides which costs less. Further views
-// contradict the wrong motion, because its plane is wrong. So each hypothesis is a small reconstruction of its own: the
-// poses of all views so far, adjusted with the corners' points. Hypotheses are compared by their robust reprojection
-// error over all views.
+// Two motions explain two views of one plane equally well; further views contradict the wrong one. So each hypothesis
+// is a small reconstruction of all views so far, and the robust reprojection errors are compared.
 #ifndef TEXTSLAM_INIT_MOTION_HYPOTHESES_HPP
 #define TEXTSLAM_INIT_MOTION_HYPOTHESES_HPP
 
@@ -13,8 +11,8 @@
 
 namespace textslam {
 
-/// The ratio above which one sum of squared errors, with so many degrees of freedom, exceeds another by more than
-/// noise. `sigmas`: standard deviations of the ratio of two independent sums.
+/// The ratio above which one sum of squares, of so many degrees of freedom, exceeds another by more than noise.
+/// `sigmas`: standard deviations of the ratio of two independent sums.
 double clear_ratio(double degrees_of_freedom, double sigmas);
 
 class MotionHypotheses {
@@ -29,8 +27,7 @@ class MotionHypotheses {
   void begin(const std::vector<SE3d>& T_b_a);
 
   /// Takes a further view. `tracks`: each with one observation a view, the newest last. `replaced`: the newest view
-  /// replaces the one before. Hypotheses go that explain all views clearly worse than another, or that are the same as
-  /// a better one.
+  /// replaces the one before. Drops hypotheses that are clearly worse than another, or the same as a better one.
   void judge(const std::vector<Track>& tracks, const Pinhole<double>& camera, bool replaced);
 
   // Of the best hypothesis, as last judged.

@@ -87,9 +87,8 @@ int count_in_front(const Hypothesis& h, const std::vector<Vec3>& a, const std::v
   return n;
 }
 
-// The other motion that moves a plane's points the same way. With the plane fitted to the matches, H = R (I + a
-// theta^T), a = R^T t, and H^T H = I + theta b^T + b theta^T with b = a + |a|^2 theta / 2: theta and b may change
-// places.
+// The other motion that moves a plane's points the same way. H = R (I + a theta^T), a = R^T t, and H^T H = I + theta
+// b^T + b theta^T with b = a + |a|^2 theta / 2: theta and b may change places.
 bool planar_twin(const Hypothesis& h, const std::vector<Vec3>& a, const std::vector<Vec3>& b, Hypothesis* twin) {
   const auto plane = textplane::plane_from_matches(a, b, SE3d{h.R, h.t});
   // A wrong motion often has part of its plane behind the camera; the twin is in front all the same.

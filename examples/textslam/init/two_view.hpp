@@ -1,10 +1,8 @@
 // Relative pose of two views from matches, for planar and general scenes alike.
 //
-// The epipolar (Sampson) distance is minimised over rotation and direction of translation by Gauss-Newton from a fan of
-// starting directions, with Huber weights. Tracks of a video have few outliers and a small rotation, so this needs
-// neither a minimal solver nor random draws, and a planar scene is no special case: its two-fold ambiguity shows as a
-// second minimum of almost the same cost. All minima are reported; motion_rivals.hpp decides among those that are
-// close.
+// Gauss-Newton minimises the epipolar (Sampson) distance over rotation and direction of translation, with Huber
+// weights, from several starts. Tracks of a video have few outliers and a small rotation, so no minimal solver and no
+// random draws are needed. A plane shows as a second minimum of almost the same cost: motion_hypotheses.hpp decides.
 #ifndef TEXTSLAM_INIT_TWO_VIEW_HPP
 #define TEXTSLAM_INIT_TWO_VIEW_HPP
 

@@ -1,7 +1,6 @@
 #include "textslam/loop/loop_alignment.hpp"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 
 #include "textslam/map/observations.hpp"
 

@@ -1,7 +1,7 @@
 // Loop alignment: where the newest key frame lies, by the old points that it and the key frames before it show.
 //
-// The recent part's own points are young, and their depths uncertain. So only the old points count, at the pixels where
-// the recent key frames show them; the poses of the recent key frames to each other give the scale.
+// The recent points' depths are uncertain, so only old points count, at the pixels where the recent key frames show
+// them; these key frames' relative poses give the scale.
 #ifndef TEXTSLAM_LOOP_LOOP_ALIGNMENT_HPP
 #define TEXTSLAM_LOOP_LOOP_ALIGNMENT_HPP
 

@@ -1,7 +1,6 @@
 #include "textslam/loop/loop_closure.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "textplane/geometry/quad.hpp"
 #include "textslam/common/statistics.hpp"
@@ -45,8 +44,7 @@ int old_points_in_view(const Map& map, const LocalMap& local, const Parameters& 
   return count;
 }
 
-// The detections that may be old texts: those that read like one, and, as some are never read, those unread on no text
-// that is known here.
+// Detections that may be old texts: those that read like one, and unread ones on no text of the local map.
 std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, const Parameters& parameters,
                                          const KeyFrame& keyframe) {
   const SE3d T_c_w = keyframe.T_w_c.inverse();

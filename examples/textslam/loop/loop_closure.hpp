@@ -1,12 +1,11 @@
 // Loop closure: the camera is back at a place whose key frames are no longer in the local map.
 //
-// A key frame is searched for in the old part of the map: by the signs that its detector found, and, while the drift is
-// small, where the map expects it. Several key frames must agree on the similarity between the two parts. Then the
-// drift is distributed over the path between them, and what is in both parts is merged.
+// A key frame is searched for in the old part of the map: by its signs, and, while the drift is small, where the map
+// expects it. Several key frames must agree on the similarity between the two parts. Then the drift is distributed over
+// the path between them, and what is in both is merged.
 #ifndef TEXTSLAM_LOOP_LOOP_CLOSURE_HPP
 #define TEXTSLAM_LOOP_LOOP_CLOSURE_HPP
 
-#include <string>
 #include <vector>
 
 #include "textslam/loop/map_join.hpp"
@@ -45,16 +44,15 @@ struct LoopCorrection {
   std::vector<int> points;     ///< What each point became: its own id, or that of the one it was merged into.
 };
 
-/// Closes the loop: distributes the drift over the pose graph where it shifts what the newest key frame sees by more
-/// than loop_max_shift px; merges texts, and points within loop_same_point; and adds the recent key frames'
-/// observations of old points. Nothing is adjusted. Ids and lengths that others hold must be updated by the result.
+/// Closes the loop: distributes the drift over the pose graph where it shifts the old points by more than
+/// loop_max_shift; merges texts, and points within loop_same_point; and adds the recent observations of old points.
+/// Nothing is adjusted. Ids and lengths that others hold must be updated by the result.
 LoopCorrection close_loop(Map& map, const Parameters& parameters, const Loop& loop);
 
 /// Length of the camera's path from key frame a to b, by the key frames between.
 double path_length_between(const Map& map, int a, int b);
 
-/// The drift that is left: between the newest key frame's pose in the map and its pose by the old points alone. Zeros
-/// where too few of them are left.
+/// The newest key frame's pose against its pose by the old points alone. Zeros where too few are left.
 Drift drift_left(const Map& map, const Parameters& parameters, const Loop& loop);
 
 }  // namespace textslam

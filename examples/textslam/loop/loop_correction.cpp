@@ -1,6 +1,5 @@
 // Loop closure, the part that changes the map.
 #include <algorithm>
-#include <cmath>
 
 #include "textslam/common/statistics.hpp"
 #include "textslam/loop/loop_alignment.hpp"
@@ -43,8 +42,7 @@ class DriftCorrection {
             degrees(is.R.transpose() * was.R), is.scale};
   }
 
-  // Moves the map and returns the scales of the key frames. Points move with the key frame that saw them first, planes
-  // with their host.
+  // Moves the map: points with their host, planes with theirs. Returns the scales of the key frames.
   std::vector<double> apply() {
     for (MapPoint& point : map_.points) {
       if (point.bad) continue;
@@ -94,8 +92,7 @@ class DriftCorrection {
     }
   }
 
-  // Neighbours in time connect the graph where nothing else does. Culled key frames hang on it by one edge, without
-  // effect.
+  // Neighbours in time connect the graph where nothing else does. Culled key frames hang on it by one edge.
   void add_sequence() {
     std::vector<int> order;
     for (int id = 0; id < static_cast<int>(nodes_.size()); ++id) order.push_back(id);

@@ -1,7 +1,6 @@
 #include "textslam/loop/map_join.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"

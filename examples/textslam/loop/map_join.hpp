@@ -1,8 +1,7 @@
 // Joining of two maps that turn out to show one place.
 //
-// Key frames of map b are searched for in map a. Points found at the same pixel, and texts that fall on each other,
-// give the similarity between the two worlds; several key frames must agree on it. Then b's contents move to a, and
-// what is in both is merged.
+// Key frames of map b are searched for in map a. Points at the same pixel, and texts that overlap, give the similarity
+// between the worlds; several key frames must agree on it. Then b's contents move to a, and what is in both is merged.
 #ifndef TEXTSLAM_LOOP_MAP_JOIN_HPP
 #define TEXTSLAM_LOOP_MAP_JOIN_HPP
 

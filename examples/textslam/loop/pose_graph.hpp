@@ -1,5 +1,4 @@
-// Pose graph: key frames with what is known of their relative poses. Closing a loop distributes the drift over the path
-// along which it built up.
+// Pose graph: key frames and their relative poses. Closing a loop distributes the drift along the path.
 #ifndef TEXTSLAM_LOOP_POSE_GRAPH_HPP
 #define TEXTSLAM_LOOP_POSE_GRAPH_HPP
 
@@ -20,8 +19,7 @@ Similarity similarity_of(const SE3d& T);
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-/// S moved in its source's frame: S times (step's translation, exponential of its rotation, exponential of its last
-/// entry).
+/// S times (step's translation, exponential of its rotation, exponential of its last entry).
 Similarity moved(const Similarity& S, const Vector7& step);
 
 /// What is known of nodes a and b: S_w_b = S_w_a S_a_b, moved by an error of this information (inverse covariance).
@@ -35,8 +33,7 @@ struct GraphEdge {
 ///
 ///   sum over edges of e^T information e,  e = (t, log R, log s) of S_a_b^-1 S_w_a^-1 S_w_b,
 ///
-/// by Gauss-Newton from the nodes given. Every node must be connected with the fixed one. False, and the nodes as they
-/// were, where the system cannot be solved.
+/// by Gauss-Newton. All nodes must be connected. False, and the nodes as they were, where the system is singular.
 bool relax(std::vector<Similarity>& nodes, const std::vector<GraphEdge>& edges, int fixed,
            const Parameters& parameters = {});
 

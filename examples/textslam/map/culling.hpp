@@ -1,8 +1,7 @@
 // Culling: all rules by which points, texts and key frames leave the map, and by which a text becomes part of it.
 //
-// A camera that stays where it was would fill the map, and memory, with views that it has already. So a key frame goes
-// where nearly all its points, and each text that it shows, are seen by many others. The first key frame, which holds
-// the world, the newest ones, and the host of any text stay.
+// A camera that stays in place would fill the map with views that it has already. So a key frame goes where nearly all
+// its points, and each of its texts, are seen by many others. The first one, the newest ones, and hosts of texts stay.
 #ifndef TEXTSLAM_MAP_CULLING_HPP
 #define TEXTSLAM_MAP_CULLING_HPP
 

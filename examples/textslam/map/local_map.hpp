@@ -1,8 +1,6 @@
-// Local map: the key frames around the newest one, by what they share, and what these observe. The tracker looks for it
-// alone.
+// Local map: the key frames around the newest one, and what they observe. The tracker uses nothing else.
 //
-// The rest of the map may have drifted against it. Loop closure finds out by how much (loop_closure.hpp), and connects
-// the two.
+// The rest of the map may have drifted against it; loop closure connects the two (loop_closure.hpp).
 #ifndef TEXTSLAM_MAP_LOCAL_MAP_HPP
 #define TEXTSLAM_MAP_LOCAL_MAP_HPP
 

@@ -1,7 +1,6 @@
 // Map: what the system knows of the world. Plain data; the steps of the system read and change it.
 //
-// Frames: T_w_c maps camera to world. World units are arbitrary (monocular). Ids are indices and never change: what
-// leaves the map is flagged, not erased.
+// Frames: T_w_c maps camera to world, in arbitrary units. Ids are indices and never change: what leaves is flagged.
 #ifndef TEXTSLAM_MAP_MAP_HPP
 #define TEXTSLAM_MAP_MAP_HPP
 

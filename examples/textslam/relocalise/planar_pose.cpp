@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "textplane/geometry/quad.hpp"
-
 namespace textslam {
 namespace {
 
@@ -32,8 +30,7 @@ Status plane_frame(const std::array<Vec3, 4>& c, PlaneFrame* out) {
   return textplane::is_convex(out->quad) ? Status::ok : Status::degenerate;
 }
 
-// The homography that takes the plane's corners to the image's, with a last element of 1: the origin lies inside the
-// quad, so its image is finite.
+// Plane corners to image corners. The origin lies inside the quad, so the last element can be 1.
 Status homography(const Quad<double>& plane, const Quad<double>& image, Mat3* H) {
   Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Zero();
   Eigen::Matrix<double, 8, 1> b;

@@ -5,7 +5,6 @@
 #include "textplane/config.hpp"
 #include "textplane/simd/dispatch.hpp"
 #include "textslam/report/report_data.hpp"
-#include "textslam/report/report_parameters.hpp"
 #include "textslam/report/report_template.hpp"
 #include "textslam/report/text_map.hpp"
 #include "textslam/report/timing.hpp"

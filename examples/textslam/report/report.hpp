@@ -5,7 +5,7 @@
 //   <script id="run">   what may differ between equal runs: the command line, the sequence's folder, the SIMD target,
 //                       the milliseconds
 //
-// What is in them: summary.hpp, text_map.hpp, report_data.hpp, report_frames.hpp, report_parameters.hpp, timing.hpp.
+// What is in them: summary.hpp, text_map.hpp, report_data.hpp, report_frames.hpp, timing.hpp.
 #ifndef TEXTSLAM_REPORT_REPORT_HPP
 #define TEXTSLAM_REPORT_REPORT_HPP
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textslam/common/statistics.hpp"
 #include "textslam/loop/pose_graph.hpp"
 #include "textslam/report/report_frames.hpp"
 

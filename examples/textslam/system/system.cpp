@@ -53,9 +53,8 @@ const FrameRecord& System::process(const Frame& frame, double detect_ms) {
   return record;
 }
 
-// Everything that follows from the map follows it here, after each change of its key frames: the tracker, the live
-// world, and, where the frame at T_c_w is the newest key frame (`newest`), local map and pose. `scale`: of lengths
-// around the frame.
+// After each change of the map's key frames, what depends on them is updated here: the tracker (the last frame's pose, and
+// lengths by `scale`) and the live world; where that frame is the newest key frame, also the local map and its record.
 void System::map_changed(const SE3d& T_c_w, FrameRecord* newest, double scale) {
   if (newest) local_ = local_map(map_, parameters_, last_keyframe_);
   if (tracker_) tracker_->correct(T_c_w, scale);
@@ -268,8 +267,8 @@ void System::finish() {
   adjust_all(map_, parameters_, parameters_.final_iterations);
   if (parameters_.mode == Mode::loose) refresh_loose_planes(map_, parameters_);
   if (parameters_.mode == Mode::text) {
-    // Observations were judged with the plane of their time, a rough one at first: the adjusted planes are seen in more
-    // key frames, and a wider base settles their slant.
+    // Observations were judged with early, rough planes. The adjusted planes are seen in more key frames, and a wider
+    // base settles their slant.
     text_mapper_.observe_again();
     adjust_all(map_, parameters_, parameters_.final_iterations);
     TextRefiner(map_, parameters_).refine();

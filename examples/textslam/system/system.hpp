@@ -1,18 +1,17 @@
 // System: monocular SLAM with points and planar text, one frame at a time.
 //
 // Frame -> (initialiser | tracker | relocalisation) -> key frame? -> points, text, local adjustment. No random draws,
-// and one thread but for the adjustment in real time (adjuster.hpp): without that the same frames give the same bytes.
-// Detections may come with their frame or after it (add_detections()). Redundant key frames are culled (culling.hpp):
-// the map grows with the ground seen, not with time.
+// and one thread but for the adjustment in real time: without that the same frames give the same bytes. Redundant key
+// frames are culled: the map grows with the ground seen, not with time.
 //
-// One map is worked on at a time. After a long loss it is stored, and another begins. A lost frame is searched for in
-// the stored maps, too, and a key frame that shows a stored map joins the two (system_maps.cpp). In the end the map
-// with most frames is the result.
+// One map is worked on at a time. After a long loss it is stored, and another begins. Lost frames are searched for in
+// the stored maps, and a key frame that shows one joins the two. In the end the map with most frames is the result.
 #ifndef TEXTSLAM_SYSTEM_SYSTEM_HPP
 #define TEXTSLAM_SYSTEM_SYSTEM_HPP
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -62,13 +61,11 @@ class System {
   /// Takes the next frame; indices count up from 0. `detect_ms` is what the detector took, for the record.
   const FrameRecord& process(const Frame& frame, double detect_ms = 0);
 
-  /// What a detector on a thread of its own found in an earlier frame, by its index. In a key frame of the map new
-  /// texts begin with it; in another frame tracked in the map it counts for known texts. Detections in another map, or
-  /// in a culled key frame, are ignored. Only between two calls of process(), and before finish().
+  /// Late detections of frame `frame`. In a key frame of the map new texts begin with them; in another tracked frame
+  /// they count for known texts; elsewhere they are ignored. Only between two calls of process(), before finish().
   void add_detections(int frame, std::vector<Detection> detections, double detect_ms);
 
-  /// Gives poses to frames before the map began or was found again, by tracking them backwards from the frame after
-  /// them. `load` returns the frame of an index again.
+  /// Gives poses to frames before the map began or was found again, tracking backwards. `load` returns a frame again.
   void fill_in(const std::function<Frame(int)>& load);
 
   /// The map with most frames becomes the result; the adjustment over all its key frames.
@@ -83,9 +80,8 @@ class System {
   std::vector<std::size_t> map_frames() const;
   const std::deque<FrameRecord>& records() const { return records_; }
   const std::vector<LoopRecord>& loops() const { return loops_; }
-  /// The map's world to the live world, in which live poses are given. The live world stays where it is, while each
-  /// adjustment moves the oldest key frames, which fix position, direction and scale of the monocular map. This
-  /// similarity fits today's poses of all frames tracked so far to their live poses.
+  /// Map to live world, in which live poses are given. Adjustments move the oldest key frames, which fix a monocular
+  /// map; this similarity fits today's poses of all frames to the live ones, so that the live world stays where it is.
   const Similarity& live_world() const { return live_world_; }
   /// Final pose of a tracked frame.
   SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
@@ -120,6 +116,7 @@ class System {
   void join_stored(const Frame& frame, FrameRecord& record);
   void join(std::size_t stored, const MapLink& link);
   void keep_largest();
+  std::map<int, std::size_t> frames_by_map() const;
 
   Parameters parameters_;
   Map map_;

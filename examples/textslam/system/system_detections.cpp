@@ -28,7 +28,7 @@ void System::add_detections(int frame, std::vector<Detection> detections, double
 }
 
 // New texts of a key frame whose detections came late. Their corners are found in its image and tracked to the newest
-// frame in one step. A text with too few tracked corners is left to a later key frame.
+// frame in one step. A text with too few of them is left to a later key frame.
 void System::host_late(int id) {
   const KeyFrame& host = map_.keyframe(id);
   const SE3d T_c_w = host.T_w_c.inverse();

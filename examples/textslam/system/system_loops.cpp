@@ -22,8 +22,7 @@ void System::apply(const LoopCorrection& correction) {
 void System::close_loops(FrameRecord& record) {
   Loop loop = find_loop(map_, local_, parameters_);
   if (!loop.ok) return;
-  // In real time an adjustment may be under way. It is waited for; where it moved the map, the loop is searched for
-  // again.
+  // In real time an adjustment may be under way. Where it moved the map, the loop is searched for again.
   const Adjuster::Collected adjusted = adjuster_.settle(map_);
   take_over(adjusted);
   if (adjusted.changed) loop = find_loop(map_, local_, parameters_);

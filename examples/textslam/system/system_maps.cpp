@@ -1,7 +1,5 @@
-// System, the part that deals with more than one map: what becomes of a map that is lost, and how frames come back to
-// it.
+// System, the part that deals with several maps.
 #include <algorithm>
-#include <map>
 
 #include "textslam/adjust/adjustment.hpp"
 #include "textslam/loop/map_join.hpp"
@@ -92,10 +90,15 @@ void System::join(std::size_t stored, const MapLink& link) {
   erase_bad_tracks(map_, tracks);
 }
 
-std::vector<std::size_t> System::map_frames() const {
+std::map<int, std::size_t> System::frames_by_map() const {
   std::map<int, std::size_t> counts;
   for (const FrameRecord& record : records_)
     if (record.map >= 0) ++counts[record.map];
+  return counts;
+}
+
+std::vector<std::size_t> System::map_frames() const {
+  std::map<int, std::size_t> counts = frames_by_map();
   std::vector<std::size_t> frames;
   for (const auto& [number, count] : counts)
     if (number != map_.number) frames.push_back(count);
@@ -105,11 +108,9 @@ std::vector<std::size_t> System::map_frames() const {
 }
 
 void System::keep_largest() {
-  std::map<int, int> counts;
-  for (const FrameRecord& record : records_)
-    if (record.map >= 0) ++counts[record.map];
+  std::map<int, std::size_t> counts = frames_by_map();
   std::size_t largest = stored_.size();
-  int most = map_.keyframes.empty() ? 0 : counts[map_.number];
+  std::size_t most = map_.keyframes.empty() ? 0 : counts[map_.number];
   for (std::size_t i = 0; i < stored_.size(); ++i)
     if (counts[stored_[i].number] > most) {
       most = counts[stored_[i].number];

@@ -1,9 +1,8 @@
-// How sure an estimate is by how far the groups of its measurements pull apart.
+// Certainty of an estimate, by how much the groups of its measurements disagree (the jackknife of Quenouille and
+// Tukey).
 //
-// The inverse of the normal equations takes the errors of all measurements for independent of each other. Those of the
-// pixels of one image are not: it has one pose, one light, and neighbouring pixels share what is wrong with them. What
-// is independent are the images, and leaving them out by turns tells how far any one of them moves the estimate
-// (Quenouille's and Tukey's jackknife).
+// The inverse of the normal equations takes all errors as independent. Those of one image's pixels are not: they share
+// a pose and a light. The images are, so each is left out in turn.
 #ifndef TEXTSLAM_TEXT_JACKKNIFE_HPP
 #define TEXTSLAM_TEXT_JACKKNIFE_HPP
 
@@ -20,9 +19,9 @@ struct GroupEquations {
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
 };
 
-/// Covariance of the estimate at which the groups' b sum to zero: (n - 1) / n sum_i d_i d_i^T with d_i = (sum_j!=i
-/// H_j)^-1 b_i, by which it moves without group i; exact where the residuals are linear. Groups without which the
-/// others would not determine it tell nothing here and are passed over; zero for less than two groups.
+/// Covariance at the estimate where the b sum to zero: (n - 1) / n sum_i d_i d_i^T, with d_i = (sum_j!=i H_j)^-1 b_i
+/// the motion without group i; exact for linear residuals. Groups whose others are singular are skipped; zero for fewer
+/// than two.
 inline Eigen::Matrix3d jackknife_covariance(const std::vector<GroupEquations>& groups) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero(), covariance = Eigen::Matrix3d::Zero();
   for (const GroupEquations& group : groups) H += group.H;

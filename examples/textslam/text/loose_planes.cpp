@@ -16,8 +16,7 @@ namespace {
 
 using Draw = std::array<std::size_t, 3>;
 
-// All triples where they are few, else as many as asked for. The generator's numbers are the same with every compiler;
-// the slight preference of a remainder for small indices does no harm.
+// All triples where they are few, else `most` by a generator that is the same with every compiler.
 std::vector<Draw> draws_of(std::size_t n, std::size_t most) {
   std::vector<Draw> draws;
   if (n * (n - 1) * (n - 2) / 6 <= most) {

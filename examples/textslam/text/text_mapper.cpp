@@ -110,8 +110,7 @@ TextMapper::Corners TextMapper::corners(const TextObject& text, int keyframe, co
   return out;
 }
 
-// The linear system of section IV-B over the corners, with outliers removed by their transfer error. False while there
-// are too few corners or too little parallax.
+// The linear system of section IV-B, with outliers removed by transfer error. False with too few corners or parallax.
 bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks,
                                Vec3* theta) const {
   const SE3d T_t_h = map_.keyframe(keyframe).T_w_c.inverse() * map_.keyframe(text.host).T_w_c;
@@ -150,8 +149,8 @@ bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::
          textplane::inverse_depth(*theta, map_.camera.unproject(textplane::centroid(text.patch.quad))) > 0;
 }
 
-// The plane by the corners of key frame `id` and the images, and the key frames that agree with it. It replaces an
-// earlier plane where more key frames agree: the first was solved with little parallax, and may not fit later views.
+// The plane by the corners of key frame `id` and the images, and the views that agree with it. It replaces an earlier
+// plane where more views agree: the first was solved with little parallax.
 bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& tracks) {
   TextObject found = text;
   Vec3 theta;
@@ -164,8 +163,7 @@ bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& 
   return true;
 }
 
-// By the map points round a text whose own corners did not suffice, as on a small text. Key frames need not agree yet:
-// later ones may.
+// By the map points round a text whose own corners did not suffice. No view need agree yet.
 bool TextMapper::surface_plane(TextObject& text, int id) {
   if (!plane_from_surface(map_, parameters_, text)) return false;
   observe_until(text, id);
@@ -180,8 +178,8 @@ void TextMapper::observe_until(TextObject& text, int id) {
   text.failures = 0;
 }
 
-// Does key frame `keyframe` show the text where its plane says? `min_share`: of the quad, inside the image. For a rough
-// plane it is 1: on a part of the text it may agree with the image by chance.
+// Does key frame `keyframe` show the text where its plane says? A rough plane asks for all of it (`min_share` 1): on a
+// part it may agree with the image by chance.
 void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
   const SE3d T_c_w = map_.keyframe(keyframe).T_w_c.inverse();
   Quad<double> quad;

@@ -1,7 +1,6 @@
 // Merging of texts: a sign that came to be mapped twice becomes one object.
 //
-// That happens where the map had drifted when the sign was seen again, and where detections of it fell on different
-// parts.
+// That happens after drift, and where its detections fell on different parts.
 #ifndef TEXTSLAM_TEXT_TEXT_MERGE_HPP
 #define TEXTSLAM_TEXT_TEXT_MERGE_HPP
 
@@ -9,17 +8,14 @@
 
 namespace textslam {
 
-/// Do two texts with planes stand for one sign? Their words agree; their planes agree in angle and, at their centres,
-/// in inverse depth, within a tolerance beside merge_sigmas standard deviations; and their quads overlap in the host of
-/// either.
+/// Do two texts with planes stand for one sign? Words, planes (angle and inverse depth at the centres, within a
+/// tolerance beside merge_sigmas standard deviations) and quads, in the host of either, must agree.
 bool same_text(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b);
 
-/// What `other` saw counts for `kept`: words, detections, and key frames, whose ids are `first_keyframe` higher in
-/// kept's map.
+/// What `other` saw counts for `kept`; its key-frame ids are `first_keyframe` higher in kept's map.
 void add_observations_of(const TextObject& other, int first_keyframe, const Parameters& parameters, TextObject& kept);
 
-/// Merges two texts into the one that more key frames observe, a among equals: what the other saw counts for it, its
-/// plane stays, and the other is dropped.
+/// Merges two texts into the one with more views, a among equals. Its plane stays; the other text is dropped.
 void merge_texts(Map& map, const Parameters& parameters, int a, int b);
 
 /// Merges the mapped texts that are the same. Returns how many are gone.

@@ -1,5 +1,4 @@
-// What a text object is made of: its patch, and its plane, refined against the key frames that show it, and as another
-// key frame has it; and how well an image agrees with them.
+// Patch and plane of a text: making, refining, moving to another key frame, and comparing with an image.
 #ifndef TEXTSLAM_TEXT_TEXT_PLANE_HPP
 #define TEXTSLAM_TEXT_TEXT_PLANE_HPP
 
@@ -13,9 +12,8 @@ namespace textslam {
 /// The pixels of a text with this quad in key frame `id`.
 textplane::TextPatch make_text_patch(const Map& map, const Parameters& parameters, int id, const Quad<double>& quad);
 
-/// Theta, covariance and ZNCC of a text by photometric refinement against these key frames, from `theta`. False, and
-/// the text as it was, where the images agree by less than `min_zncc`, or the plane is too slanted or crosses the
-/// quad's rays behind the camera.
+/// Refines theta, covariance and ZNCC photometrically against these key frames, from `theta`. False, and the text as it
+/// was, where the images agree by less than `min_zncc` or the plane is implausible.
 bool refine_plane(const Map& map, const Parameters& parameters, const std::vector<int>& keyframes, const Vec3& theta,
                   double min_zncc, TextObject& text);
 
@@ -23,8 +21,7 @@ bool refine_plane(const Map& map, const Parameters& parameters, const std::vecto
 textplane::PhotometricCost compare_text(const Map& map, const TextObject& text, int level, const Pyramid& image,
                                         const SE3d& T_c_w, int shift, textplane::PhotometricWorkspace& workspace);
 
-/// A plane in the frame of key frame `from`, with its covariance, in that of `to`. False, and both as they were, where
-/// `to` does not see its front.
+/// Moves a plane with its covariance between key frames. False, and both as they were, where `to` sees its back.
 bool transport_plane(const Map& map, int from, int to, Vec3* theta, Eigen::Matrix3d* covariance);
 
 }  // namespace textslam

@@ -102,8 +102,7 @@ bool TextRefiner::drop_dissimilar(const Vec3& theta) {
   return dropped;
 }
 
-// How far the views pull the plane apart: by errors of their poses, by what shines, by neighbouring pixels that err
-// together.
+// How far the views disagree: by errors of their poses, by highlights, by neighbouring pixels that err together.
 Eigen::Matrix3d TextRefiner::disagreement(const Vec3& theta) {
   std::vector<GroupEquations> views;
   for (const textplane::PlaneTarget& target : targets_) {

@@ -1,10 +1,9 @@
-// TextRefiner: the last word on the planes of texts, once the poses of the key frames are known.
+// TextRefiner: the final planes of the texts, once the poses of the key frames are known.
 //
-// Each text is compared between key frames that show it, from several hosts, with all its pixels, each pair of views
-// brought to the same blur first (textplane/photometry/blur.hpp). What a host's own sampling makes of narrow strokes
-// differs from host to host, so their planes are averaged; how far they scatter goes into the covariance, and so does
-// how far the views of a host pull its plane apart (jackknife.hpp). In the end the map points of the surface that a
-// text lies on have their say (text_surface.hpp).
+// Each text is compared between its views, from several hosts, with all its pixels, each pair at the same blur
+// (textplane/photometry/blur.hpp). Each host samples narrow strokes differently, so the hosts' planes are averaged;
+// their scatter, and the disagreement of the views (jackknife.hpp), go into the covariance. Last, the map points of the
+// surface count (text_surface.hpp).
 #ifndef TEXTSLAM_TEXT_TEXT_REFINER_HPP
 #define TEXTSLAM_TEXT_TEXT_REFINER_HPP
 
@@ -20,8 +19,8 @@ class TextRefiner {
  public:
   TextRefiner(Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
 
-  /// Theta and covariance of every mapped text; drops those whose normal stays unknown, the surface included. A text
-  /// that too few key frames show whole keeps what it has.
+  /// Refines every mapped text and drops those whose normal stays uncertain. A text with too few whole views stays as
+  /// it was.
   void refine();
 
  private:

@@ -1,5 +1,4 @@
-// The surface that a text lies on: a page, a cover or a board. A small text alone tells little of its plane; the map
-// points in and beside it that lie on the same plane tell more.
+// The surface that a text lies on, as a page or a board. Map points beside a small text tell more of it than the text.
 #ifndef TEXTSLAM_TEXT_TEXT_SURFACE_HPP
 #define TEXTSLAM_TEXT_TEXT_SURFACE_HPP
 
@@ -18,19 +17,17 @@ struct SurfacePoint {
 /// The map points within surface_reach of a text with a plane, whose observations tell how far they are.
 std::vector<SurfacePoint> points_beside(const Map& map, const Parameters& parameters, const TextObject& text);
 
-/// Theta and covariance, from what was known of them and from the points. `centre` is the text's centre on the plane:
-/// the surface may be bent about it (surface_bend). Points beyond surface_sigmas are down-weighted (Tukey), by the
-/// sigmas of the point and of the plane there. False, and nothing changed, where the weights sum to less than
-/// surface_min_points.
+/// Theta and covariance from what was known and from the points. The surface may be bent about `centre`, the text's, on
+/// the plane (surface_bend). Points beyond surface_sigmas are down-weighted (Tukey), by the sigmas of the point and of
+/// the plane there. False, and nothing changed, with weights below surface_min_points.
 bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vec3& centre, const Parameters& parameters,
                     Vec3* theta, Eigen::Matrix3d* covariance);
 
 /// The same for a text of the map, with the points beside it.
 void fit_to_surface(const Map& map, const Parameters& parameters, TextObject& text);
 
-/// Theta and covariance by the points alone, for a text that has no plane yet. False, and nothing changed, where its
-/// host sees fewer than surface_min_points in and beside it, or where its normal stays less certain than
-/// surface_max_sigma.
+/// The same for a text without a plane, by the points alone. False, and nothing changed, where its host sees fewer than
+/// surface_min_points or the normal stays less certain than surface_max_sigma.
 bool plane_from_surface(const Map& map, const Parameters& parameters, TextObject& text);
 
 }  // namespace textslam

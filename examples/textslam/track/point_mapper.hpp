@@ -6,12 +6,10 @@
 
 namespace textslam {
 
-/// Adds a key frame at T_w_c; every inlier track with a point becomes an observation of it, every other track keeps
-/// one. Returns its id.
+/// Adds a key frame, and an observation of each inlier track to its point, else to the track. Returns its id.
 int insert_keyframe(Map& map, const Frame& frame, const SE3d& T_w_c, std::vector<Track>& tracks);
 
-/// Makes points of tracks whose rays have opened by `min_parallax` degrees and agree within max_reprojection. Returns
-/// how many.
+/// Makes points of tracks with enough parallax (degrees) that agree within max_reprojection. Returns how many.
 int triangulate_tracks(Map& map, const Parameters& parameters, double min_parallax, std::vector<Track>& tracks);
 
 }  // namespace textslam

@@ -13,8 +13,7 @@ struct PointPrediction {
   Eigen::Matrix2f A;  ///< px displacement in the host per px in the frame, of a fronto-parallel patch.
 };
 
-/// False where the frame at T_c_w, with its camera at `centre`, cannot see the point, or too differently from all key
-/// frames.
+/// False where the frame, with its camera at `centre`, cannot see the point, or too differently from all key frames.
 bool predict_point(const Map& map, const Parameters& parameters, const MapPoint& point, const SE3d& T_c_w,
                    const Vec3& centre, PointPrediction* out);
 

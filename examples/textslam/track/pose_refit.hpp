@@ -1,5 +1,4 @@
-// Pose refit: a frame between key frames was placed against the map of its time. Once the map is final it is placed
-// again, by the map points that it saw.
+// Pose refit: places a frame between key frames anew, against the final map, by the map points that it saw.
 #ifndef TEXTSLAM_TRACK_POSE_REFIT_HPP
 #define TEXTSLAM_TRACK_POSE_REFIT_HPP
 
@@ -23,8 +22,7 @@ inline bool is_pose_inlier(const Parameters& parameters, float chi2) {
 /// The inliers of the tracks, at most `most`, evenly spaced.
 std::vector<SeenPoint> seen_points(const std::vector<Track>& tracks, std::size_t most);
 
-/// The world-to-camera pose that fits what the frame saw, from a start. False where too few of the points are left or
-/// fit; the pose then stays as it was.
+/// The pose that fits what the frame saw. False, and the pose as it was, where too few points are left or fit.
 bool refit_pose(const Map& map, const Parameters& parameters, const std::vector<SeenPoint>& seen, SE3d* T_c_w);
 
 }  // namespace textslam

@@ -1,7 +1,5 @@
 #include "textslam/track/tracker.hpp"
 
-#include <cmath>
-
 #include "textplane/solver/pose.hpp"
 #include "textslam/common/clock.hpp"
 #include "textslam/map/text_geometry.hpp"
@@ -63,8 +61,7 @@ SE3d Tracker::follow_corners(const Frame& frame) {
   const bool aligned = prior.zncc > parameters_.rotation_min_zncc;
   const Eigen::Matrix3d turn = aligned ? prior.R_b_a : last_turn;
 
-  // Whole-image alignment takes sideways motion for rotation, so it replaces the velocity only where they are far
-  // apart.
+  // Alignment takes sideways motion for rotation, so it replaces the velocity only where they are far apart.
   SE3d predicted = (moving_ ? velocity_ : SE3d{}) * T_c_w_;
   if (aligned &&
       textplane::so3_log<double>(turn * last_turn.transpose()).norm() > radians(parameters_.rotation_max_change)) {

@@ -1,9 +1,8 @@
-// Tracker: the pose of a frame against the map. It reads the map and never changes it, so the same code follows the
-// video forward, fills in the frames before the map began, and tries a lost frame against an old key frame.
+// Tracker: the pose of a frame against the map, which it never changes: so it also fills in frames before the map
+// began, and tries a lost frame against an old key frame.
 //
-// A frame goes through: prediction (constant velocity, rotation corrected by whole-image alignment) -> KLT of the corners
-// -> pose from points -> search for the other map points, and for those that drifted, by their key frame's patch -> pose
-// from points and text together, coarse to fine.
+// Prediction (constant velocity, rotation by whole-image alignment) -> KLT -> pose from points -> search for other map
+// points and those that drifted, by their key frame's patch -> pose from points and text, coarse to fine.
 #ifndef TEXTSLAM_TRACK_TRACKER_HPP
 #define TEXTSLAM_TRACK_TRACKER_HPP
 
@@ -30,15 +29,13 @@ class Tracker {
  public:
   Tracker(const Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
 
-  /// The part of the map that points and texts are taken from; null, as at first: all of it. It must outlive the
-  /// tracker.
+  /// The part of the map in use; null, as at first: all of it. It must outlive the tracker.
   void look_for(const LocalMap* local) { local_ = local; }
   /// Begins at a frame of known pose, at rest, with tracks whose positions are in that frame.
   void start(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tracks);
   /// The next frame. On failure the tracks are those that survived and the pose is the prediction.
   TrackReport track(const Frame& frame);
-  /// After the map was adjusted: the pose of the last frame in it, and what lengths around the frame were multiplied
-  /// by.
+  /// After the map changed: the last frame's pose in it, and the factor of lengths around the frame.
   void correct(const SE3d& T_c_w, double scale = 1);
 
   std::vector<Track>& tracks() { return tracks_; }

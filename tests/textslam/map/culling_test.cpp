@@ -9,7 +9,7 @@
 #include "textslam/track/pose_refit.hpp"
 
 namespace textslam {
-namespace keyframe_culling_test {
+namespace culling_test {
 
 constexpr int kKeyFrames = 60;
 constexpr int kPoints = 20;
@@ -139,5 +139,5 @@ TEST_F(KeyframeCullingTest, SeenByAKeyFrameIsThinnedEvenly) {
   }
 }
 
-}  // namespace keyframe_culling_test
+}  // namespace culling_test
 }  // namespace textslam

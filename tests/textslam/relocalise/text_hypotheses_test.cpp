@@ -8,7 +8,7 @@
 #include "textslam/relocalise/boards_support.hpp"
 
 namespace textslam {
-namespace text_recovery_test {
+namespace text_hypotheses_test {
 
 using namespace boards_support;
 
@@ -78,5 +78,5 @@ TEST_F(TextRecoveryTest, AWordAloneIsNoPlace) {
   EXPECT_TRUE(text_hypotheses(map, parameters, frame, WordMatch::same).empty());
 }
 
-}  // namespace text_recovery_test
+}  // namespace text_hypotheses_test
 }  // namespace textslam

@@ -10,7 +10,6 @@
 #include "textslam/report/progress.hpp"
 #include "textslam/report/report_data.hpp"
 #include "textslam/report/report_frames.hpp"
-#include "textslam/report/report_parameters.hpp"
 #include "textslam/report/report_template.hpp"
 
 namespace textslam {
