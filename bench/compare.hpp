@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "registry.hpp"
-#include "textplane/photometry/residual_types.hpp"
+#include "textplane/photometry/residual_request.hpp"
+#include "textplane/photometry/residual_result.hpp"
 
 namespace textplane_bench {
 

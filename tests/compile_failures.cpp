@@ -13,9 +13,10 @@ tp::SE3<int> pose;
 // expected: textplane: target images are 8-bit or float
 tp::BasicPhotometricInput<double> input;
 
-// expected: textplane: P is 3 \(theta\), 6 \(pose\) or 9 \(pose and theta\)
-void five(const tp::PhotometricInput& in, tp::PhotometricWorkspace& workspace, double* r) {
-  tp::reference::residuals<5>(in, {0, 0, 1}, tp::SE3d(), {}, workspace, r, nullptr);
+// expected: textplane: residuals\(\) are by pose, plane, or pose_plane
+void world(const tp::PhotometricInput& in, tp::PhotometricWorkspace& workspace, double* r) {
+  tp::reference::residuals<tp::Parameters::host_target_plane>(tp::ResidualRequest{in, {0, 0, 1}, tp::SE3d()}, workspace,
+                                                              r, nullptr);
 }
 
 // expected: textplane: the pose has neither rotationMatrix\(\) nor so3\(\).matrix\(\)

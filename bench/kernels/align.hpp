@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "textplane/photometry/template_patch.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 
 namespace textplane_bench {
 
@@ -23,7 +23,8 @@ inline void align_level(const tp::PhotometricInput& in, const tp::TemplatePatch*
                         const tp::PhotometricOptions& options, double tolerance, tp::PhotometricWorkspace& workspace,
                         Start* s) {
   const auto linearise = [&](const Start& at) {
-    return tp::linearise_by<9>(policy, in, at.theta, at.T_t_h, options, workspace, prepared);
+    return tp::linearise<tp::Parameters::pose_plane>(
+        tp::ResidualRequest{in, at.theta, at.T_t_h, options}.by(policy, prepared), workspace);
   };
   double lambda = 1e-4, grow = 8;
   auto e = linearise(*s);

@@ -10,7 +10,7 @@
 #include "registry.hpp"
 #include "scene.hpp"
 #include "textplane/photometry/prepared_target.hpp"
-#include "textplane/photometry/template_patch.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 #include "textplane/photometry/text_batch.hpp"
 
 namespace textplane_bench {
@@ -96,47 +96,39 @@ std::function<std::shared_ptr<Cycle>()> dense_cycle_of(int columns, int rows) {
   return [=] { return std::make_shared<Cycle>(Cycle::dense(columns, rows, 4), false); };
 }
 
-template <int P>
+tp::ResidualRequest<std::uint8_t> request(const Cycle& c, std::size_t i, bool huber = true) {
+  const Scene& s = c.scenes[i];
+  return {c.inputs[i], s.theta_start, s.T_start, options(huber)};
+}
+
+template <tp::Parameters U>
 void add_policy(const std::string& name, tp::LinearisePolicy policy, bool huber, const std::string& size,
                 const std::function<std::shared_ptr<Cycle>()>& make) {
   const auto ours = [=](Cycle& c, std::size_t i) {
-    const Scene& s = c.scenes[i];
-    return tp::linearise_by<P>(policy, c.inputs[i], s.theta_start, s.T_start, options(huber), c.workspace,
-                               &c.prepared[i]);
+    return tp::linearise<U>(request(c, i, huber).by(policy, &c.prepared[i]), c.workspace);
   };
   const auto reference = [=](Cycle& c, std::size_t i) {
-    const Scene& s = c.scenes[i];
-    return tp::reference::linearise_by<P>(policy, c.inputs[i], s.theta_start, s.T_start, options(huber), c.workspace);
+    return tp::reference::linearise<U>(request(c, i, huber).by(policy), c.workspace);
   };
   add_targets(name, size, equations(make, ours, reference));
 }
 
-template <int P>
-auto forward(Cycle& c, std::size_t i) {
-  const Scene& s = c.scenes[i];
-  if constexpr (P == 6) return tp::linearise_pose(c.inputs[i], s.theta_start, s.T_start, options(true), c.workspace);
-  if constexpr (P == 9)
-    return tp::linearise_pose_plane(c.inputs[i], s.theta_start, s.T_start, options(true), c.workspace);
-  if constexpr (P == 15)
-    return tp::linearise_host_target_plane(c.inputs[i], s.theta_start, tp::SE3d(), s.T_start.inverse(),
-                                           tp::PerturbationSide::right, options(true), c.workspace);
-}
-template <int P>
-auto forward_reference(Cycle& c, std::size_t i) {
-  const Scene& s = c.scenes[i];
-  namespace ref = tp::reference;
-  if constexpr (P == 6) return ref::linearise_pose(c.inputs[i], s.theta_start, s.T_start, options(true), c.workspace);
-  if constexpr (P == 9)
-    return ref::linearise_pose_plane(c.inputs[i], s.theta_start, s.T_start, options(true), c.workspace);
-  if constexpr (P == 15)
-    return ref::linearise_host_target_plane(c.inputs[i], s.theta_start, tp::SE3d(), s.T_start.inverse(),
-                                            tp::PerturbationSide::right, options(true), c.workspace);
-}
-
-template <int P>
+template <tp::Parameters U>
 void add_forward(const std::string& name, const std::string& size,
                  const std::function<std::shared_ptr<Cycle>()>& make) {
-  add_targets(name, size, equations(make, forward<P>, forward_reference<P>));
+  const auto request_of = [](Cycle& c, std::size_t i) {
+    const Scene& s = c.scenes[i];
+    if constexpr (U == tp::Parameters::host_target_plane)
+      return tp::world_request(c.inputs[i], s.theta_start, tp::SE3d(), s.T_start.inverse(), tp::PerturbationSide::right,
+                               options(true));
+    else
+      return request(c, i);
+  };
+  const auto ours = [=](Cycle& c, std::size_t i) { return tp::linearise<U>(request_of(c, i), c.workspace); };
+  const auto reference = [=](Cycle& c, std::size_t i) {
+    return tp::reference::linearise<U>(request_of(c, i), c.workspace);
+  };
+  add_targets(name, size, equations(make, ours, reference));
 }
 
 void add_cost(int n) {
@@ -144,15 +136,10 @@ void add_cost(int n) {
     const auto cycle = std::make_shared<Cycle>(n, 4, false);
     Work work;
     work.items = n;
-    const auto evaluate = [cycle](std::size_t i) {
-      const Scene& s = cycle->scenes[i];
-      return tp::evaluate(cycle->inputs[i], s.theta_start, s.T_start, options(true), cycle->workspace);
-    };
+    const auto evaluate = [cycle](std::size_t i) { return tp::evaluate(request(*cycle, i), cycle->workspace); };
     double worst = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const Scene& s = cycle->scenes[i];
-      const auto want =
-          tp::reference::evaluate(cycle->inputs[i], s.theta_start, s.T_start, options(true), cycle->workspace);
+      const auto want = tp::reference::evaluate(request(*cycle, i), cycle->workspace);
       worst = std::max(worst, std::abs(evaluate(i).cost - want.cost));
     }
     work.errors["error_cost"] = worst;
@@ -188,14 +175,9 @@ Work batch_work(int n) {
     tp::PhotometricInput in = cycle->inputs[i];
     in.target = first.target_view();
     const auto ours = result->normal_equations<P>(static_cast<int>(i));
-    if constexpr (P == 9)
-      largest(errors_and_cost(ours, tp::reference::linearise_pose_plane(in, items[i].theta, (*poses)[i], options(true),
-                                                                        cycle->workspace)),
-              &work.errors);
-    if constexpr (P == 6)
-      largest(errors_and_cost(ours, tp::reference::linearise_pose(in, items[i].theta, (*poses)[i], options(true),
-                                                                  cycle->workspace)),
-              &work.errors);
+    constexpr tp::Parameters kUnknowns = P == 9 ? tp::Parameters::pose_plane : tp::Parameters::pose;
+    const tp::ResidualRequest one{in, items[i].theta, (*poses)[i], options(true)};
+    largest(errors_and_cost(ours, tp::reference::linearise<kUnknowns>(one, cycle->workspace)), &work.errors);
   }
   work.call = [run, cycle](std::size_t) { keep(run()); };
   return work;
@@ -211,22 +193,24 @@ void add_equations() {
   for (const int n : {15, 64, 256, 1000, 4000}) {
     const std::string size = std::to_string(n);
     const auto cycle = cycle_of(n);
-    add_forward<9>("pose_plane", size, cycle);
-    add_forward<9>("pose_plane_prepared", size, cycle_of(n, 4, true));
-    add_forward<9>("pose_plane_cold", size, cycle_of(n, 24));
-    add_forward<6>("pose", size, cycle);
-    add_forward<15>("host_target_plane", size, cycle);
-    add_policy<9>("template_l2", tp::LinearisePolicy::template_jacobian, false, size, cycle);
-    add_policy<9>("template_l2_prepared", tp::LinearisePolicy::template_jacobian, false, size, cycle_of(n, 4, true));
-    add_policy<9>("template_huber", tp::LinearisePolicy::template_jacobian, true, size, cycle);
-    add_policy<9>("esm", tp::LinearisePolicy::esm, true, size, cycle);
+    add_forward<tp::Parameters::pose_plane>("pose_plane", size, cycle);
+    add_forward<tp::Parameters::pose_plane>("pose_plane_prepared", size, cycle_of(n, 4, true));
+    add_forward<tp::Parameters::pose_plane>("pose_plane_cold", size, cycle_of(n, 24));
+    add_forward<tp::Parameters::pose>("pose", size, cycle);
+    add_forward<tp::Parameters::host_target_plane>("host_target_plane", size, cycle);
+    add_policy<tp::Parameters::pose_plane>("template_l2", tp::LinearisePolicy::template_jacobian, false, size, cycle);
+    add_policy<tp::Parameters::pose_plane>("template_l2_prepared", tp::LinearisePolicy::template_jacobian, false, size,
+                                           cycle_of(n, 4, true));
+    add_policy<tp::Parameters::pose_plane>("template_huber", tp::LinearisePolicy::template_jacobian, true, size, cycle);
+    add_policy<tp::Parameters::pose_plane>("esm", tp::LinearisePolicy::esm, true, size, cycle);
     add_cost(n);
   }
   // The same rectangles as for findTransformECC.
   for (const auto& [columns, rows] : {std::pair(16, 16), {40, 25}}) {
     const std::string size = std::to_string(columns) + "x" + std::to_string(rows);
-    add_forward<9>("pose_plane", size, dense_cycle_of(columns, rows));
-    add_policy<9>("template_l2", tp::LinearisePolicy::template_jacobian, false, size, dense_cycle_of(columns, rows));
+    add_forward<tp::Parameters::pose_plane>("pose_plane", size, dense_cycle_of(columns, rows));
+    add_policy<tp::Parameters::pose_plane>("template_l2", tp::LinearisePolicy::template_jacobian, false, size,
+                                           dense_cycle_of(columns, rows));
   }
 }
 

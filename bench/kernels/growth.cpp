@@ -31,7 +31,9 @@ void pixels(benchmark::State& state, int n) {
   const Scene& scene = scene_of(n);
   const tp::PhotometricInput in = scene.input();
   tp::PhotometricWorkspace workspace(n);
-  for (auto _ : state) keep(tp::linearise_pose_plane(in, scene.theta_start, scene.T_start, options(true), workspace));
+  for (auto _ : state)
+    keep(tp::linearise<tp::Parameters::pose_plane>(
+        tp::ResidualRequest{in, scene.theta_start, scene.T_start, options(true)}, workspace));
   count(state, n);
 }
 

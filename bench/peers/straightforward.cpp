@@ -36,10 +36,9 @@ tp::NormalEquations<P> normal_equations(const Equations& peer) {
 template <int P>
 tp::NormalEquations<P> reference(const Scene& s, bool huber) {
   tp::PhotometricWorkspace workspace(s.n());
-  if constexpr (P == 6)
-    return tp::reference::linearise_pose(s.input(), s.theta_start, s.T_start, options(huber), workspace);
-  if constexpr (P == 9)
-    return tp::reference::linearise_pose_plane(s.input(), s.theta_start, s.T_start, options(huber), workspace);
+  constexpr tp::Parameters kUnknowns = P == 9 ? tp::Parameters::pose_plane : tp::Parameters::pose;
+  const tp::ResidualRequest request{s.input(), s.theta_start, s.T_start, options(huber)};
+  return tp::reference::linearise<kUnknowns>(request, workspace);
 }
 
 template <int P>
@@ -99,7 +98,8 @@ Work numeric_work(int n) {
     tp::PhotometricWorkspace workspace(n);
     tp::PhotometricOptions frozen = options(false);
     frozen.normalisation = tp::Normalisation::frozen;
-    tp::reference::residuals<3>(s.input(), s.theta_start, s.T_start, frozen, workspace, r.data(), J.data());
+    tp::reference::residuals<tp::Parameters::plane>(tp::ResidualRequest{s.input(), s.theta_start, s.T_start, frozen},
+                                                    workspace, r.data(), J.data());
     double worst = 0, scale = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(3 * rows); ++k) {
       worst = std::max(worst, std::abs(theirs[k] - J[k]));

@@ -43,7 +43,7 @@ struct TextFeatures {
       for (Frame* frame : frames) {
         const auto input = tp::photometric_input(patch, 0, frame->pyramid, camera);
         tp::PhotometricWorkspace workspace(input.patch.n);
-        const auto now = tp::evaluate(input, theta, T_t_h(*host, *frame), {}, workspace);
+        const auto now = tp::evaluate(tp::ResidualRequest{input, theta, T_t_h(*host, *frame)}, workspace);
         if (frame == host || !tp::is_ok(now.status) || now.zncc < 0.6) continue;
         const tp::adapters::TextCostOptions options{
             {}, tp::Weighting::variance, 1, 0.3, std::min(1.0, 0.045 / (1 - now.zncc))};

@@ -83,7 +83,7 @@ class Appearance {
     double zncc = -2;
     for (std::size_t k = 0; k < looks_.size(); ++k) {
       in.patch = look(k, level);
-      const tp::PhotometricCost cost = tp::evaluate(in, theta, T_t_h, photometric, workspace);
+      const tp::PhotometricCost cost = tp::evaluate(tp::ResidualRequest{in, theta, T_t_h, photometric}, workspace);
       if (!tp::is_ok(cost.status) || !(cost.zncc > zncc + options_.gain)) continue;
       zncc = cost.zncc;
       found = k;

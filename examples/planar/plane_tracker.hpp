@@ -71,7 +71,8 @@ class PosePlaneProblem {
   }
 
   tp::NormalEquations<9> linearise(const State& x) noexcept {
-    auto sums = tp::linearise_pose_plane(input_, x.theta, x.T_t_h, options_, workspace_);
+    auto sums =
+        tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{input_, x.theta, x.T_t_h, options_}, workspace_);
     const Eigen::Matrix<double, 9, 1> off = distance(x);
     sums.H.diagonal() += weight_;
     sums.b += weight_.cwiseProduct(off);
@@ -79,7 +80,8 @@ class PosePlaneProblem {
     return sums;
   }
   tp::Evaluation evaluate(const State& x) noexcept {
-    const auto c = tp::evaluate(input_, x.theta, x.T_t_h, options_, workspace_, workspace_.visible());
+    const auto c =
+        tp::evaluate(tp::ResidualRequest{input_, x.theta, x.T_t_h, options_}, workspace_, workspace_.visible());
     const Eigen::Matrix<double, 9, 1> off = distance(x);
     return {c.cost + off.dot(weight_.cwiseProduct(off)), static_cast<double>(c.lost) / input_.patch.n, c.status};
   }

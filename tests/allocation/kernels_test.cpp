@@ -56,14 +56,19 @@ TEST(NoAllocation, ReferenceKernels) {
     const auto& [in, theta, T] = std::tie(i.in, i.scene.theta, i.scene.T_t_h);
     auto& workspace = i.scene.workspace;
     workspace.reserve(i.scene.n());
-    status = {ref::linearise_pose(in, theta, T, i.options, workspace).status,
-              ref::linearise_plane(in, theta, T, i.options, workspace).status,
-              ref::linearise_by<9>(tp::LinearisePolicy::esm, in, theta, T, i.options, workspace).status,
-              ref::linearise_host_target_plane(in, theta, i.scene.T_w_h, i.scene.T_w_t, tp::PerturbationSide::left,
-                                               i.options, workspace)
+    status = {ref::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, i.options}, workspace).status,
+              ref::linearise<tp::Parameters::plane>(tp::ResidualRequest{in, theta, T, i.options}, workspace).status,
+              ref::linearise<tp::Parameters::pose_plane>(
+                  tp::ResidualRequest{in, theta, T, i.options}.by(tp::LinearisePolicy::esm), workspace)
                   .status,
-              ref::evaluate(in, theta, T, i.options, workspace).status,
-              ref::residuals<9>(in, theta, T, i.options, workspace, r.data(), J.data()).status};
+              ref::linearise<tp::Parameters::host_target_plane>(
+                  tp::world_request(in, theta, i.scene.T_w_h, i.scene.T_w_t, tp::PerturbationSide::left, i.options),
+                  workspace)
+                  .status,
+              ref::evaluate(tp::ResidualRequest{in, theta, T, i.options}, workspace).status,
+              ref::residuals<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T, i.options}, workspace,
+                                                         r.data(), J.data())
+                  .status};
   }
   for (const Status s : status) EXPECT_EQ(s, Status::ok);
 }
@@ -83,16 +88,21 @@ TEST(NoAllocation, NormalEquationsAndCosts) {
       const auto& [in, theta, T] = std::tie(i.in, i.scene.theta, i.scene.T_t_h);
       auto& workspace = i.scene.workspace;
       status = {
-          tp::linearise_pose(in, theta, T, i.options, workspace).status,
-          tp::linearise_plane(in, theta, T, i.options, workspace).status,
-          tp::linearise_pose_plane(in, theta, T, i.options, workspace).status,
-          tp::linearise_host_target_plane(in, theta, i.scene.T_w_h, i.scene.T_w_t, tp::PerturbationSide::right,
-                                          i.options, workspace)
+          tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, i.options}, workspace).status,
+          tp::linearise<tp::Parameters::plane>(tp::ResidualRequest{in, theta, T, i.options}, workspace).status,
+          tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T, i.options}, workspace).status,
+          tp::linearise<tp::Parameters::host_target_plane>(
+              tp::world_request(in, theta, i.scene.T_w_h, i.scene.T_w_t, tp::PerturbationSide::right, i.options),
+              workspace)
               .status,
-          tp::evaluate(in, theta, T, i.options, workspace).status,
-          tp::linearise_by<9>(tp::LinearisePolicy::template_jacobian, in, theta, T, i.options, workspace, &i.prepared)
+          tp::evaluate(tp::ResidualRequest{in, theta, T, i.options}, workspace).status,
+          tp::linearise<tp::Parameters::pose_plane>(
+              tp::ResidualRequest{in, theta, T, i.options}.by(tp::LinearisePolicy::template_jacobian, &i.prepared),
+              workspace)
               .status,
-          tp::linearise_by<6>(tp::LinearisePolicy::esm, in, theta, T, i.options, workspace).status,
+          tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, i.options}.by(tp::LinearisePolicy::esm),
+                                              workspace)
+              .status,
           tp::zncc_candidates(in, theta, poses.data(), 20, i.options, workspace, zncc.data(), &i.prepared),
           tp::evaluate_batch<9>(batch, in.target, in.target_camera, poses.data(), i.options, result)};
     }

@@ -88,15 +88,13 @@ void count_residual(const Scene& scene, int n) {
   const Pixels pixels(n);
   tp::PhotometricWorkspace workspace(n);
   const tp::PhotometricInput input = pixels.input(scene);
-  const tp::PhotometricOptions options;
+  const tp::ResidualRequest request{input, scene.theta, scene.T_t_h};
   const std::string size = "/" + std::to_string(n);
-  count("pose" + size,
-        [&] { return is_ok(tp::linearise_pose(input, scene.theta, scene.T_t_h, options, workspace).status); });
-  count("plane" + size,
-        [&] { return is_ok(tp::linearise_plane(input, scene.theta, scene.T_t_h, options, workspace).status); });
+  count("pose" + size, [&] { return is_ok(tp::linearise<tp::Parameters::pose>(request, workspace).status); });
+  count("plane" + size, [&] { return is_ok(tp::linearise<tp::Parameters::plane>(request, workspace).status); });
   count("pose_plane" + size,
-        [&] { return is_ok(tp::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, workspace).status); });
-  count("cost" + size, [&] { return is_ok(tp::evaluate(input, scene.theta, scene.T_t_h, options, workspace).status); });
+        [&] { return is_ok(tp::linearise<tp::Parameters::pose_plane>(request, workspace).status); });
+  count("cost" + size, [&] { return is_ok(tp::evaluate(request, workspace).status); });
 }
 
 void count_policies(const Scene& scene, int n) {
@@ -108,12 +106,13 @@ void count_policies(const Scene& scene, int n) {
   const std::string size = "/" + std::to_string(n);
   tp::PhotometricOptions l2;
   l2.robust.kind = tp::RobustKind::l2;
-  const auto by = [&](tp::LinearisePolicy policy, const tp::PhotometricOptions& options) {
-    return is_ok(tp::linearise_by<9>(policy, input, scene.theta, scene.T_t_h, options, workspace, &prepared).status);
+  const auto count_by = [&](const char* name, tp::LinearisePolicy policy, const tp::PhotometricOptions& options) {
+    const auto request = tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}.by(policy, &prepared);
+    count(name + size, [&] { return is_ok(tp::linearise<tp::Parameters::pose_plane>(request, workspace).status); });
   };
-  count("template_l2" + size, [&] { return by(tp::LinearisePolicy::template_jacobian, l2); });
-  count("template_huber" + size, [&] { return by(tp::LinearisePolicy::template_jacobian, {}); });
-  count("esm" + size, [&] { return by(tp::LinearisePolicy::esm, {}); });
+  count_by("template_l2", tp::LinearisePolicy::template_jacobian, l2);
+  count_by("template_huber", tp::LinearisePolicy::template_jacobian, {});
+  count_by("esm", tp::LinearisePolicy::esm, {});
   const std::vector<tp::SE3d> poses(16, scene.T_t_h);
   std::vector<float> zncc(16);
   count("zncc_16" + size, [&] {

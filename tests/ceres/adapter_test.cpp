@@ -134,8 +134,8 @@ TEST_F(CeresAdapter, SumsAndPixelsAreOneCostAndAgreeWithTheNormalEquations) {
   double* jacobians[3] = {nullptr, J.data(), nullptr};
   ASSERT_TRUE(sums.Evaluate(blocks().data(), r.data(), jacobians));
   ASSERT_TRUE(pixels.Evaluate(blocks().data(), each.data(), nullptr));
-  const tp::NormalEquations<6> e =
-      tp::linearise_pose(input, scene.theta, scene.T_t_h, options.photometric, scene.workspace);
+  const tp::NormalEquations<6> e = tp::linearise<tp::Parameters::pose>(
+      tp::ResidualRequest{input, scene.theta, scene.T_t_h, options.photometric}, scene.workspace);
   const double factor = options.weight * tp::text_weight(options.weighting, 1, options.sigma_photo, e.visible);
   EXPECT_EQ(e.visible, scene.n());
   EXPECT_NEAR(r.squaredNorm(), factor * e.cost, 1e-12 * factor);

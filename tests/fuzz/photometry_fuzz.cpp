@@ -76,15 +76,12 @@ struct Scene {
 template <int P>
 tp::NormalEquations<P> equations(const tp::PhotometricInput& in, const Scene& s, const tp::PhotometricOptions& o,
                                  tp::PhotometricWorkspace& workspace, bool reference) {
-  if constexpr (P == 3)
-    return reference ? tp::reference::linearise_plane(in, s.theta, s.T_t_h, o, workspace)
-                     : tp::linearise_plane(in, s.theta, s.T_t_h, o, workspace);
-  if constexpr (P == 6)
-    return reference ? tp::reference::linearise_pose(in, s.theta, s.T_t_h, o, workspace)
-                     : tp::linearise_pose(in, s.theta, s.T_t_h, o, workspace);
-  if constexpr (P == 9)
-    return reference ? tp::reference::linearise_pose_plane(in, s.theta, s.T_t_h, o, workspace)
-                     : tp::linearise_pose_plane(in, s.theta, s.T_t_h, o, workspace);
+  constexpr tp::Parameters kUnknowns = P == 3   ? tp::Parameters::plane
+                                       : P == 6 ? tp::Parameters::pose
+                                                : tp::Parameters::pose_plane;
+  const tp::ResidualRequest request{in, s.theta, s.T_t_h, o};
+  return reference ? tp::reference::linearise<kUnknowns>(request, workspace)
+                   : tp::linearise<kUnknowns>(request, workspace);
 }
 
 template <int P>
@@ -137,7 +134,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const tp::PhotometricInput input = scene.input();
   tp::PhotometricWorkspace workspace(input.patch.n);
   on_every_target([&](tp::simd::Target) {
-    const auto cost = tp::evaluate(input, scene.theta, scene.T_t_h, scene.options, workspace);
+    const auto cost = tp::evaluate(tp::ResidualRequest{input, scene.theta, scene.T_t_h, scene.options}, workspace);
     TEXTPLANE_FUZZ_REQUIRE(tp::is_finite(cost.cost) && tp::is_finite(cost.error) && cost.visible >= 0);
     TEXTPLANE_FUZZ_REQUIRE(tp::is_ok(cost.status) || (cost.cost == 0 && cost.zncc == 0));
   });

@@ -34,8 +34,8 @@ MUTANTS = [
     ("photometry/residual_passes.hpp", "row[4] = q[2] * a[0] - q[0] * a[2];", "row[4] = q[2] * a[0] + q[0] * a[2];", ["photometry/residual_jacobian_test"]),
     ("photometry/residual_passes.hpp", "w[k] = robust.weight(count * r2);", "w[k] = robust.weight(r2);", ["photometry/residual_jacobian_test"]),
     ("photometry/residual_passes.hpp", "y >= 0.0 && x <= x_max", "y >= 0.0 && x <= x_max + 1", ["photometry/residual_cost_test"]),
-    ("photometry/residual.hpp", "options.robust.rho(2.0) * out.lost / seen.candidates", "options.robust.rho(1.0) * out.lost / seen.candidates", ["photometry/residual_cost_test", "simd/residual_visibility_test"]),
-    ("photometry/linearise_policy.hpp", "options.normalisation == Normalisation::exact ? 0 : 1", "options.normalisation == Normalisation::exact ? 1 : 0", ["photometry/linearise_policy_test"]),
+    ("photometry/residual_reference.hpp", "request.options.robust.rho(2.0) * out.lost / seen.candidates", "request.options.robust.rho(1.0) * out.lost / seen.candidates", ["photometry/residual_cost_test", "simd/residual_visibility_test"]),
+    ("photometry/residual_reference.hpp", "request.options.normalisation == Normalisation::exact ? 0 : 1", "request.options.normalisation == Normalisation::exact ? 1 : 0", ["photometry/residual_policy_test"]),
     # kernels
     ("simd/kernels/halve.inl", "const std::uint8_t* lower = upper + args.src_stride;", "const std::uint8_t* lower = upper;", ["simd/halve_kernels_test"]),
     ("simd/kernels/fast.inl", "minb(minb(b7, b11), maxb(v6, v15))", "minb(minb(b7, b11), maxb(v6, v14))", ["simd/fast_kernels_test"]),

@@ -9,7 +9,7 @@
 #include "support/guarded.hpp"
 #include "support/targets.hpp"
 #include "textplane/photometry/candidates.hpp"
-#include "textplane/photometry/template_patch.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 #include "textplane/photometry/text_batch.hpp"
 
 namespace guard_pages_test {
@@ -61,13 +61,15 @@ void run_every_kernel(const tp::PhotometricInput& in, const tp::SE3d& T, tp::Pho
   const bool ready = !in.patch.mask && tp::is_ok(prepared.prepare(in.patch));
   for (const auto kind : {tp::RobustKind::huber, tp::RobustKind::l2}) {
     options.robust = {kind, 0.5};
-    tp::evaluate(in, theta, T, options, workspace);
-    tp::linearise_plane(in, theta, T, options, workspace);
-    tp::linearise_pose(in, theta, T, options, workspace);
-    tp::linearise_pose_plane(in, theta, T, options, workspace);
+    tp::evaluate(tp::ResidualRequest{in, theta, T, options}, workspace);
+    tp::linearise<tp::Parameters::plane>(tp::ResidualRequest{in, theta, T, options}, workspace);
+    tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, options}, workspace);
+    tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T, options}, workspace);
     for (const auto policy : {tp::LinearisePolicy::template_jacobian, tp::LinearisePolicy::esm}) {
-      tp::linearise_by<6>(policy, in, theta, T, options, workspace, ready ? &prepared : nullptr);
-      tp::linearise_by<9>(policy, in, theta, T, options, workspace, ready ? &prepared : nullptr);
+      tp::linearise<tp::Parameters::pose>(
+          tp::ResidualRequest{in, theta, T, options}.by(policy, ready ? &prepared : nullptr), workspace);
+      tp::linearise<tp::Parameters::pose_plane>(
+          tp::ResidualRequest{in, theta, T, options}.by(policy, ready ? &prepared : nullptr), workspace);
     }
   }
   float zncc[3];
@@ -109,8 +111,7 @@ TEST(GuardPages, EveryKernelEveryBorder) {
             run_every_kernel(in, tp::SE3d{}, workspace);  // pixels of the border exactly
             run_every_kernel(in, nearly, workspace);
             run_every_kernel(in, tp::se3_exp<double>(random.twist(0.5, 0.6)), workspace);
-            const auto cost =
-                tp::evaluate(in, tp::Vector3<double>(0, 0, 0.5), nearly, tp::PhotometricOptions{}, workspace);
+            const auto cost = tp::evaluate(tp::ResidualRequest{in, tp::Vector3<double>(0, 0, 0.5), nearly}, workspace);
             seen += cost.visible;
           }
         }
@@ -131,7 +132,7 @@ TEST(GuardPagesDeathTest, AnImageThatIsTooTallIsNoticed) {
   for (const simd::Target target : testable_targets()) {
     const TargetScope scope(target);
     tp::PhotometricWorkspace workspace(pixels.n);
-    EXPECT_DEATH(tp::evaluate(in, tp::Vector3<double>(0, 0, 0.5), tp::SE3d{}, tp::PhotometricOptions{}, workspace), "");
+    EXPECT_DEATH(tp::evaluate(tp::ResidualRequest{in, tp::Vector3<double>(0, 0, 0.5), tp::SE3d{}}, workspace), "");
   }
 }
 

@@ -74,18 +74,19 @@ TEST(LocalContrast, TheEdgeOfAShadowHardlyLowersZncc) {
   TextPatch patch = patch_from_pixels(host.view(), camera, quad, pixels);
   PhotometricWorkspace workspace(patch.max_pixels());
   const Vector3<double> theta = Vector3<double>::UnitZ();
-  const double grey = evaluate(photometric_input(patch, 0, target.view(), camera), theta, SE3d(), {}, workspace).zncc;
+  PhotometricInput in = photometric_input(patch, 0, target.view(), camera);
+  const double grey = evaluate(ResidualRequest{in, theta}, workspace).zncc;
 
   LocalContrast contrast;
   Image<std::uint8_t> light_window(70, 30), shaded_window(70, 30);
   ASSERT_EQ(contrast(light.view(), 5, 5, light_window.view()), Status::ok);
   ASSERT_EQ(contrast(shaded.view(), 5, 5, shaded_window.view()), Status::ok);
   LocalContrast::take(light_window.view(), 5, 5, &patch.levels[0]);
-  PhotometricInput in = photometric_input(patch, 0, target.view(), camera);
+  in = photometric_input(patch, 0, target.view(), camera);
   in.target = shaded_window.view();
   in.target_camera.cx -= 5;
   in.target_camera.cy -= 5;
-  const PhotometricCost local = evaluate(in, theta, SE3d(), {}, workspace);
+  const PhotometricCost local = evaluate(ResidualRequest{in, theta}, workspace);
   ASSERT_TRUE(is_ok(local.status));
   EXPECT_EQ(local.visible, patch.max_pixels());
   EXPECT_LT(grey, 0.6);

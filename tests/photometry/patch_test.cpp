@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "photometry/scene.hpp"
-#include "textplane/photometry/residual_types.hpp"
+#include "textplane/photometry/photometric_input.hpp"
 
 namespace tp = textplane;
 

@@ -17,7 +17,8 @@ namespace residual_cost_test {
 template <class T>
 tp::NormalEquations<9> linearise(Scene<T>& scene, const tp::BasicPhotometricInput<T>& input,
                                  const tp::PhotometricOptions& options = {}) {
-  return tp::reference::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, scene.workspace);
+  return tp::reference::linearise<tp::Parameters::pose_plane>(
+      tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace);
 }
 
 void expect_same(const tp::NormalEquations<9>& a, const tp::NormalEquations<9>& b, double tolerance) {
@@ -107,7 +108,7 @@ TEST(ResidualCost, ErrorStaysInRangeAndGivesTheZncc) {
       target.push_back(value);
     }
     const tp::PhotometricOptions options;
-    const auto cost = tp::reference::evaluate(scene.input(), scene.theta, scene.T_t_h, options, scene.workspace);
+    const auto cost = tp::reference::evaluate(scene.request(options), scene.workspace);
     ASSERT_EQ(cost.status, tp::Status::ok);
     EXPECT_GE(cost.error, 0);
     EXPECT_LE(cost.error, 4);
@@ -129,7 +130,7 @@ TEST(ResidualCost, DoesNotSeeGainAndBiasOfEitherImage) {
     const tp::PhotometricOptions options;
     const auto before = linearise(scene, scene.input());
     std::vector<double> r(scene.x.size()), changed(scene.x.size());
-    tp::reference::residuals<6>(scene.input(), scene.theta, scene.T_t_h, options, scene.workspace, r.data(), nullptr);
+    tp::reference::residuals<tp::Parameters::pose>(scene.request(options), scene.workspace, r.data(), nullptr);
     for (const auto& target : changes)
       for (const auto& host : changes) {
         Scene<float> other = scene;
@@ -138,8 +139,8 @@ TEST(ResidualCost, DoesNotSeeGainAndBiasOfEitherImage) {
             other.image(x, y) = static_cast<float>(target[0] * static_cast<double>(scene.image(x, y)) + target[1]);
         for (float& v : other.intensity) v = static_cast<float>(host[0] * static_cast<double>(v) + host[1]);
         expect_same(linearise(other, other.input()), before, 1e-9);
-        tp::reference::residuals<6>(other.input(), other.theta, other.T_t_h, options, other.workspace, changed.data(),
-                                    nullptr);
+        tp::reference::residuals<tp::Parameters::pose>(other.request(options), other.workspace, changed.data(),
+                                                       nullptr);
         for (std::size_t i = 0; i < r.size(); ++i) ASSERT_NEAR(changed[i], r[i], 1e-9);
       }
   }
@@ -191,8 +192,8 @@ TEST(VisibleSet, ResidualsOfInvisiblePixelsAreZero) {
   Cut cut(3);
   const auto n = static_cast<std::size_t>(cut.scene.n());
   std::vector<double> r(n, 9), J(n * 6, 9);
-  const auto summary = tp::reference::residuals<6>(cut.input, cut.scene.theta, cut.scene.T_t_h, {}, cut.scene.workspace,
-                                                   r.data(), J.data());
+  const auto summary = tp::reference::residuals<tp::Parameters::pose>(
+      tp::ResidualRequest{cut.input, cut.scene.theta, cut.scene.T_t_h}, cut.scene.workspace, r.data(), J.data());
   ASSERT_EQ(summary.status, tp::Status::ok);
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -219,7 +220,8 @@ TEST(VisibleSet, BorderIsInsideAndAHairBeyondIsNot) {
   tp::PhotometricInput input;
   input.patch = {x.data(), y.data(), intensity.data(), nullptr, 40};
   input.target = image.view();
-  const auto sums = tp::reference::linearise_plane(input, {0, 0, 1}, {}, {}, workspace);
+  const auto sums =
+      tp::reference::linearise<tp::Parameters::plane>(tp::ResidualRequest{input, {0, 0, 1}, {}}, workspace);
   ASSERT_EQ(sums.visible, 20);
   for (int i = 0; i < 40; ++i) EXPECT_EQ(workspace.visible()[i], i % 4 < 2 ? 1 : 0);
 }
@@ -274,8 +276,8 @@ TEST(EvaluateOnSet, EqualsTheLinearisationWhereNothingIsLost) {
   Cut cut(4);
   const tp::PhotometricOptions options;
   const auto sums = linearise(cut.scene, cut.input, options);
-  const auto cost = tp::reference::evaluate(cut.input, cut.scene.theta, cut.scene.T_t_h, options, cut.scene.workspace,
-                                            cut.scene.workspace.visible());
+  const auto cost = tp::reference::evaluate(tp::ResidualRequest{cut.input, cut.scene.theta, cut.scene.T_t_h, options},
+                                            cut.scene.workspace, cut.scene.workspace.visible());
   EXPECT_EQ(cost.cost, sums.cost);
   EXPECT_EQ(cost.visible, sums.visible);
   EXPECT_EQ(cost.lost, 0);
@@ -301,7 +303,8 @@ TEST(EvaluateOnSet, ChargesTheLostAndIgnoresTheRest) {
     trial.target = {scene.image.data(), width, scene.image.height(), scene.kWidth};
     linearise(scene, scene.input(), options);
     const std::vector<std::uint8_t> visible(scene.workspace.visible(), scene.workspace.visible() + scene.n());
-    const auto cost = tp::reference::evaluate(trial, scene.theta, scene.T_t_h, options, scene.workspace, on_set.data());
+    const auto cost = tp::reference::evaluate(tp::ResidualRequest{trial, scene.theta, scene.T_t_h, options},
+                                              scene.workspace, on_set.data());
 
     const auto stays = [&](int i) {
       return on_set[static_cast<std::size_t>(i)] && columns[static_cast<std::size_t>(i)] <= width - 1;
@@ -309,7 +312,8 @@ TEST(EvaluateOnSet, ChargesTheLostAndIgnoresTheRest) {
     const Subset kept(scene.input().patch, stays);
     auto subset = scene.input();
     subset.patch = kept.view();
-    const auto remaining = tp::reference::evaluate(subset, scene.theta, scene.T_t_h, options, scene.workspace);
+    const auto remaining =
+        tp::reference::evaluate(tp::ResidualRequest{subset, scene.theta, scene.T_t_h, options}, scene.workspace);
     const int set = 90;
     ASSERT_EQ(cost.status, tp::Status::ok);
     ASSERT_EQ(cost.visible, kept.view().n);
@@ -328,14 +332,13 @@ TEST(EvaluateOnSet, ReportsTheLostWhereTooFewRemain) {
   linearise(scene, scene.input());
   auto trial = scene.input();
   trial.target = {scene.image.data(), 4, 4, scene.kWidth};
-  const auto cost =
-      tp::reference::evaluate(trial, scene.theta, scene.T_t_h, {}, scene.workspace, scene.workspace.visible());
+  const auto cost = tp::reference::evaluate(tp::ResidualRequest{trial, scene.theta, scene.T_t_h}, scene.workspace,
+                                            scene.workspace.visible());
   EXPECT_EQ(cost.status, tp::Status::out_of_view);
   EXPECT_EQ(cost.lost, scene.n());
   EXPECT_EQ(cost.cost, 0);
   const std::vector<std::uint8_t> none(scene.x.size(), 0);
-  EXPECT_EQ(tp::reference::evaluate(scene.input(), scene.theta, scene.T_t_h, {}, scene.workspace, none.data()).status,
-            tp::Status::too_few);
+  EXPECT_EQ(tp::reference::evaluate(scene.request(), scene.workspace, none.data()).status, tp::Status::too_few);
 }
 
 }  // namespace residual_cost_test

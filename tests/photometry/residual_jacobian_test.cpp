@@ -6,10 +6,12 @@
 #include "photometry/scene.hpp"
 #include "support/dual.hpp"
 #include "textplane/photometry/residual.hpp"
+#include "textplane/photometry/residual_autodiff.hpp"
 
 namespace tp = textplane;
 using textplane_test::Dual;
 using textplane_test::Scene;
+using textplane_test::unknowns;
 using tp::Normalisation;
 using tp::PerturbationSide;
 
@@ -107,8 +109,8 @@ void check_rows(Scene<T>& scene, Normalisation normalisation) {
   options.normalisation = normalisation;
   std::vector<double> r(scene.x.size());
   Rows<P> J(scene.n(), P);
-  const tp::ResidualSummary summary = tp::reference::residuals<P>(scene.input(), scene.theta, scene.T_t_h, options,
-                                                                  scene.workspace, r.data(), J.data());
+  const tp::ResidualSummary summary =
+      tp::reference::residuals<unknowns<P>()>(scene.request(options), scene.workspace, r.data(), J.data());
   ASSERT_EQ(summary.status, tp::Status::ok);
   ASSERT_EQ(summary.visible, scene.n());
   const std::vector<std::uint8_t> visible(scene.workspace.visible(), scene.workspace.visible() + scene.n());
@@ -174,8 +176,8 @@ TYPED_TEST(ResidualJacobian, HostTargetAndPlaneFromBothSides) {
       for (const PerturbationSide side : {PerturbationSide::left, PerturbationSide::right}) {
         tp::PhotometricOptions options;
         options.normalisation = normalisation;
-        const tp::NormalEquations<15> sums = tp::reference::linearise_host_target_plane(
-            scene.input(), scene.theta, scene.T_w_h, scene.T_w_t, side, options, scene.workspace);
+        const tp::NormalEquations<15> sums = tp::reference::linearise<tp::Parameters::host_target_plane>(
+            tp::world_request(scene.input(), scene.theta, scene.T_w_h, scene.T_w_t, side, options), scene.workspace);
         ASSERT_EQ(sums.status, tp::Status::ok);
         const std::vector<std::uint8_t> visible(scene.workspace.visible(), scene.workspace.visible() + scene.n());
         tp::IntensityStats held;
@@ -201,12 +203,7 @@ TYPED_TEST(ResidualJacobian, HostTargetAndPlaneFromBothSides) {
 
 template <int P, class T>
 tp::NormalEquations<P> linearise(Scene<T>& scene, const tp::PhotometricOptions& options) {
-  const auto input = scene.input();
-  if constexpr (P == 3)
-    return tp::reference::linearise_plane(input, scene.theta, scene.T_t_h, options, scene.workspace);
-  if constexpr (P == 6) return tp::reference::linearise_pose(input, scene.theta, scene.T_t_h, options, scene.workspace);
-  if constexpr (P == 9)
-    return tp::reference::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, scene.workspace);
+  return tp::reference::linearise<unknowns<P>()>(scene.request(options), scene.workspace);
 }
 
 template <int P, class T>
@@ -215,8 +212,8 @@ void check_sums(Scene<T>& scene, const tp::PhotometricOptions& options) {
   ASSERT_EQ(sums.status, tp::Status::ok);
   std::vector<double> r(scene.x.size());
   Rows<P> J(scene.n(), P);
-  const tp::ResidualSummary summary = tp::reference::residuals<P>(scene.input(), scene.theta, scene.T_t_h, options,
-                                                                  scene.workspace, r.data(), J.data());
+  const tp::ResidualSummary summary =
+      tp::reference::residuals<unknowns<P>()>(scene.request(options), scene.workspace, r.data(), J.data());
   Eigen::VectorXd w(scene.n());
   double cost = 0, error = 0;
   for (int i = 0; i < scene.n(); ++i) {
@@ -267,9 +264,12 @@ TYPED_TEST(ResidualJacobian, RightHandSideIsHalfTheGradientOfTheCost) {
         Eigen::Matrix<double, 9, 1> p = Eigen::Matrix<double, 9, 1>::Zero();
         p[j] = h;
         const Relative<double> plus = step9<double>(scene, p), minus = step9<double>(scene, -p);
-        const double rise =
-            tp::reference::evaluate(scene.input(), plus.theta, plus.T_t_h, options, scene.workspace).cost -
-            tp::reference::evaluate(scene.input(), minus.theta, minus.T_t_h, options, scene.workspace).cost;
+        const double rise = tp::reference::evaluate(tp::ResidualRequest{scene.input(), plus.theta, plus.T_t_h, options},
+                                                    scene.workspace)
+                                .cost -
+                            tp::reference::evaluate(
+                                tp::ResidualRequest{scene.input(), minus.theta, minus.T_t_h, options}, scene.workspace)
+                                .cost;
         EXPECT_NEAR(sums.b[j], rise / (4 * h), 1e-6 * std::sqrt(sums.H(j, j) * sums.error));
       }
     }

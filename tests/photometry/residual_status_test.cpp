@@ -7,6 +7,7 @@
 
 #include "photometry/scene.hpp"
 #include "textplane/photometry/residual.hpp"
+#include "textplane/photometry/residual_autodiff.hpp"
 
 namespace tp = textplane;
 using textplane_test::all_zero;
@@ -23,12 +24,15 @@ const double kInf = std::numeric_limits<double>::infinity();
 template <class T>
 void expect_status(const tp::BasicPhotometricInput<T>& input, const tp::Vector3<double>& theta, const tp::SE3d& T_t_h,
                    const tp::PhotometricOptions& options, tp::PhotometricWorkspace& workspace, Status expected) {
-  const auto plane = tp::reference::linearise_plane(input, theta, T_t_h, options, workspace);
-  const auto pose = tp::reference::linearise_pose(input, theta, T_t_h, options, workspace);
-  const auto both = tp::reference::linearise_pose_plane(input, theta, T_t_h, options, workspace);
-  const auto all = tp::reference::linearise_host_target_plane(input, theta, T_t_h, tp::SE3d(),
-                                                              tp::PerturbationSide::right, options, workspace);
-  const auto cost = tp::reference::evaluate(input, theta, T_t_h, options, workspace);
+  const auto plane =
+      tp::reference::linearise<tp::Parameters::plane>(tp::ResidualRequest{input, theta, T_t_h, options}, workspace);
+  const auto pose =
+      tp::reference::linearise<tp::Parameters::pose>(tp::ResidualRequest{input, theta, T_t_h, options}, workspace);
+  const auto both = tp::reference::linearise<tp::Parameters::pose_plane>(
+      tp::ResidualRequest{input, theta, T_t_h, options}, workspace);
+  const auto all = tp::reference::linearise<tp::Parameters::host_target_plane>(
+      tp::world_request(input, theta, T_t_h, tp::SE3d(), tp::PerturbationSide::right, options), workspace);
+  const auto cost = tp::reference::evaluate(tp::ResidualRequest{input, theta, T_t_h, options}, workspace);
   EXPECT_EQ(plane.status, expected) << tp::to_string(plane.status);
   EXPECT_EQ(pose.status, expected) << tp::to_string(pose.status);
   EXPECT_EQ(both.status, expected) << tp::to_string(both.status);
@@ -41,7 +45,8 @@ void expect_status(const tp::BasicPhotometricInput<T>& input, const tp::Vector3<
 
   const auto n = static_cast<std::size_t>(std::max(input.patch.n, 0));
   std::vector<double> r(n + 1, 7), J(n * 9 + 1, 7);
-  const auto summary = tp::reference::residuals<9>(input, theta, T_t_h, options, workspace, r.data(), J.data());
+  const auto summary = tp::reference::residuals<tp::Parameters::pose_plane>(
+      tp::ResidualRequest{input, theta, T_t_h, options}, workspace, r.data(), J.data());
   EXPECT_EQ(summary.status, expected) << tp::to_string(summary.status);
   for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(r[i], 0);
   for (std::size_t i = 0; i < n * 9; ++i) EXPECT_EQ(J[i], 0);
@@ -63,7 +68,9 @@ TEST_F(ResidualStatus, TooFewPixels) {
   input.patch.n = 0;
   expect(Status::too_few);
   input.patch.n = 15;
-  EXPECT_EQ(tp::reference::evaluate(input, scene.theta, scene.T_t_h, options, scene.workspace).status, Status::ok);
+  EXPECT_EQ(
+      tp::reference::evaluate(tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace).status,
+      Status::ok);
   options.min_visible = 16;
   expect(Status::too_few);
 }
@@ -93,12 +100,15 @@ TEST_F(ResidualStatus, NoContrastOfTheHost) {
 }
 
 TEST_F(ResidualStatus, ContrastIsThePopulationStandardDeviation) {
-  const auto sums = tp::reference::linearise_pose(input, scene.theta, scene.T_t_h, options, scene.workspace);
+  const auto sums = tp::reference::linearise<tp::Parameters::pose>(
+      tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace);
   const double target = sums.s / std::sqrt(static_cast<double>(sums.visible));
   const auto stats = tp::intensity_stats(scene.intensity.data(), nullptr, scene.n());
   const double host = stats.s / std::sqrt(static_cast<double>(scene.n()));
   options.min_contrast = std::min(target, host) * (1 - 1e-9);
-  EXPECT_EQ(tp::reference::evaluate(input, scene.theta, scene.T_t_h, options, scene.workspace).status, Status::ok);
+  EXPECT_EQ(
+      tp::reference::evaluate(tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace).status,
+      Status::ok);
   options.min_contrast = std::min(target, host) * (1 + 1e-9);
   expect(Status::no_contrast);
 }
@@ -153,7 +163,8 @@ TEST_F(ResidualStatus, OverflowIsNotPassedOn) {
       for (const double t : {0.0, 1.0, 1e-300, huge}) {
         tp::SE3d T;
         T.t = {t, -t, t};
-        const auto sums = tp::reference::linearise_pose_plane(input, theta, T, options, scene.workspace);
+        const auto sums = tp::reference::linearise<tp::Parameters::pose_plane>(
+            tp::ResidualRequest{input, theta, T, options}, scene.workspace);
         if (tp::is_ok(sums.status)) {
           EXPECT_TRUE(tp::all_finite(sums.H) && tp::all_finite(sums.b) && tp::is_finite(sums.cost));
         } else {
@@ -167,7 +178,8 @@ TEST_F(ResidualStatus, OverflowOfTheSumsIsNonFinite) {
   // Identity and a huge theta: the warp is finite, but the squared derivatives by v overflow.
   scene.T_t_h = tp::SE3d();
   scene.theta = {0, 0, 1e200};
-  const auto sums = tp::reference::linearise_pose(input, scene.theta, scene.T_t_h, options, scene.workspace);
+  const auto sums = tp::reference::linearise<tp::Parameters::pose>(
+      tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace);
   EXPECT_EQ(sums.status, Status::non_finite);
   EXPECT_TRUE(all_zero(sums));
 }
@@ -234,7 +246,8 @@ TEST_F(ResidualStatus, WorkspaceThatIsTooSmall) {
   expect_status(input, scene.theta, scene.T_t_h, options, empty, Status::invalid_argument);
   small.reserve(scene.n());
   EXPECT_EQ(small.capacity(), scene.n());
-  EXPECT_EQ(tp::reference::evaluate(input, scene.theta, scene.T_t_h, options, small).status, Status::ok);
+  EXPECT_EQ(tp::reference::evaluate(tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, small).status,
+            Status::ok);
   small.reserve(3);
   EXPECT_EQ(small.capacity(), scene.n());
 }
@@ -250,9 +263,10 @@ TEST_F(ResidualStatus, BadOptions) {
 }
 
 TEST_F(ResidualStatus, ResidualsWithoutRoomForThem) {
-  EXPECT_EQ(
-      tp::reference::residuals<3>(input, scene.theta, scene.T_t_h, options, scene.workspace, nullptr, nullptr).status,
-      Status::invalid_argument);
+  EXPECT_EQ(tp::reference::residuals<tp::Parameters::plane>(
+                tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace, nullptr, nullptr)
+                .status,
+            Status::invalid_argument);
 }
 
 TEST_F(ResidualStatus, TemplatedResidualRefusesWhatItsSetCannotSee) {
@@ -301,7 +315,8 @@ TEST(ResidualFuzz, OkIsFiniteAndTheRestIsZero) {
     }
     tp::PhotometricOptions options;
     options.normalisation = k % 2 ? tp::Normalisation::exact : tp::Normalisation::frozen;
-    const auto sums = tp::reference::linearise_pose_plane(input, scene.theta, scene.T_t_h, options, scene.workspace);
+    const auto sums = tp::reference::linearise<tp::Parameters::pose_plane>(
+        tp::ResidualRequest{input, scene.theta, scene.T_t_h, options}, scene.workspace);
     if (tp::is_ok(sums.status)) {
       ++ok;
       ASSERT_TRUE(tp::all_finite(sums.H) && tp::all_finite(sums.b));

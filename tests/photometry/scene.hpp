@@ -80,7 +80,16 @@ struct Scene {
     in.target = view();
     return in;
   }
+  tp::ResidualRequest<T> request(const tp::PhotometricOptions& options = {}) const {
+    return {input(), theta, T_t_h, options};
+  }
 };
+
+/// The unknowns of P derivatives.
+template <int P>
+constexpr tp::Parameters unknowns() {
+  return P == 3 ? tp::Parameters::plane : P == 6 ? tp::Parameters::pose : tp::Parameters::pose_plane;
+}
 
 /// Everything that must be zero in a result that may not be used.
 template <int P>

@@ -10,7 +10,7 @@
 #include "support/calculus.hpp"
 #include "support/targets.hpp"
 #include "textplane/photometry/residual.hpp"
-#include "textplane/photometry/template_patch.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 
 namespace textplane_test {
 namespace {
@@ -71,6 +71,7 @@ struct Drawn {
     in.target = image.view();
     return in;
   }
+  tp::ResidualRequest<std::uint8_t> request() const { return {input(), theta, T_t_h, options}; }
 };
 
 simd::Target any_target() {
@@ -93,7 +94,8 @@ bool close(const tp::NormalEquations<P>& a, const tp::NormalEquations<P>& b, con
 tp::NormalEquations<9> frozen(Drawn& s, const tp::PhotometricInput& in) {
   tp::PhotometricOptions o = s.options;
   o.normalisation = tp::Normalisation::frozen;
-  return tp::reference::linearise_pose_plane(in, s.theta, s.T_t_h, o, s.workspace);
+  return tp::reference::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, s.theta, s.T_t_h, o},
+                                                              s.workspace);
 }
 
 RC_GTEST_PROP(Photometry, CostsAreWithinTheirRanges, ()) {
@@ -102,12 +104,12 @@ RC_GTEST_PROP(Photometry, CostsAreWithinTheirRanges, ()) {
   // Any other patch, too: as far from the image as can be.
   if (integer(0, 3) == 0)
     for (std::size_t i = 0; i < s.intensity.size(); ++i) s.intensity[i] = 255 - s.intensity[i];
-  const auto e = tp::evaluate(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+  const auto e = tp::evaluate(s.request(), s.workspace);
   RC_PRE(tp::is_ok(e.status));
   RC_ASSERT((e.error >= 0 && e.error <= 4 + 1e-5));
   RC_ASSERT((e.zncc <= 1 && e.zncc >= -1 - 1e-5));
   RC_ASSERT((e.cost >= 0 && e.cost <= e.error + 1e-6));
-  const auto n = tp::linearise_pose_plane(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+  const auto n = tp::linearise<tp::Parameters::pose_plane>(s.request(), s.workspace);
   RC_ASSERT((n.status == e.status && n.visible == e.visible));
   RC_ASSERT(std::abs(n.cost - e.cost) <= 2e-5 * e.cost + 2e-6);
   // J^T W J is never negative.
@@ -126,13 +128,13 @@ RC_GTEST_PROP(Photometry, TheSameImageFromTheSamePlaceCostsNothing, ()) {
     s.y[i] += static_cast<float>(integer(0, 63)) / 64;
     tp::sample_bilinear(s.view(), s.x[i], s.y[i], &s.intensity[i]);
   }
-  const auto e = tp::linearise_pose_plane(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+  const auto e = tp::linearise<tp::Parameters::pose_plane>(s.request(), s.workspace);
   RC_PRE(tp::is_ok(e.status));
   RC_ASSERT(e.visible == s.n());
   RC_ASSERT((e.error < 1e-9 && e.zncc > 1 - 1e-9));
   const auto scale = frozen(s, s.input());
   for (int i = 0; i < 9; ++i) RC_ASSERT(std::abs(e.b[i]) <= 3e-5 * std::sqrt(scale.H(i, i)));
-  RC_ASSERT(tp::reference::evaluate(s.input(), s.theta, s.T_t_h, s.options, s.workspace).error < 1e-12);
+  RC_ASSERT(tp::reference::evaluate(s.request(), s.workspace).error < 1e-12);
 }
 
 RC_GTEST_PROP(Photometry, GainAndBiasOfEitherSideChangeNothing, ()) {
@@ -140,16 +142,16 @@ RC_GTEST_PROP(Photometry, GainAndBiasOfEitherSideChangeNothing, ()) {
   const TargetScope scope(any_target());
   s.options.min_contrast = 0;
   const auto scale = frozen(s, s.input());
-  const auto before = tp::linearise_pose_plane(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+  const auto before = tp::linearise<tp::Parameters::pose_plane>(s.request(), s.workspace);
   RC_PRE(tp::is_ok(before.status));
   Drawn t = s;
   const double gain = number(0.5, 3), bias = number(-60, 60);
   for (float& value : t.intensity) value = static_cast<float>(gain * value + bias);
-  RC_ASSERT(close<9>(tp::linearise_pose_plane(t.input(), t.theta, t.T_t_h, t.options, t.workspace), before, scale));
+  RC_ASSERT(close<9>(tp::linearise<tp::Parameters::pose_plane>(t.request(), t.workspace), before, scale));
   const int offset = integer(0, 20);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) t.image(x, y) = static_cast<std::uint8_t>(2 * s.image(x, y) + offset);
-  const auto after = tp::linearise_pose_plane(t.input(), t.theta, t.T_t_h, t.options, t.workspace);
+  const auto after = tp::linearise<tp::Parameters::pose_plane>(t.request(), t.workspace);
   RC_ASSERT(close<9>(after, before, scale));
   RC_ASSERT(std::abs(after.s - 2 * before.s) < 1e-4 * after.s + 1e-3);
   RC_ASSERT(std::abs(after.mean - 2 * before.mean - offset) < 1e-3);
@@ -159,8 +161,8 @@ RC_GTEST_PROP(Photometry, TheOrderOfPixelsDoesNotMatter, ()) {
   Drawn s;
   const TargetScope scope(any_target());
   const auto scale = frozen(s, s.input());
-  const auto before = tp::linearise_pose_plane(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
-  const auto exact = tp::reference::evaluate(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+  const auto before = tp::linearise<tp::Parameters::pose_plane>(s.request(), s.workspace);
+  const auto exact = tp::reference::evaluate(s.request(), s.workspace);
   RC_PRE(tp::is_ok(before.status));
   const std::vector<std::uint8_t> visible(s.workspace.visible(), s.workspace.visible() + s.n());
   std::vector<std::size_t> order(s.x.size());
@@ -172,9 +174,9 @@ RC_GTEST_PROP(Photometry, TheOrderOfPixelsDoesNotMatter, ()) {
     t.y[i] = s.y[order[i]];
     t.intensity[i] = s.intensity[order[i]];
   }
-  RC_ASSERT(close<9>(tp::linearise_pose_plane(t.input(), t.theta, t.T_t_h, t.options, t.workspace), before, scale));
+  RC_ASSERT(close<9>(tp::linearise<tp::Parameters::pose_plane>(t.request(), t.workspace), before, scale));
   for (std::size_t i = 0; i < order.size(); ++i) RC_ASSERT(t.workspace.visible()[i] == visible[order[i]]);
-  const auto again = tp::reference::evaluate(t.input(), t.theta, t.T_t_h, t.options, t.workspace);
+  const auto again = tp::reference::evaluate(t.request(), t.workspace);
   RC_ASSERT(std::abs(again.cost - exact.cost) <= 1e-12);
 }
 
@@ -189,10 +191,12 @@ RC_GTEST_PROP(Photometry, APatchIsTheSumOfItsParts, ()) {
   for (const std::uint8_t m : s.mask) others.push_back(m == 0);
   tp::PhotometricInput part = s.input();
   part.patch.mask = s.mask.data();
-  const auto a = tp::linearise_pose_plane(part, s.theta, s.T_t_h, s.options, s.workspace);
+  const auto a =
+      tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{part, s.theta, s.T_t_h, s.options}, s.workspace);
   part.patch.mask = others.data();
-  const auto b = tp::linearise_pose_plane(part, s.theta, s.T_t_h, s.options, s.workspace);
-  const auto all = tp::linearise_pose_plane(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+  const auto b =
+      tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{part, s.theta, s.T_t_h, s.options}, s.workspace);
+  const auto all = tp::linearise<tp::Parameters::pose_plane>(s.request(), s.workspace);
   RC_PRE((tp::is_ok(a.status) && tp::is_ok(b.status)));
   RC_ASSERT((tp::is_ok(all.status) && all.visible == a.visible + b.visible));
   const Eigen::Matrix<double, 9, 9> sum = a.s * a.s * a.H + b.s * b.s * b.H, whole = all.s * all.s * all.H;
@@ -210,13 +214,14 @@ RC_GTEST_PROP(Photometry, TheUnitOfLengthIsNotSeen, ()) {
   Drawn s;
   const TargetScope scope(any_target());
   const auto scale = frozen(s, s.input());
-  const auto before = tp::linearise_pose_plane(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+  const auto before = tp::linearise<tp::Parameters::pose_plane>(s.request(), s.workspace);
   RC_PRE(tp::is_ok(before.status));
   const bool power_of_two = integer(0, 1) == 0;
   const double factor = power_of_two ? std::ldexp(1.0, integer(-8, 8)) : number(0.01, 100);
   tp::SE3d T = s.T_t_h;
   T.t *= factor;
-  auto after = tp::linearise_pose_plane(s.input(), s.theta / factor, T, s.options, s.workspace);
+  auto after = tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{s.input(), s.theta / factor, T, s.options},
+                                                         s.workspace);
   if (power_of_two) RC_ASSERT((after.cost == before.cost && after.mean == before.mean && after.s == before.s));
   Eigen::Matrix<double, 9, 1> units = Eigen::Matrix<double, 9, 1>::Ones();
   units.head<3>() *= factor;  // d / dv has the unit 1 / length, d / dtheta that of a length.
@@ -248,8 +253,8 @@ RC_GTEST_PROP(Photometry, BIsHalfTheGradientOfTheCost, ()) {
   s.options.robust.kind = integer(0, 1) == 0 ? tp::RobustKind::l2 : tp::RobustKind::cauchy;
   const tp::SE3d T_w_h = pose(2, 2), T_w_t = T_w_h * s.T_t_h.inverse();
   const auto side = integer(0, 1) == 0 ? tp::PerturbationSide::left : tp::PerturbationSide::right;
-  const auto e =
-      tp::reference::linearise_host_target_plane(s.input(), s.theta, T_w_h, T_w_t, side, s.options, s.workspace);
+  const auto e = tp::reference::linearise<tp::Parameters::host_target_plane>(
+      tp::world_request(s.input(), s.theta, T_w_h, T_w_t, side, s.options), s.workspace);
   RC_PRE((tp::is_ok(e.status) && e.visible == s.n()));
   using Vector15 = Eigen::Matrix<double, 15, 1>;
   const auto cost = [&](const Vector15& p) {
@@ -270,10 +275,10 @@ RC_GTEST_PROP(Photometry, BIsHalfTheGradientOfTheCost, ()) {
 RC_GTEST_PROP(Photometry, PoliciesDifferInDerivativesAlone, ()) {
   Drawn s;
   const TargetScope scope(any_target());
-  const auto e = tp::linearise_pose(s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+  const auto e = tp::linearise<tp::Parameters::pose>(s.request(), s.workspace);
   RC_PRE(tp::is_ok(e.status));
   for (const auto policy : {tp::LinearisePolicy::template_jacobian, tp::LinearisePolicy::esm}) {
-    const auto p = tp::linearise_by<6>(policy, s.input(), s.theta, s.T_t_h, s.options, s.workspace);
+    const auto p = tp::linearise<tp::Parameters::pose>(s.request().by(policy), s.workspace);
     RC_ASSERT((p.status == e.status && p.visible == e.visible));
     RC_ASSERT(
         (std::abs(p.cost - e.cost) <= 2e-5 * e.cost + 2e-6 && std::abs(p.error - e.error) <= 2e-5 * e.error + 2e-6));

@@ -44,7 +44,8 @@ tp::NormalEquations<P> reference_of(PolicyScene& s, const tp::TextBatchItem& ite
                                     const tp::PhotometricOptions& o) {
   tp::PhotometricInput in = s.input();
   in.patch = item.patch;
-  return tp::reference::linearise_by<P>(tp::LinearisePolicy::forward, in, s.theta, pose, o, s.workspace);
+  return tp::reference::linearise<unknowns<P>()>(
+      tp::ResidualRequest{in, s.theta, pose, o}.by(tp::LinearisePolicy::forward), s.workspace);
 }
 
 template <int P>

@@ -11,11 +11,14 @@ constexpr double kTolerance = 3e-5;
 template <int P>
 void compare(PolicyScene& scene, const tp::PhotometricInput& in, tp::LinearisePolicy policy,
              const tp::PhotometricOptions& o) {
-  const auto reference = tp::reference::linearise_by<P>(policy, in, scene.theta, scene.T_t_h, o, scene.workspace);
-  const auto fast = tp::linearise_by<P>(policy, in, scene.theta, scene.T_t_h, o, scene.workspace);
+  const auto reference = tp::reference::linearise<unknowns<P>()>(
+      tp::ResidualRequest{in, scene.theta, scene.T_t_h, o}.by(policy), scene.workspace);
+  const auto fast =
+      tp::linearise<unknowns<P>()>(tp::ResidualRequest{in, scene.theta, scene.T_t_h, o}.by(policy), scene.workspace);
   tp::PhotometricOptions plain = o;
   plain.normalisation = tp::Normalisation::frozen;
-  const auto scale = tp::reference::linearise_by<P>(policy, in, scene.theta, scene.T_t_h, plain, scene.workspace);
+  const auto scale = tp::reference::linearise<unknowns<P>()>(
+      tp::ResidualRequest{in, scene.theta, scene.T_t_h, plain}.by(policy), scene.workspace);
   textplane_test::expect_close<P>(fast, reference, kTolerance, scale);
 }
 
@@ -61,8 +64,11 @@ TEST(EsmKernels, PartOfThePatchVisible) {
 TEST(EsmKernels, StatusOfBadInput) {
   PolicyScene scene(2, 60);
   const auto run = [&](const tp::PhotometricInput& in, const tp::SE3d& T, tp::LinearisePolicy policy) {
-    const auto fast = tp::linearise_by<6>(policy, in, scene.theta, T, {}, scene.workspace);
-    EXPECT_EQ(fast.status, tp::reference::linearise_by<6>(policy, in, scene.theta, T, {}, scene.workspace).status);
+    const auto fast =
+        tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, scene.theta, T}.by(policy), scene.workspace);
+    EXPECT_EQ(fast.status, tp::reference::linearise<tp::Parameters::pose>(
+                               tp::ResidualRequest{in, scene.theta, T}.by(policy), scene.workspace)
+                               .status);
     return fast.status;
   };
   auto in = scene.policy_input();

@@ -80,11 +80,13 @@ void expect_close(const tp::NormalEquations<P>& a, const tp::NormalEquations<P>&
 /// Moves the pose aside until between a fifth and four fifths of the patch are visible.
 inline void move_half_out(PolicyScene* scene) {
   for (int i = 0; i < 400; ++i) {
-    const auto seen = tp::reference::evaluate(scene->policy_input(), scene->theta, scene->T_t_h, {}, scene->workspace);
+    const auto seen = tp::reference::evaluate(tp::ResidualRequest{scene->policy_input(), scene->theta, scene->T_t_h},
+                                              scene->workspace);
     if (seen.visible < scene->n() * 4 / 5) break;
     scene->T_t_h.t[0] += 0.02;
   }
-  const auto seen = tp::reference::evaluate(scene->policy_input(), scene->theta, scene->T_t_h, {}, scene->workspace);
+  const auto seen =
+      tp::reference::evaluate(tp::ResidualRequest{scene->policy_input(), scene->theta, scene->T_t_h}, scene->workspace);
   ASSERT_GT(seen.visible, scene->n() / 5);
   ASSERT_LT(seen.visible, scene->n() * 4 / 5);
 }

@@ -56,15 +56,16 @@ TEST(ResidualKernels, WorldPoses) {
       const Scene8 scene(static_cast<unsigned>(n), n);
       tp::PhotometricWorkspace workspace(n);
       const auto in = scene.input();
-      const auto frozen = tp::reference::linearise_host_target_plane(in, scene.theta, scene.T_w_h, scene.T_w_t, side,
-                                                                     any_options(false), workspace);
-      const auto exact = tp::reference::linearise_host_target_plane(in, scene.theta, scene.T_w_h, scene.T_w_t, side,
-                                                                    any_options(), workspace);
+      const auto frozen = tp::reference::linearise<tp::Parameters::host_target_plane>(
+          tp::world_request(in, scene.theta, scene.T_w_h, scene.T_w_t, side, any_options(false)), workspace);
+      const auto exact = tp::reference::linearise<tp::Parameters::host_target_plane>(
+          tp::world_request(in, scene.theta, scene.T_w_h, scene.T_w_t, side, any_options()), workspace);
       for (const simd::Target target : testable_targets()) {
         const TargetScope scope(target);
         SCOPED_TRACE(simd::to_string(target));
         expect_close<15>(
-            tp::linearise_host_target_plane(in, scene.theta, scene.T_w_h, scene.T_w_t, side, any_options(), workspace),
+            tp::linearise<tp::Parameters::host_target_plane>(
+                tp::world_request(in, scene.theta, scene.T_w_h, scene.T_w_t, side, any_options()), workspace),
             exact, frozen);
       }
     }
@@ -83,19 +84,22 @@ TEST(ResidualKernels, StridesAndPreparedTargets) {
     tp::PhotometricWorkspace workspace(n);
     for (const simd::Target target : testable_targets()) {
       const TargetScope scope(target);
-      const auto plain = tp::linearise_pose_plane(in, scene.theta, scene.T_t_h, any_options(), workspace);
+      const auto plain = tp::linearise<tp::Parameters::pose_plane>(
+          tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace);
       ASSERT_EQ(plain.status, tp::Status::ok);
       tp::PhotometricInput other = in;
       other.target = tp::ImageView8(wide.data(), Scene8::kWidth, Scene8::kHeight, 331);
-      const auto strided = tp::linearise_pose_plane(other, scene.theta, scene.T_t_h, any_options(), workspace);
+      const auto strided = tp::linearise<tp::Parameters::pose_plane>(
+          tp::ResidualRequest{other, scene.theta, scene.T_t_h, any_options()}, workspace);
       EXPECT_EQ(plain.H, strided.H);
       other = in;
       other.pairs = prepared.view();
-      const auto paired = tp::linearise_pose_plane(other, scene.theta, scene.T_t_h, any_options(), workspace);
+      const auto paired = tp::linearise<tp::Parameters::pose_plane>(
+          tp::ResidualRequest{other, scene.theta, scene.T_t_h, any_options()}, workspace);
       EXPECT_EQ(plain.H, paired.H);
       EXPECT_EQ(plain.b, paired.b);
-      EXPECT_EQ(tp::evaluate(in, scene.theta, scene.T_t_h, any_options(), workspace).cost,
-                tp::evaluate(other, scene.theta, scene.T_t_h, any_options(), workspace).cost);
+      EXPECT_EQ(tp::evaluate(tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace).cost,
+                tp::evaluate(tp::ResidualRequest{other, scene.theta, scene.T_t_h, any_options()}, workspace).cost);
     }
     // Pairs of another image are not used.
     in.pairs = prepared.view();
@@ -121,15 +125,20 @@ TEST(ResidualKernels, KnownBounds) {
   const Scene8 scene(8, 333);
   tp::PhotometricWorkspace workspace(333);
   tp::PhotometricInput in = scene.input();
-  const auto without = tp::linearise_pose(in, scene.theta, scene.T_t_h, any_options(), workspace);
+  const auto without =
+      tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace);
   in.patch.bounds = tp::simd::point_bounds(in.patch.x, in.patch.y, in.patch.n);
   ASSERT_EQ(in.patch.bounds.n, 333);
-  const auto with = tp::linearise_pose(in, scene.theta, scene.T_t_h, any_options(), workspace);
+  const auto with =
+      tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace);
   EXPECT_EQ(with.H, without.H);
   // Of another number of pixels they are not used.
   in.patch.bounds.n = 332;
   in.patch.bounds.x_high = in.patch.bounds.x_low;
-  EXPECT_EQ(tp::linearise_pose(in, scene.theta, scene.T_t_h, any_options(), workspace).H, without.H);
+  EXPECT_EQ(
+      tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace)
+          .H,
+      without.H);
 }
 
 // What the kernels do not take is the reference's, to the bit.
@@ -140,17 +149,17 @@ TEST(ResidualKernels, TheReferenceTakesTheRest) {
   for (const tp::RobustKind kind : {tp::RobustKind::cauchy, tp::RobustKind::tukey}) {
     tp::PhotometricOptions o = any_options();
     o.robust = {kind, 0.7};
-    const auto a = tp::linearise_pose_plane(scene.input(), scene.theta, scene.T_t_h, o, workspace);
-    EXPECT_EQ(a.H, tp::reference::linearise_pose_plane(scene.input(), scene.theta, scene.T_t_h, o, workspace).H);
-    EXPECT_EQ(tp::evaluate(scene.input(), scene.theta, scene.T_t_h, o, workspace).cost,
-              tp::reference::evaluate(scene.input(), scene.theta, scene.T_t_h, o, workspace).cost);
+    const auto a = tp::linearise<tp::Parameters::pose_plane>(scene.request(o), workspace);
+    EXPECT_EQ(a.H, tp::reference::linearise<tp::Parameters::pose_plane>(scene.request(o), workspace).H);
+    EXPECT_EQ(tp::evaluate(scene.request(o), workspace).cost,
+              tp::reference::evaluate(scene.request(o), workspace).cost);
   }
   tp::PhotometricOptions precise = any_options();
   precise.precise = true;
-  const auto b = tp::linearise_pose(scene.input(), scene.theta, scene.T_t_h, precise, workspace);
-  EXPECT_EQ(b.H, tp::reference::linearise_pose(scene.input(), scene.theta, scene.T_t_h, precise, workspace).H);
-  const auto c = tp::linearise_pose(same.input(), same.theta, same.T_t_h, any_options(), workspace);
-  EXPECT_EQ(c.H, tp::reference::linearise_pose(same.input(), same.theta, same.T_t_h, any_options(), workspace).H);
+  const auto b = tp::linearise<tp::Parameters::pose>(scene.request(precise), workspace);
+  EXPECT_EQ(b.H, tp::reference::linearise<tp::Parameters::pose>(scene.request(precise), workspace).H);
+  const auto c = tp::linearise<tp::Parameters::pose>(same.request(any_options()), workspace);
+  EXPECT_EQ(c.H, tp::reference::linearise<tp::Parameters::pose>(same.request(any_options()), workspace).H);
 }
 
 }  // namespace residual_kernels_test

@@ -59,19 +59,13 @@ void expect_close(const tp::NormalEquations<P>& fast, const tp::NormalEquations<
   EXPECT_NEAR(fast.s, exact.s, 1e-5 * exact.s + 1e-3);
 }
 
-/// linearise_plane(), linearise_pose() and linearise_pose_plane() of the library, or of the reference.
+/// linearise() of the library, or of the reference.
 template <int P, bool kReference = false>
 tp::NormalEquations<P> equations(const tp::PhotometricInput& in, const tp::Vector3<double>& theta, const tp::SE3d& T,
                                  const tp::PhotometricOptions& o, tp::PhotometricWorkspace& workspace) {
-  if constexpr (P == 3)
-    return kReference ? tp::reference::linearise_plane(in, theta, T, o, workspace)
-                      : tp::linearise_plane(in, theta, T, o, workspace);
-  if constexpr (P == 6)
-    return kReference ? tp::reference::linearise_pose(in, theta, T, o, workspace)
-                      : tp::linearise_pose(in, theta, T, o, workspace);
-  if constexpr (P == 9)
-    return kReference ? tp::reference::linearise_pose_plane(in, theta, T, o, workspace)
-                      : tp::linearise_pose_plane(in, theta, T, o, workspace);
+  const tp::ResidualRequest request{in, theta, T, o};
+  return kReference ? tp::reference::linearise<unknowns<P>()>(request, workspace)
+                    : tp::linearise<unknowns<P>()>(request, workspace);
 }
 
 /// Equations, visible sets and costs on every target against the reference.
@@ -94,11 +88,11 @@ void compare_equations(const tp::PhotometricInput& in, const tp::Vector3<double>
 inline void compare_cost(const tp::PhotometricInput& in, const tp::Vector3<double>& theta, const tp::SE3d& T,
                          const tp::PhotometricOptions& o, const std::uint8_t* on_set = nullptr) {
   tp::PhotometricWorkspace workspace(in.patch.n);
-  const auto exact = tp::reference::evaluate(in, theta, T, o, workspace, on_set);
+  const auto exact = tp::reference::evaluate(tp::ResidualRequest{in, theta, T, o}, workspace, on_set);
   for (const simd::Target target : testable_targets()) {
     const TargetScope scope(target);
     SCOPED_TRACE(simd::to_string(target));
-    const auto fast = tp::evaluate(in, theta, T, o, workspace, on_set);
+    const auto fast = tp::evaluate(tp::ResidualRequest{in, theta, T, o}, workspace, on_set);
     ASSERT_EQ(fast.status, exact.status) << to_string(fast.status) << " " << to_string(exact.status);
     EXPECT_EQ(fast.visible, exact.visible);
     EXPECT_EQ(fast.lost, exact.lost);

@@ -55,7 +55,7 @@ TEST(ResidualVisibility, TrialsOnAGivenSet) {
     if (trial == 5) set.assign(set.size(), 0);
     compare_cost(in, scene.theta, scene.T_t_h, any_options(), set.data());
     tp::PhotometricWorkspace workspace(n);
-    lost += tp::evaluate(in, scene.theta, scene.T_t_h, any_options(), workspace, set.data()).lost;
+    lost += tp::evaluate(tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace, set.data()).lost;
   }
   EXPECT_GT(lost, 500);
 }
@@ -65,11 +65,16 @@ TEST(ResidualVisibility, EvaluationKeepsTheVisibleSet) {
   const Scene8 scene(4, 200);
   tp::PhotometricWorkspace workspace(200);
   const auto in = cropped(scene, 40, 30, 100, 80);
-  ASSERT_EQ(tp::linearise_pose(in, scene.theta, scene.T_t_h, any_options(), workspace).status, tp::Status::ok);
+  ASSERT_EQ(
+      tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace)
+          .status,
+      tp::Status::ok);
   const std::vector<std::uint8_t> before(workspace.visible(), workspace.visible() + 200);
   const auto other = cropped(scene, 60, 50, 70, 60);
-  EXPECT_EQ(tp::evaluate(other, scene.theta, scene.T_t_h, any_options(), workspace, workspace.visible()).status,
-            tp::Status::ok);
+  EXPECT_EQ(
+      tp::evaluate(tp::ResidualRequest{other, scene.theta, scene.T_t_h, any_options()}, workspace, workspace.visible())
+          .status,
+      tp::Status::ok);
   EXPECT_EQ(before, std::vector<std::uint8_t>(workspace.visible(), workspace.visible() + 200));
 }
 
@@ -94,13 +99,15 @@ TEST(ResidualVisibility, ExactlyOnTheBorders) {
   tp::PhotometricWorkspace workspace(in.patch.n);
   for (const simd::Target target : testable_targets()) {
     const TargetScope scope(target);
-    EXPECT_EQ(tp::linearise_pose(in, theta, tp::SE3d(), any_options(), workspace).visible, in.patch.n);
+    EXPECT_EQ(tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, tp::SE3d(), any_options()}, workspace)
+                  .visible,
+              in.patch.n);
   }
   // One pixel to the right: the last column leaves.
   tp::SE3d right;
   right.t[0] = 2.0 / 64;
   compare_all(in, theta, right, any_options());
-  EXPECT_EQ(tp::evaluate(in, theta, right, any_options(), workspace).visible, 23 * 36);
+  EXPECT_EQ(tp::evaluate(tp::ResidualRequest{in, theta, right, any_options()}, workspace).visible, 23 * 36);
 }
 
 // Planes that cut through the patch's rays and cameras that look away, in general position.
@@ -126,13 +133,15 @@ TEST(ResidualVisibility, BehindTheCameras) {
       mask[i] = std::abs(rho) > 1e-3 && std::abs(q[2]) > 1e-3 && !on_line(at[0]) && !on_line(at[1]);
     }
     tp::PhotometricWorkspace exact_workspace(60), workspace(60);
-    const auto exact = tp::reference::linearise_pose(in, theta, T, any_options(), exact_workspace);
+    const auto exact = tp::reference::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, any_options()},
+                                                                      exact_workspace);
     behind += exact.status == tp::Status::behind_camera;
     seen += is_ok(exact.status);
     for (const simd::Target target : testable_targets()) {
       const TargetScope scope(target);
       SCOPED_TRACE(simd::to_string(target));
-      const auto fast = tp::linearise_pose(in, theta, T, any_options(), workspace);
+      const auto fast =
+          tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, any_options()}, workspace);
       EXPECT_EQ(fast.status, exact.status) << to_string(fast.status) << " " << to_string(exact.status);
       EXPECT_EQ(fast.visible, exact.visible);
       for (int i = 0; i < 60; ++i) ASSERT_EQ(workspace.visible()[i], exact_workspace.visible()[i]) << i;
@@ -176,12 +185,14 @@ TEST(ResidualVisibility, BrokenInput) {
       else
         scene.x.assign(scene.x.size(), static_cast<float>(bad));
       tp::PhotometricWorkspace workspace(in.patch.n);
-      const auto exact = tp::reference::linearise_pose_plane(in, theta, T, any_options(), workspace);
-      const auto cost = tp::reference::evaluate(in, theta, T, any_options(), workspace);
+      const auto exact = tp::reference::linearise<tp::Parameters::pose_plane>(
+          tp::ResidualRequest{in, theta, T, any_options()}, workspace);
+      const auto cost = tp::reference::evaluate(tp::ResidualRequest{in, theta, T, any_options()}, workspace);
       for (const simd::Target target : testable_targets()) {
         const TargetScope scope(target);
         SCOPED_TRACE(simd::to_string(target));
-        const auto fast = tp::linearise_pose_plane(in, theta, T, any_options(), workspace);
+        const auto fast =
+            tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T, any_options()}, workspace);
         EXPECT_EQ(fast.status, exact.status) << to_string(fast.status) << " " << to_string(exact.status);
         EXPECT_EQ(fast.visible, exact.visible);
         if (is_ok(fast.status)) {
@@ -190,7 +201,7 @@ TEST(ResidualVisibility, BrokenInput) {
         } else {
           EXPECT_TRUE(all_zero(fast));
         }
-        EXPECT_EQ(tp::evaluate(in, theta, T, any_options(), workspace).status, cost.status);
+        EXPECT_EQ(tp::evaluate(tp::ResidualRequest{in, theta, T, any_options()}, workspace).status, cost.status);
       }
     }
   }
@@ -226,7 +237,7 @@ TEST(ResidualVisibility, NothingToCompare) {
     compare_cost(in, scene.theta, T, o);
   }
   tp::PhotometricWorkspace small(79);
-  const auto refused = tp::linearise_pose(scene.input(), scene.theta, scene.T_t_h, any_options(), small);
+  const auto refused = tp::linearise<tp::Parameters::pose>(scene.request(any_options()), small);
   EXPECT_EQ(refused.status, tp::Status::invalid_argument);
 }
 

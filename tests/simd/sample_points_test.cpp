@@ -180,10 +180,10 @@ TEST(SamplePoints, TouchNothingElse) {
     const tp::Vector3<double> theta(random.uniform(-1, 1), random.uniform(-1, 1), 1);
     for (const simd::Target target : testable_targets()) {
       const TargetScope scope(target);
-      const auto a = tp::linearise_pose_plane(in, theta, T, {}, workspace);
-      const auto b = tp::linearise_pose(in, theta, T, {}, workspace);
+      const auto a = tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T}, workspace);
+      const auto b = tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T}, workspace);
       EXPECT_EQ(a.status, b.status);
-      tp::evaluate(in, theta, T, {}, workspace, in.patch.mask);
+      tp::evaluate(tp::ResidualRequest{in, theta, T}, workspace, in.patch.mask);
       simd::PointArgs p;
       p.x = at(x);
       p.y = at(y);

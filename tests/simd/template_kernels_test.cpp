@@ -136,11 +136,13 @@ TEST(TemplateKernels, NormalEquations) {
       ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
       for (const auto& o : textplane_test::all_options(15)) {
         const auto policy = tp::LinearisePolicy::template_jacobian;
-        const auto reference = tp::reference::linearise_by<9>(policy, in, scene.theta, scene.T_t_h, o, scene.workspace);
+        const auto reference = tp::reference::linearise<tp::Parameters::pose_plane>(
+            tp::ResidualRequest{in, scene.theta, scene.T_t_h, o}.by(policy), scene.workspace);
         const double sigma = reference.s / std::sqrt(reference.visible);
         ASSERT_GT(sigma, 30);
         // Of the fixed point: 0.08 / sigma (template_patch.hpp), sigma of the host being larger here.
-        const auto fast = tp::linearise_by<9>(policy, in, scene.theta, scene.T_t_h, o, scene.workspace, &prepared);
+        const auto fast = tp::linearise<tp::Parameters::pose_plane>(
+            tp::ResidualRequest{in, scene.theta, scene.T_t_h, o}.by(policy, &prepared), scene.workspace);
         textplane_test::expect_close<9>(fast, reference, 0.08 / 30);
         // On average far below: 1.5e-4 is a tenth of a grey level's share.
         EXPECT_LT((fast.H - reference.H).norm(), 2e-3 * reference.H.norm());
@@ -169,8 +171,9 @@ TEST(TemplateKernels, RoundedColumnsDoNotMoveTheFixedPoint) {
   for (const tp::simd::Target target : textplane_test::testable_targets()) {
     const textplane_test::TargetScope scope(target);
     for (const auto& o : textplane_test::all_options(15)) {
-      const auto e = tp::linearise_by<9>(tp::LinearisePolicy::template_jacobian, in, {0, 0, 1}, tp::SE3d(), o,
-                                         workspace, &prepared);
+      const auto e = tp::linearise<tp::Parameters::pose_plane>(
+          tp::ResidualRequest{in, {0, 0, 1}, tp::SE3d(), o}.by(tp::LinearisePolicy::template_jacobian, &prepared),
+          workspace);
       ASSERT_EQ(e.status, tp::Status::ok);
       EXPECT_EQ(e.visible, in.patch.n);
       EXPECT_NEAR(e.error, 0, 1e-12);
@@ -189,8 +192,10 @@ TEST(TemplateKernels, PartOfThePatchVisibleTakesTheSumsOfWhatIs) {
   textplane_test::move_half_out(&scene);
   const auto policy = tp::LinearisePolicy::template_jacobian;
   for (const auto& o : textplane_test::all_options(15)) {
-    const auto reference = tp::reference::linearise_by<6>(policy, in, scene.theta, scene.T_t_h, o, scene.workspace);
-    const auto fast = tp::linearise_by<6>(policy, in, scene.theta, scene.T_t_h, o, scene.workspace, &prepared);
+    const auto reference = tp::reference::linearise<tp::Parameters::pose>(
+        tp::ResidualRequest{in, scene.theta, scene.T_t_h, o}.by(policy), scene.workspace);
+    const auto fast = tp::linearise<tp::Parameters::pose>(
+        tp::ResidualRequest{in, scene.theta, scene.T_t_h, o}.by(policy, &prepared), scene.workspace);
     textplane_test::expect_close<6>(fast, reference, 3e-5);
   }
 }

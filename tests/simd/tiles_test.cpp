@@ -114,14 +114,18 @@ bool expect_same_of_all(tp::PhotometricInput in, const tp::SE3d& T, const Target
     return f();
   };
   const auto both = [&](auto f) { expect_same(run(targets.near_view(), f), run(targets.far_view(), f)); };
-  both([&] { return tp::linearise_pose_plane(in, theta, T, o, workspace); });
-  both([&] { return tp::linearise_pose(in, theta, T, o, workspace); });
-  both([&] { return tp::linearise_plane(in, theta, T, o, workspace); });
+  both([&] { return tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T, o}, workspace); });
+  both([&] { return tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, o}, workspace); });
+  both([&] { return tp::linearise<tp::Parameters::plane>(tp::ResidualRequest{in, theta, T, o}, workspace); });
   both([&] {
-    return tp::linearise_by<9>(tp::LinearisePolicy::template_jacobian, in, theta, T, o, workspace, &prepared);
+    return tp::linearise<tp::Parameters::pose_plane>(
+        tp::ResidualRequest{in, theta, T, o}.by(tp::LinearisePolicy::template_jacobian, &prepared), workspace);
   });
-  both([&] { return tp::linearise_by<6>(tp::LinearisePolicy::esm, in, theta, T, o, workspace, &prepared); });
-  const auto cost = [&] { return tp::evaluate(in, theta, T, o, workspace); };
+  both([&] {
+    return tp::linearise<tp::Parameters::pose>(
+        tp::ResidualRequest{in, theta, T, o}.by(tp::LinearisePolicy::esm, &prepared), workspace);
+  });
+  const auto cost = [&] { return tp::evaluate(tp::ResidualRequest{in, theta, T, o}, workspace); };
   const auto near = run(targets.near_view(), cost), far = run(targets.far_view(), cost);
   EXPECT_EQ(near.cost, far.cost);
   EXPECT_EQ(near.error, far.error);
@@ -200,12 +204,14 @@ TEST(Tiles, WrongBoundsReadNothingOutside) {
       in.target = targets.near_view();
       for (const tp::simd::Target target : testable_targets()) {
         const TargetScope scope(target);
-        const auto e = tp::linearise_pose_plane(in, {0, 0, 1}, motion(0, 1, 104, 86, in), {}, workspace);
+        const auto e = tp::linearise<tp::Parameters::pose_plane>(
+            tp::ResidualRequest{in, {0, 0, 1}, motion(0, 1, 104, 86, in)}, workspace);
         EXPECT_GE(e.visible, 0);
         tp::TemplatePatch prepared;
         ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
-        tp::linearise_by<9>(tp::LinearisePolicy::template_jacobian, in, {0, 0, 1}, motion(0, 1, 104, 86, in), {},
-                            workspace, &prepared);
+        tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, {0, 0, 1}, motion(0, 1, 104, 86, in)}.by(
+                                                      tp::LinearisePolicy::template_jacobian, &prepared),
+                                                  workspace);
       }
     }
   }
@@ -232,12 +238,14 @@ TEST(Tiles, NormalEquationsOfDensePatches) {
             static_cast<float>(0.8 * value + 15 + (i % 7 == 0 ? 40.0 : 0.0) - static_cast<double>(i % 5));
       }
       for (const auto& o : all_options(15)) {
-        const auto reference = tp::reference::linearise_pose_plane(in, theta, T, o, workspace);
+        const auto reference =
+            tp::reference::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T, o}, workspace);
         for (const tp::simd::Target target : testable_targets()) {
           const TargetScope scope(target);
           SCOPED_TRACE(tp::simd::to_string(target));
           // 1e-3 for the gradients of the few samples that rounding takes across a pixel line.
-          expect_close<9>(tp::linearise_pose_plane(in, theta, T, o, workspace), reference, 1e-3);
+          expect_close<9>(tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T, o}, workspace),
+                          reference, 1e-3);
         }
       }
     }

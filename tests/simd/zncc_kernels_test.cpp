@@ -32,7 +32,8 @@ TEST(ZnccKernels, EveryTargetAndCount) {
       tp::PhotometricOptions l2;
       l2.robust.kind = tp::RobustKind::l2;
       for (std::size_t i = 0; i < 9; ++i) {
-        const auto reference = tp::reference::evaluate(in, scene.theta, poses[i], l2, scene.workspace);
+        const auto reference =
+            tp::reference::evaluate(tp::ResidualRequest{in, scene.theta, poses[i], l2}, scene.workspace);
         const double expected = tp::is_ok(reference.status) ? reference.zncc : -1.0;
         // 0.05 / sigma, sigma above 25 in these textures; without preparation the float kernels' bound.
         EXPECT_NEAR(static_cast<double>(zncc[i]), expected, 0.05 / 25) << i;

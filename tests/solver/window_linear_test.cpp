@@ -111,8 +111,8 @@ struct General {
           tp::photometric_input(*t.patch, 0, tp::detail::at(w.frames, k.frame).image, w.camera);
       tp::PhotometricWorkspace workspace(in.patch.n);
       std::vector<double> r(static_cast<std::size_t>(in.patch.n)), rows(9 * r.size());
-      const tp::ResidualSummary sum = tp::reference::residuals<9>(in, t.theta, T_w_t.inverse() * T_w_h, o.photometric,
-                                                                  workspace, r.data(), rows.data());
+      const tp::ResidualSummary sum = tp::reference::residuals<tp::Parameters::pose_plane>(
+          tp::ResidualRequest{in, t.theta, T_w_t.inverse() * T_w_h, o.photometric}, workspace, r.data(), rows.data());
       ASSERT_EQ(sum.status, tp::Status::ok);
       const auto map = tp::relative_pose_jacobians<double>(T_w_h, T_w_t, tp::PerturbationSide::right);
       Dense local = Dense::Zero(9, size());

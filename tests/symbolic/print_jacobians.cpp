@@ -108,7 +108,8 @@ void state(bool last) {
   field("intensity", intensity);
   for (const bool exact : {true, false}) {
     options.normalisation = exact ? tp::Normalisation::exact : tp::Normalisation::frozen;
-    const auto e = tp::reference::linearise_pose_plane(in, theta, near, options, workspace);
+    const auto e =
+        tp::reference::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, near, options}, workspace);
     field(exact ? "exact_H" : "frozen_H", e.H);
     field(exact ? "exact_b" : "frozen_b", e.b);
   }

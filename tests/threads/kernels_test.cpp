@@ -9,7 +9,7 @@
 
 #include "textplane/features/fast.hpp"
 #include "textplane/features/klt.hpp"
-#include "textplane/photometry/template_patch.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 #include "textplane/photometry/text_batch.hpp"
 #include "textplane/photometry/warp_patch.hpp"
 #include "textplane/solver/pose.hpp"
@@ -89,13 +89,17 @@ Bits run(const Shared& s) {
     tp::PhotometricInput part = in;
     part.patch.n = pixels;
     part.patch.bounds = {};
-    const auto e = tp::linearise_pose_plane(part, s.theta, s.T_t_h, options, workspace);
+    const auto e =
+        tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{part, s.theta, s.T_t_h, options}, workspace);
     EXPECT_TRUE(tp::is_ok(e.status));
     bits.add(e.H.data(), 81);
     bits.add(e.b.data(), 9);
-    bits.add(tp::evaluate(part, s.theta, s.T_t_h, options, workspace).cost);
+    bits.add(tp::evaluate(tp::ResidualRequest{part, s.theta, s.T_t_h, options}, workspace).cost);
     for (const auto policy : {tp::LinearisePolicy::esm, tp::LinearisePolicy::template_jacobian})
-      bits.add(tp::linearise_by<6>(policy, part, s.theta, s.T_t_h, options, workspace).H.data(), 36);
+      bits.add(tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{part, s.theta, s.T_t_h, options}.by(policy),
+                                                   workspace)
+                   .H.data(),
+               36);
   }
   tp::TextBatchResult result(s.batch);
   const std::vector<tp::SE3d> poses(s.items.size(), s.T_t_h);

@@ -6,7 +6,7 @@
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
-#include "textplane/photometry/residual_types.hpp"
+#include "textplane/photometry/photometric_input.hpp"
 
 namespace textslam {
 

@@ -190,8 +190,8 @@ void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
   const auto input = textplane::photometric_input(text.patch, level, map_.keyframe(keyframe).frame.image->view(),
                                                   map_.camera, scale_shift(text, quad));
   textplane::PhotometricWorkspace workspace(input.patch.n);
-  const auto cost = textplane::reference::evaluate(input, text.theta, map_.T_c_h(T_c_w, text.host),
-                                                   textplane::PhotometricOptions{}, workspace);
+  const auto cost = textplane::reference::evaluate(
+      textplane::ResidualRequest{input, text.theta, map_.T_c_h(T_c_w, text.host)}, workspace);
   if (!textplane::is_ok(cost.status)) return;
   if (cost.zncc >= parameters_.text_min_zncc) {
     text.views.push_back(keyframe);

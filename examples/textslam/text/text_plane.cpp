@@ -47,8 +47,7 @@ textplane::PhotometricCost compare_text(const Map& map, const TextObject& text, 
                                         const SE3d& T_c_w, int shift, textplane::PhotometricWorkspace& workspace) {
   const auto input = textplane::photometric_input(text.patch, level, image.view(), map.camera, shift);
   workspace.reserve(input.patch.n);
-  return textplane::evaluate(input, text.theta, map.T_c_h(T_c_w, text.host), textplane::PhotometricOptions{},
-                             workspace);
+  return textplane::evaluate(textplane::ResidualRequest{input, text.theta, map.T_c_h(T_c_w, text.host)}, workspace);
 }
 
 bool transport_plane(const Map& map, int from, int to, Vec3* theta, Eigen::Matrix3d* covariance) {

@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "textplane/photometry/residual_types.hpp"
+#include "textplane/photometry/photometric_workspace.hpp"
+#include "textplane/photometry/residual_result.hpp"
 #include "textslam/map/map.hpp"
 
 namespace textslam {

@@ -90,7 +90,7 @@ bool TextRefiner::drop_dissimilar(const Vec3& theta) {
   std::vector<double> dissimilarity;
   for (const textplane::PlaneTarget& target : targets_) {
     const auto input = textplane::photometric_input(*target.patch, 0, target.image, map_.camera);
-    const auto cost = textplane::evaluate(input, theta, target.T_t_h, textplane::PhotometricOptions{}, photometric_);
+    const auto cost = textplane::evaluate(textplane::ResidualRequest{input, theta, target.T_t_h}, photometric_);
     dissimilarity.push_back(textplane::is_ok(cost.status) ? 1 - cost.zncc : 2);
   }
   const double limit = parameters_.refine_max_dissimilarity * median(dissimilarity);
@@ -107,8 +107,8 @@ Eigen::Matrix3d TextRefiner::disagreement(const Vec3& theta) {
   std::vector<GroupEquations> views;
   for (const textplane::PlaneTarget& target : targets_) {
     const auto input = textplane::photometric_input(*target.patch, 0, target.image, map_.camera);
-    const auto view =
-        textplane::linearise_plane(input, theta, target.T_t_h, textplane::PhotometricOptions{}, photometric_);
+    const auto view = textplane::linearise<textplane::Parameters::plane>(
+        textplane::ResidualRequest{input, theta, target.T_t_h}, photometric_);
     if (textplane::is_ok(view.status)) views.push_back({view.visible * view.H, view.visible * view.b});
   }
   return jackknife_covariance(views);

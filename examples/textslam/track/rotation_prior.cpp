@@ -34,7 +34,8 @@ RotationPrior align_rotation(const Frame& a, const Frame& b, const Pinhole<doubl
   double best_cost = 0;
   Eigen::Matrix3d R = start;
   for (int iteration = 0; iteration < parameters.rotation_iterations; ++iteration) {
-    const auto eq = textplane::linearise_pose(input, far_plane, SE3d{R, Vec3::Zero()}, options, workspace);
+    const auto eq = textplane::linearise<textplane::Parameters::pose>(
+        textplane::ResidualRequest{input, far_plane, SE3d{R, Vec3::Zero()}, options}, workspace);
     if (!textplane::is_ok(eq.status) || eq.visible < parameters.rotation_min_overlap * patch.view().n) break;
     if (iteration > 0 && eq.cost >= best_cost) break;
     best_cost = eq.cost;

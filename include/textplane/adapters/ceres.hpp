@@ -25,184 +25,24 @@
 #ifndef TEXTPLANE_ADAPTERS_CERES_HPP
 #define TEXTPLANE_ADAPTERS_CERES_HPP
 
-#include <ceres/cost_function.h>
 #include <ceres/sized_cost_function.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <mutex>
 #include <utility>
-#include <vector>
 
 #include "ceres_pose.hpp"
+#include "ceres_text_rows.hpp"
 
 #ifndef TEXTPLANE_SINGLE_HEADER
 #include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/se3.hpp"
-#include "textplane/photometry/residual.hpp"
-#include "textplane/solver/weighting.hpp"
 #endif
 
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace adapters {
 
-/// How a text observation becomes residuals: see the head of this file.
-enum class TextRows { sums, pixels };
-
-/// Settings of a text observation: its term of the cost is weight lambda_w c, lambda_w = text_weight() of the visible pixels.
-struct TextCostOptions {
-  /// Of every pixel; its robust cost acts inside.
-  PhotometricOptions photometric;
-  /// How an object weighs against points: lambda_w.
-  Weighting weighting = Weighting::variance;
-  double sigma_rep = 1;      ///< px.
-  double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
-  /// On top of lambda_w.
-  double weight = 1;
-  /// Sums of the kernel, or a residual a pixel.
-  TextRows rows = TextRows::sums;
-};
-
-/// Scratch memory for cost functions that are evaluated on several threads: as many workspaces as were in use at one time. The
-/// costs of a problem should share one; they keep it alive.
-class WorkspacePool {
- public:
-  /// What one evaluation needs.
-  struct Workspace {
-    /// Of the kernels.
-    PhotometricWorkspace photometric;
-    std::vector<double> rows;  ///< Of TextRows::pixels.
-  };
-
-  /// A workspace that nobody else has until it is given back. On any thread.
-  std::unique_ptr<Workspace> take() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (idle_.empty()) return std::make_unique<Workspace>();
-    std::unique_ptr<Workspace> out = std::move(idle_.back());
-    idle_.pop_back();
-    return out;
-  }
-  /// What take() gave, for the next one.
-  void give_back(std::unique_ptr<Workspace> workspace) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    idle_.push_back(std::move(workspace));
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Workspace>> idle_;
-};
-
 namespace detail {
-
-// J = L^T and r = L^-1 b of the semi-definite H = L L^T. A pivot that is rounding alone gives a row of zeros: pose and plane
-// share a scale, so that one of nine always is.
-template <int P>
-void square_root(const NormalEquations<P>& sums, Eigen::Matrix<double, P, P>* J,
-                 Eigen::Matrix<double, P, 1>* r) noexcept {
-  constexpr double kRounding = 1e-6;
-  J->setZero();
-  r->setZero();
-  for (int k = 0; k < P; ++k) {
-    double pivot = sums.H(k, k), rest = sums.b[k];
-    for (int m = 0; m < k; ++m) {
-      pivot -= (*J)(m, k) * (*J)(m, k);
-      rest -= (*J)(m, k) * (*r)[m];
-    }
-    if (!(pivot > kRounding * sums.H(k, k))) continue;
-    (*J)(k, k) = std::sqrt(pivot);
-    (*r)[k] = rest / (*J)(k, k);
-    for (int c = k + 1; c < P; ++c) {
-      double s = sums.H(k, c);
-      for (int m = 0; m < k; ++m) s -= (*J)(m, k) * (*J)(m, c);
-      (*J)(k, c) = s / (*J)(k, k);
-    }
-  }
-}
-
-// What the cost functions of a text share: residuals and rows for P = 6 (v, omega), 3 theta or 9 (v, omega, theta) of T_t_h.
-template <int P>
-class TextRowsCost : public ceres::CostFunction {
- protected:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, P, Eigen::RowMajor>;
-
-  TextRowsCost(const PhotometricInput& input, const TextCostOptions& options, std::shared_ptr<WorkspacePool> pool)
-      : input_(input), options_(options), pool_(pool ? std::move(pool) : std::make_shared<WorkspacePool>()) {
-    set_num_residuals(options.rows == TextRows::sums ? P + 1 : std::max(input.patch.n, 1));
-  }
-
-  // Calls write(rows), rows being num_residuals() x P, after a success where `rows` is true.
-  template <class Write>
-  bool evaluate(const Vector3<double>& theta, const SE3d& T_t_h, double* residuals, bool rows,
-                const Write& write) const {
-    std::unique_ptr<WorkspacePool::Workspace> workspace = pool_->take();
-    workspace->photometric.reserve(input_.patch.n);
-    workspace->rows.resize(static_cast<std::size_t>(num_residuals()) * P);
-    const bool ok = options_.rows == TextRows::sums ? sums(theta, T_t_h, residuals, rows, *workspace)
-                                                    : pixels(theta, T_t_h, residuals, rows, *workspace);
-    if (ok && rows) write(Eigen::Map<const Rows>(workspace->rows.data(), num_residuals(), P));
-    pool_->give_back(std::move(workspace));
-    return ok;
-  }
-
- private:
-  double factor(int visible) const noexcept {
-    return std::sqrt(options_.weight *
-                     text_weight(options_.weighting, options_.sigma_rep, options_.sigma_photo, visible));
-  }
-
-  bool sums(const Vector3<double>& theta, const SE3d& T_t_h, double* residuals, bool rows,
-            WorkspacePool::Workspace& workspace) const {
-    Eigen::Map<Eigen::Matrix<double, P + 1, 1>> out(residuals);
-    out.setZero();
-    if (!rows) {
-      const PhotometricCost cost =
-          textplane::evaluate(input_, theta, T_t_h, options_.photometric, workspace.photometric);
-      out[P] = factor(cost.visible) * std::sqrt(cost.cost);
-      return is_ok(cost.status);
-    }
-    const NormalEquations<P> sums =
-        textplane::detail::fast_linearise<P>(input_, theta, T_t_h, options_.photometric, workspace.photometric);
-    if (!is_ok(sums.status)) return false;
-    Eigen::Matrix<double, P, P> J;
-    Eigen::Matrix<double, P, 1> r;
-    square_root<P>(sums, &J, &r);
-    const double scale = factor(sums.visible);
-    out.template head<P>() = scale * r;
-    out[P] = scale * std::sqrt(std::max(sums.cost - r.squaredNorm(), 0.0));
-    Eigen::Map<Eigen::Matrix<double, P + 1, P, Eigen::RowMajor>> to(workspace.rows.data());
-    to.template topRows<P>() = scale * J;
-    to.template bottomRows<1>().setZero();
-    return true;
-  }
-
-  bool pixels(const Vector3<double>& theta, const SE3d& T_t_h, double* residuals, bool rows,
-              WorkspacePool::Workspace& workspace) const {
-    const ResidualSummary sum =
-        reference::residuals<P>(input_, theta, T_t_h, options_.photometric, workspace.photometric, residuals,
-                                rows ? workspace.rows.data() : nullptr);
-    if (!is_ok(sum.status)) return false;
-    const double root = std::sqrt(static_cast<double>(sum.visible)), scale = factor(sum.visible) / root;
-    for (int i = 0; i < input_.patch.n; ++i) {
-      const double e = root * residuals[i], rho = options_.photometric.robust.rho(e * e);
-      const bool zero = !(rho > 0);
-      residuals[i] = zero ? 0.0 : std::copysign(scale * std::sqrt(rho), e);
-      // d sqrt(rho(e^2)) / de = w e / sqrt(rho), 1 at e = 0.
-      const double slope = zero ? 1.0 : options_.photometric.robust.weight(e * e) * std::abs(e) / std::sqrt(rho);
-      if (rows)
-        for (int p = 0; p < P; ++p) workspace.rows[static_cast<std::size_t>(i * P + p)] *= scale * slope * root;
-    }
-    return true;
-  }
-
-  const PhotometricInput input_;
-  const TextCostOptions options_;
-  const std::shared_ptr<WorkspacePool> pool_;
-};
 
 // d xi(T_t_h) / d block of the two camera-to-world poses.
 template <PoseOrder Order>
@@ -231,7 +71,7 @@ void write_plane(const Rows& rows, double* out) {
 /// A text object seen by a camera whose pose is unknown: block T_w_t. `input` is referred to, not copied: patch and image must outlive the
 /// problem; see photometric_input().
 template <PoseOrder Order = PoseOrder::quaternion_translation>
-class TextPoseCost : public detail::TextRowsCost<6> {
+class TextPoseCost : public detail::TextRowsCost<Parameters::pose> {
  public:
   /// T_w_h: pose of the host, camera to world; theta in its frame. Without a pool it has one of its own.
   TextPoseCost(const PhotometricInput& input, const SE3d& T_w_h, const Vector3<double>& theta,
@@ -255,7 +95,7 @@ class TextPoseCost : public detail::TextRowsCost<6> {
 };
 
 /// A text object whose plane is unknown, seen from a known pose: block theta. `input` as in TextPoseCost.
-class TextPlaneCost : public detail::TextRowsCost<3> {
+class TextPlaneCost : public detail::TextRowsCost<Parameters::plane> {
  public:
   /// T_t_h: host to target. Without a pool it has one of its own.
   TextPlaneCost(const PhotometricInput& input, const SE3d& T_t_h, const TextCostOptions& options = {},
@@ -277,12 +117,12 @@ class TextPlaneCost : public detail::TextRowsCost<3> {
 
 /// A text object in bundle adjustment: blocks T_w_h, T_w_t, theta. `input` as in TextPoseCost.
 template <PoseOrder Order = PoseOrder::quaternion_translation>
-class TextCost : public detail::TextRowsCost<9> {
+class TextCost : public detail::TextRowsCost<Parameters::pose_plane> {
  public:
   /// Without a pool it has one of its own.
   explicit TextCost(const PhotometricInput& input, const TextCostOptions& options = {},
                     std::shared_ptr<WorkspacePool> pool = nullptr)
-      : detail::TextRowsCost<9>(input, options, std::move(pool)) {
+      : detail::TextRowsCost<Parameters::pose_plane>(input, options, std::move(pool)) {
     *mutable_parameter_block_sizes() = {kPoseSize, kPoseSize, 3};
   }
 

@@ -23,6 +23,7 @@ enum class Status : std::uint8_t {
   non_finite,        ///< A NaN or an infinity in the input, or one that arose from it.
   invalid_argument,  ///< Null pointer, negative size, stride below the width, unknown option.
   diverged,          ///< No step lowered the cost although the gradient does not vanish.
+  unsupported,       ///< This form of the computation cannot take the case; another one can.
 };
 
 /// True when the result that comes with `status` may be used.
@@ -45,6 +46,7 @@ constexpr const char* to_string(Status status) noexcept {
     case Status::non_finite: return "non_finite";
     case Status::invalid_argument: return "invalid_argument";
     case Status::diverged: return "diverged";
+    case Status::unsupported: return "unsupported";
   }
   return "unknown";
 }

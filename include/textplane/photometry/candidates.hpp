@@ -2,6 +2,7 @@
 #ifndef TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 #define TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 
+#include "textplane/photometry/residual.hpp"
 #include "textplane/photometry/template_patch.hpp"
 #include "textplane/simd/zncc.hpp"
 
@@ -13,22 +14,22 @@ TEXTPLANE_BEGIN_NAMESPACE
 ///
 /// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1 then. A
 /// candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.
-template <class = void>  // instantiated where it is called: including the header costs little
+TEXTPLANE_DEFERRED
 Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
                        const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
                        const TemplatePatch* prepared = nullptr) noexcept {
   if (count < 0 || (count > 0 && (!T_t_h || !zncc))) return Status::invalid_argument;
   for (int i = 0; i < count; ++i) zncc[i] = -1.0F;
-  const Status status = detail::check_input(in, theta, SE3d(), options, workspace);
+  ResidualRequest<std::uint8_t> request{in, theta, SE3d(), options};
+  const Status status = detail::check_request(request, workspace);
   if (!is_ok(status)) return status;
-  PhotometricOptions plain = options;
-  plain.robust = Robust{RobustKind::l2, 1.0};
+  request.options.robust = Robust{RobustKind::l2, 1.0};
 
   const bool fast =
-      prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(in, plain, workspace);
+      prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(request, workspace);
   if (fast) {
     simd::ZnccArgs args;
-    args.base = detail::kernel_args(in, theta, SE3d(), plain, workspace, nullptr, nullptr);
+    args.base = detail::kernel_args(request, workspace, nullptr, nullptr);
     static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
     args.model = &prepared->model();
     args.pose = count > 0 ? T_t_h->R.data() : nullptr;
@@ -39,7 +40,8 @@ Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta,
   }
   for (int i = 0; i < count; ++i) {
     if (fast && zncc[i] > simd::kZnccUnknown) continue;
-    const PhotometricCost cost = evaluate(in, theta, T_t_h[i], plain, workspace);
+    request.T_t_h = T_t_h[i];
+    const PhotometricCost cost = evaluate(request, workspace);
     zncc[i] = is_ok(cost.status) ? static_cast<float>(cost.zncc) : -1.0F;
   }
   return Status::ok;

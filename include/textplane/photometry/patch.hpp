@@ -99,7 +99,7 @@ struct TextPatch {
 ///
 /// Status::too_few where no level has `min_pixels` (the paper's 15) left, non_finite for a NaN quad, invalid_argument for an
 /// empty pyramid, no pixel lists or a camera that is not valid(). Allocates.
-template <class = void>  // instantiated where it is called: including the header costs little
+TEXTPLANE_DEFERRED
 TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
                             const std::vector<std::vector<Vector2<float>>>& pixels, int min_pixels = 15) {
   TextPatch patch;

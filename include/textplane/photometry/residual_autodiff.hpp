@@ -3,7 +3,7 @@
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
 
 #include "textplane/core/se3.hpp"
-#include "textplane/photometry/residual_types.hpp"
+#include "textplane/photometry/photometric_input.hpp"
 #include "textplane/photometry/sample.hpp"
 #include "textplane/photometry/zncc.hpp"
 

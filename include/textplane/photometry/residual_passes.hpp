@@ -1,4 +1,4 @@
-// The passes over the pixels that the double reference kernels are made of (docs/equations.md):
+// The passes over the pixels that the double reference is made of (docs/equations.md):
 //
 //   collect      warp, sample, intensity derivatives; keeps the visible pixels only, closed up
 //   normalise    mean and norm of both sides, then residuals and normalised target intensities in place
@@ -12,7 +12,9 @@
 #include <utility>
 
 #include "textplane/core/se3.hpp"
-#include "textplane/photometry/residual_types.hpp"
+#include "textplane/photometry/photometric_workspace.hpp"
+#include "textplane/photometry/residual_request.hpp"
+#include "textplane/photometry/residual_result.hpp"
 #include "textplane/photometry/sample.hpp"
 #include "textplane/photometry/zncc.hpp"
 
@@ -22,25 +24,23 @@ namespace detail {
 
 // Parameters of a row: P = 0 none, 3 theta, 6 pose (v, omega), 9 (v, omega, theta).
 
+inline Status check_camera(const Pinhole<double>& camera) noexcept {
+  if (!is_finite(camera.fx) || !is_finite(camera.fy) || !is_finite(camera.cx) || !is_finite(camera.cy))
+    return Status::non_finite;
+  return camera.valid() ? Status::ok : Status::invalid_argument;
+}
+
+// What is wrong with a request, if anything.
 template <class T>
-Status check_input(const BasicPhotometricInput<T>& in, const Vector3<double>& theta, const SE3d& T_t_h,
-                   const PhotometricOptions& options, const PhotometricWorkspace& workspace) noexcept {
-  const PatchView& p = in.patch;
+Status check_request(const ResidualRequest<T>& q, const PhotometricWorkspace& workspace) noexcept {
+  const PatchView& p = q.input.patch;
   if (!p.x || !p.y || !p.intensity || p.n < 0 || p.n > workspace.capacity()) return Status::invalid_argument;
-  if (!in.target.valid() || !options.valid()) return Status::invalid_argument;
-  // All at once first: this is a good part of what a call on few pixels does.
-  const Pinhole<double>&h = in.host_camera, &t = in.target_camera;
-  std::uint64_t bad = not_finite_bit(h.fx) | not_finite_bit(h.fy) | not_finite_bit(h.cx) | not_finite_bit(h.cy);
-  bad |= not_finite_bit(t.fx) | not_finite_bit(t.fy) | not_finite_bit(t.cx) | not_finite_bit(t.cy);
-  for (int k = 0; k < 9; ++k) bad |= not_finite_bit(T_t_h.R.data()[k]);
-  for (int k = 0; k < 3; ++k) bad |= not_finite_bit(T_t_h.t[k]) | not_finite_bit(theta[k]);
-  if (bad >> 63 == 0 && h.fx > 0 && h.fy > 0 && t.fx > 0 && t.fy > 0) return Status::ok;
-  for (const Pinhole<double>* camera : {&h, &t}) {
-    if (!is_finite(camera->fx) || !is_finite(camera->fy) || !is_finite(camera->cx) || !is_finite(camera->cy))
-      return Status::non_finite;
-    if (!camera->valid()) return Status::invalid_argument;
+  if (!q.input.target.valid() || !q.options.valid()) return Status::invalid_argument;
+  for (const Pinhole<double>* camera : {&q.input.host_camera, &q.input.target_camera}) {
+    const Status status = check_camera(*camera);
+    if (!is_ok(status)) return status;
   }
-  return Status::non_finite;
+  return all_finite(q.T_t_h) && all_finite(q.theta) ? Status::ok : Status::non_finite;
 }
 
 struct Collected {
@@ -74,17 +74,19 @@ void intensity_row(double mx, double my, const double* q, double rho, const doub
 // visible one to the workspace, closed up. A pixel is visible when its plane point lies in front of both cameras, it projects
 // into the target, and both intensities are finite. `flags`, where given, receives one byte a pixel.
 template <int P, class T>
-Collected collect(const BasicPhotometricInput<T>& in, const Vector3<double>& theta, const SE3d& T_t_h,
-                  const std::uint8_t* on_set, std::uint8_t* flags, PhotometricWorkspace& workspace) noexcept {
+Collected collect(const ResidualRequest<T>& request, const std::uint8_t* on_set, std::uint8_t* flags,
+                  PhotometricWorkspace& workspace) noexcept {
   // Plain locals: the compiler must not fear that a store to the workspace changes them.
+  const SE3d& T_t_h = request.T_t_h;
+  const Vector3<double>& theta = request.theta;
   double H[9];
   for (int k = 0; k < 9; ++k) H[k] = T_t_h.R(k / 3, k % 3) + T_t_h.t[k / 3] * theta[k % 3];
   const double t[3] = {T_t_h.t[0], T_t_h.t[1], T_t_h.t[2]}, p[3] = {theta[0], theta[1], theta[2]};
-  const Pinhole<double> h = in.host_camera, c = in.target_camera;
-  const PatchView patch = in.patch;
-  const ImageView<const T> image = in.target;
+  const Pinhole<double> h = request.input.host_camera, c = request.input.target_camera;
+  const PatchView patch = request.input.patch;
+  const ImageView<const T> image = request.input.target;
   const double ifx = 1.0 / h.fx, ify = 1.0 / h.fy, x_max = image.width() - 1, y_max = image.height() - 1;
-  double *host = workspace.host(), *target = workspace.target(), *row = workspace.rows();
+  double *host = workspace.residuals(), *target = workspace.intensities(), *row = workspace.rows();
 
   int candidates = 0, behind = 0, visible = 0;
   for (int i = 0; i < patch.n; ++i) {
@@ -128,21 +130,19 @@ inline Status visibility_status(const Collected& c, int min_visible) noexcept {
 }
 
 // Turns the workspace's host intensities into residuals r and its target intensities into normalised ones.
-inline IntensityStats normalise(int n, double min_contrast, PhotometricWorkspace& workspace) noexcept {
-  double *host = workspace.host(), *target = workspace.target();
-  IntensityStats ts = intensity_stats(target, nullptr, n, 1, min_contrast);
-  if (!is_ok(ts.status)) return ts;
-  const IntensityStats hs = intensity_stats(host, nullptr, n, 1, min_contrast);
-  if (!is_ok(hs.status)) {
-    ts.status = hs.status;
-    return ts;
-  }
-  const double host_scale = 1.0 / hs.s, target_scale = 1.0 / ts.s;
+inline Status normalise(int n, double min_contrast, PhotometricWorkspace& workspace, IntensityStats* target,
+                        IntensityStats* host) noexcept {
+  double *r = workspace.residuals(), *normalised = workspace.intensities();
+  *target = intensity_stats(normalised, nullptr, n, 1, min_contrast);
+  if (!is_ok(target->status)) return target->status;
+  *host = intensity_stats(r, nullptr, n, 1, min_contrast);
+  if (!is_ok(host->status)) return host->status;
+  const double host_scale = 1.0 / host->s, target_scale = 1.0 / target->s;
   for (int k = 0; k < n; ++k) {
-    target[k] = (target[k] - ts.mean) * target_scale;
-    host[k] = (host[k] - hs.mean) * host_scale - target[k];
+    normalised[k] = (normalised[k] - target->mean) * target_scale;
+    r[k] = (r[k] - host->mean) * host_scale - normalised[k];
   }
-  return ts;
+  return Status::ok;
 }
 
 // e = sum dI / N and c = sum I~ dI, the columns unrolled so that the accumulators stay in registers.
@@ -162,7 +162,7 @@ template <int P>
 void project(int n, double s, Normalisation normalisation, PhotometricWorkspace& workspace) noexcept {
   double e[P] = {}, c[P] = {};
   const double scale = -1.0 / s;
-  const double* target = workspace.target();
+  const double* target = workspace.intensities();
   double* row = workspace.rows();
   if (normalisation == Normalisation::exact) row_sums<P>(n, target, row, e, c, std::make_integer_sequence<int, P>());
   for (int k = 0; k < n; ++k, row += P) {
@@ -176,8 +176,8 @@ struct WeightedCost {
   double cost = 0.0, error = 0.0;
 };
 inline WeightedCost weigh(int n, const Robust& robust, PhotometricWorkspace& workspace) noexcept {
-  const double *r = workspace.host(), count = n;
-  double* w = workspace.target();
+  const double *r = workspace.residuals(), count = n;
+  double* w = workspace.intensities();
   WeightedCost out;
   for (int k = 0; k < n; ++k) {
     const double r2 = r[k] * r[k];
@@ -208,7 +208,7 @@ void accumulate_row(int n, const double* w, const double* r, const double* row, 
 template <int P, int... I>
 void accumulate_rows(int n, PhotometricWorkspace& workspace, Eigen::Matrix<double, P, P>* H,
                      Eigen::Matrix<double, P, 1>* b, std::integer_sequence<int, I...>) noexcept {
-  (accumulate_row<P, I>(n, workspace.target(), workspace.host(), workspace.rows(), H, b,
+  (accumulate_row<P, I>(n, workspace.intensities(), workspace.residuals(), workspace.rows(), H, b,
                         std::make_integer_sequence<int, P - I>()),
    ...);
 }

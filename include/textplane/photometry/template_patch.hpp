@@ -1,5 +1,4 @@
-// TemplatePatch: what the template-Jacobian kernels keep of a host patch, and linearise_by(), the normal equations of any
-// policy by the fast kernels.
+// TemplatePatch: what the template-Jacobian kernels keep of a host patch.
 //
 // Preparing costs about as much as ten iterations and is done once per object and level. A patch of n pixels takes 42 bytes a
 // pixel.
@@ -13,8 +12,8 @@
 #include <vector>
 
 #include "textplane/core/cache_line.hpp"
-#include "textplane/photometry/linearise_policy.hpp"
-#include "textplane/photometry/residual.hpp"
+#include "textplane/core/status.hpp"
+#include "textplane/photometry/patch.hpp"
 #include "textplane/simd/template.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -170,81 +169,6 @@ class TemplatePatch {
   simd::TemplateModel model_;
   bool ready_ = false;
 };
-
-namespace detail {
-// The block of P parameters out of (v, omega, theta).
-template <int P>
-void take_block(const double* H, const double* b, NormalEquations<P>* out) noexcept {
-  const int at = P == 3 ? 6 : 0;
-  for (int c = 0; c < P; ++c) {
-    out->b[c] = b[at + c];
-    for (int r = 0; r < P; ++r) out->H(r, c) = H[9 * (at + r) + at + c];
-  }
-}
-
-// False where the kernels declined.
-template <int P>
-bool kernel_linearise_by(LinearisePolicy policy, const PhotometricInput& in, const Vector3<double>& theta,
-                         const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
-                         const TemplatePatch* prepared, NormalEquations<P>* out) noexcept {
-  if (!kernels_take(in, options, workspace)) return false;
-  const bool esm = policy == LinearisePolicy::esm;
-  const simd::EsmArgs args{kernel_args(in, theta, T_t_h, options, workspace, workspace.visible_flags(), nullptr),
-                           in.patch.gx, in.patch.gy, esm, workspace.more_scratch()};
-  double block_H[81], block_b[9];
-  double *H = P == 9 ? out->H.data() : block_H, *b = P == 9 ? out->b.data() : block_b;
-  simd::ResidualInfo info;
-  info.status = Status::out_of_view;
-  if (!esm && prepared && prepared->size() == in.patch.n && !in.patch.mask)
-    info = simd::linearise_template(prepared->model(), args.base,
-                                    reinterpret_cast<std::int16_t*>(workspace.more_scratch()), H, b);
-  // Not all of the patch is visible: the sums of what is.
-  if (info.status == Status::out_of_view) info = simd::linearise_esm(args, H, b);
-  if (declined(info)) return false;
-  take_info(info, options.min_visible, out);
-  if (P != 9 && is_ok(out->status)) take_block<P>(H, b, out);
-  return true;
-}
-
-// The policies with the host's gradients. (A function with one variable to return: it is made where the caller wants it.)
-template <int P>
-NormalEquations<P> linearise_by_host(LinearisePolicy policy, const PhotometricInput& in, const Vector3<double>& theta,
-                                     const SE3d& T_t_h, const PhotometricOptions& options,
-                                     PhotometricWorkspace& workspace, const TemplatePatch* prepared) noexcept {
-  const bool known = policy == LinearisePolicy::template_jacobian || policy == LinearisePolicy::esm;
-  NormalEquations<P> out{Unset()};
-  if (!known || !in.patch.gx || !in.patch.gy ||
-      !kernel_linearise_by<P>(policy, in, theta, T_t_h, options, workspace, prepared, &out))
-    out = reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
-  if (!is_ok(out.status)) out.clear();
-  return out;
-}
-}  // namespace detail
-
-/// As reference::linearise_by(), by the SIMD kernels. `prepared`, if given, must be of in.patch; it makes template_jacobian
-/// several times faster where all of the patch is visible. Then sums are of host intensities rounded to 1/64 grey level and
-/// target intensities within 0.025 of the interpolant (simd/template.hpp): E and the entries of b, in units of sqrt(H_ii), are
-/// within 0.08 / sigma of the reference's, sigma being the lesser standard deviation of the two sides, and H within 3e-4 of
-/// sqrt(H_ii H_jj) without weights. Otherwise the bounds are those of simd/residual.hpp.
-template <int P>
-NormalEquations<P> linearise_by(LinearisePolicy policy, const PhotometricInput& in, const Vector3<double>& theta,
-                                const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
-                                const TemplatePatch* prepared = nullptr) noexcept {
-  static_assert(P == 3 || P == 6 || P == 9, "theta, pose, or pose and theta");
-  if (policy == LinearisePolicy::forward) {
-    if constexpr (P == 3) return linearise_plane(in, theta, T_t_h, options, workspace);
-    if constexpr (P == 6) return linearise_pose(in, theta, T_t_h, options, workspace);
-    if constexpr (P == 9) return linearise_pose_plane(in, theta, T_t_h, options, workspace);
-  }
-  return detail::linearise_by_host<P>(policy, in, theta, T_t_h, options, workspace, prepared);
-}
-/// Float images have no kernels of their own: by the reference, and nothing prepared is used.
-template <int P>
-NormalEquations<P> linearise_by(LinearisePolicy policy, const PhotometricInputF& in, const Vector3<double>& theta,
-                                const SE3d& T_t_h, const PhotometricOptions& options, PhotometricWorkspace& workspace,
-                                const TemplatePatch* = nullptr) noexcept {
-  return reference::linearise_by<P>(policy, in, theta, T_t_h, options, workspace);
-}
 
 TEXTPLANE_END_NAMESPACE
 

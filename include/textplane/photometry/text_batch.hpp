@@ -14,7 +14,8 @@
 #include "textplane/core/cache_line.hpp"
 #include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/se3.hpp"
-#include "textplane/photometry/residual_types.hpp"
+#include "textplane/photometry/residual_request.hpp"
+#include "textplane/photometry/residual_result.hpp"
 #include "textplane/simd/batch.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

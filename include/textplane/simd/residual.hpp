@@ -69,7 +69,7 @@ struct ResidualInfo {
   double error = 0;    ///< E = sum of r^2.
   double mean = 0;     ///< Of the target intensities.
   double s = 0;        ///< ||I - mean|| of the same.
-  /// ok; too_few below min_visible; no_contrast; rank_deficient where float or the homography's inverse do not carry
+  /// ok; too_few below min_visible; no_contrast; unsupported where float or the homography's inverse do not carry
   /// the case, and the double reference must take it.
   Status status = Status::invalid_argument;
 };

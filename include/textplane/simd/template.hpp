@@ -106,7 +106,7 @@ TEXTPLANE_KERNEL void template_correlation(const TemplateArgs& args, TemplateSum
     TEXTPLANE_SIMD_BODY(template_correlation(args, sums));
 
 /// Template-Jacobian normal equations for (v, omega, theta), P = 9. Of `args` the host's pixels are not read (n must be
-/// the model's), masks neither: all pixels count, and where not all of them are visible the status is out_of_view, and
+/// the model's), masks neither: all pixels count, and where not all of them are visible the status is unsupported, and
 /// another kernel must take the case. `values`: room for n int16, rounded up to blocks. Otherwise as
 /// linearise_pose_plane().
 inline ResidualInfo linearise_template(const TemplateModel& model, const ResidualArgs& args, std::int16_t* values,

@@ -23,11 +23,12 @@ struct PoseResult {
                                                                                   ///< Weighting::variance.
   /// C(T_t_w) of the finest level.
   double cost = 0;
-  double zncc = 0;         ///< Mean over the texts that took part.
-  int texts = 0;           ///< Texts that took part.
-  int visible_pixels = 0;  ///< Theirs.
-  int inlier_points = 0;   ///< Points with |e|^2 <= 5.99 (sigma sigma_rep)^2.
-  int iterations = 0;      ///< Trials over all levels.
+  double zncc = 0;           ///< Mean over the texts that took part.
+  int texts = 0;             ///< Texts that took part.
+  int visible_pixels = 0;    ///< Theirs.
+  int inlier_points = 0;     ///< Points with |e|^2 <= 5.99 (sigma sigma_rep)^2.
+  int iterations = 0;        ///< Trials over all levels.
+  Path path = Path::kernel;  ///< Path::reference where any evaluation of a text ran on the slow reference.
   /// Why it ended: see above.
   Status status = Status::invalid_argument;
 };
@@ -53,12 +54,6 @@ inline bool valid(const PoseOptions& o) noexcept {
          o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
          (o.weighting == Weighting::paper || o.weighting == Weighting::variance) &&
          o.policy <= LinearisePolicy::automatic && valid(o.solve);
-}
-
-inline Status check_camera(const Pinhole<double>& camera) noexcept {
-  if (!is_finite(camera.fx) || !is_finite(camera.fy) || !is_finite(camera.cx) || !is_finite(camera.cy))
-    return Status::non_finite;
-  return camera.valid() ? Status::ok : Status::invalid_argument;
 }
 
 // Levels to walk: those of the target that some text has too. Without any, one pass for the points on the finest level.
@@ -98,6 +93,7 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
     fit.status = summary.status;
     fit.cost = summary.final_cost;
   }
+  fit.path = problem.path();
 
   const double scale = 1.0 / (options.sigma_rep * options.sigma_rep);
   for (int i = 0; i < 6; ++i)
@@ -146,7 +142,7 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
 /// fatal; which ones is decided anew at every linearisation. `text_zncc` (text_count values) and `point_chi2`
 /// (point_count values, |e|^2 / (sigma sigma_rep)^2), if given, receive the final values, -1 where the term was
 /// skipped. No allocation: `workspace` must have been reserved for these terms. Thread-safe for distinct workspaces.
-template <class = void>  // instantiated where it is called: including the header costs little
+TEXTPLANE_DEFERRED
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
                     const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
                     const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
@@ -156,7 +152,7 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 }
 
 /// The same on float images.
-template <class = void>  // instantiated where it is called: including the header costs little
+TEXTPLANE_DEFERRED
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
                     const PyramidViewF& target, const Pinhole<double>& camera, const SE3d& T_t_w,
                     const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
@@ -167,14 +163,14 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 
 /// Pose T_t_h (host to target) of one text object with the plane `theta` (host frame), from the guess T_t_h. As
 /// refine_pose() with this object alone; allocates its own workspace.
-template <class = void>  // instantiated where it is called: including the header costs little
+TEXTPLANE_DEFERRED
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
                          const PyramidView& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
 /// The same on a float image.
-template <class = void>  // instantiated where it is called: including the header costs little
+TEXTPLANE_DEFERRED
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
                          const PyramidViewF& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);

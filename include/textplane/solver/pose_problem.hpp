@@ -1,5 +1,4 @@
-// The joint cost of one camera pose over text objects and points, as a problem for minimise(); its terms, options and
-// memory.
+// The joint cost of one camera pose over text objects and points, as a problem for minimise().
 //
 //   C(T_t_w) = sum_points rho(|e|^2 / sigma^2) + sum_texts lambda_w c,    e = reprojection error in px
 //
@@ -11,60 +10,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
-#include "textplane/photometry/residual.hpp"
-#include "textplane/photometry/template_patch.hpp"
-#include "textplane/solver/gauss_newton.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 #include "textplane/solver/levels.hpp"
-#include "textplane/solver/weighting.hpp"
+#include "textplane/solver/pose_terms.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
-
-/// A text object whose host pose and plane are held fixed. Its pixels come from `patch` (not owned).
-struct PoseTextTerm {
-  /// Its pixels in the host; not owned.
-  const TextPatch* patch = nullptr;
-  Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
-  SE3d T_w_h;                                       ///< Host camera to world.
-  double weight = 1;                                ///< On top of lambda_w.
-  int scale_shift = 0;  ///< Of photometric_input(): where the target sees it at another size.
-  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done without.
-  const TemplatePatch* prepared = nullptr;
-};
-
-/// A known 3D point and where it was seen.
-struct PosePointTerm {
-  /// In the world.
-  Vector3<double> p_w = Vector3<double>::Zero();
-  Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
-  double sigma = 1;  ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
-};
-
-/// Settings of refine_pose() and align_pose().
-struct PoseOptions {
-  /// Of every pixel of the texts.
-  PhotometricOptions photometric;
-  /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's
-  /// residual in units of 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the
-  /// paper's E_text.
-  Weighting weighting = Weighting::variance;
-  /// See `weighting`.
-  double sigma_photo = 0.3;
-  /// px, of a point with sigma 1.
-  double sigma_rep = 1;
-  /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
-  Robust point_robust{RobustKind::huber, 2.4477};
-  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
-                           ///< the latest.
-  int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
-  /// Where it ends; 0 is the image itself.
-  int finest_level = 0;
-  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take forward.
-  /// Whatever the policy, steps are judged by the cost.
-  LinearisePolicy policy = LinearisePolicy::forward;
-};
 
 namespace detail {
 struct PoseSystem {
@@ -73,64 +24,6 @@ struct PoseSystem {
   double cost = 0;
   Status status = Status::too_few;
 };
-
-// What the last linearisation found out about a text.
-struct PoseTextState {
-  std::size_t offset = 0;  // Of its visible set.
-  double weight = 0;       // lambda_w times the term's weight, for the visible set.
-  double zncc = 0;
-  int visible = 0;  // 0: it took no part.
-};
-
-template <class View>
-class PoseProblem;
-}  // namespace detail
-
-/// Memory of refine_pose(), to be reused from frame to frame. Not to be shared by two threads at a time.
-class PoseWorkspace {
- public:
-  /// Makes room for these terms (every level of their patches). The only member that allocates; never shrinks.
-  void reserve(const PoseTextTerm* texts, int text_count, int point_count) {
-    std::size_t pixels = 0;
-    int largest = 0;
-    for (int i = 0; i < text_count; ++i) {
-      const int n = pixel_count(texts[i]);
-      pixels += static_cast<std::size_t>(n);
-      largest = std::max(largest, n);
-    }
-    photometric_.reserve(largest);
-    if (visible_.size() < pixels) visible_.resize(pixels);
-    if (text_count > 0 && texts_.size() < static_cast<std::size_t>(text_count))
-      texts_.resize(static_cast<std::size_t>(text_count));
-    if (point_count > 0 && points_.size() < static_cast<std::size_t>(point_count))
-      points_.resize(static_cast<std::size_t>(point_count));
-  }
-
-  /// reserve() was called for at least these terms.
-  bool fits(const PoseTextTerm* texts, int text_count, int point_count) const noexcept {
-    std::size_t pixels = 0;
-    for (int i = 0; i < text_count; ++i) {
-      const int n = pixel_count(texts[i]);
-      if (n > photometric_.capacity()) return false;
-      pixels += static_cast<std::size_t>(n);
-    }
-    return pixels <= visible_.size() && static_cast<std::size_t>(text_count) <= texts_.size() &&
-           static_cast<std::size_t>(point_count) <= points_.size();
-  }
-
- private:
-  template <class View>
-  friend class detail::PoseProblem;
-
-  static int pixel_count(const PoseTextTerm& term) noexcept { return term.patch ? term.patch->max_pixels() : 0; }
-
-  PhotometricWorkspace photometric_;
-  std::vector<std::uint8_t> visible_;  // Visible sets of the last linearisation, text after text.
-  std::vector<detail::PoseTextState> texts_;
-  std::vector<std::uint8_t> points_;  // 1: took part in the last linearisation.
-};
-
-namespace detail {
 
 /// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than
 /// 89.9 degrees off the optical axis).
@@ -198,10 +91,9 @@ class PoseProblem {
     for (int i = 0; i < text_count_; ++i) {
       const PoseTextState& state = text(i);
       if (state.visible == 0) continue;
-      const PoseTextTerm& term = texts_[i];
-      const PhotometricCost c = textplane::evaluate(
-          level_input(*term.patch, level_, target_, camera_, term.scale_shift), term.theta, T_t_w * term.T_w_h,
-          options_.photometric, memory_.photometric_, memory_.visible_.data() + state.offset);
+      const PhotometricCost c =
+          textplane::evaluate(request(texts_[i], T_t_w), memory_.photometric_, memory_.visible_.data() + state.offset);
+      path_ = std::max(path_, c.path);
       // An object that is lost as a whole costs what two uncorrelated patches would.
       e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost_pixels += is_ok(c.status) ? c.lost : state.visible;
@@ -231,43 +123,46 @@ class PoseProblem {
   const PoseTextState& text_state(int i) const noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
   int visible_pixels() const noexcept { return visible_pixels_; }
   int active_texts() const noexcept { return active_texts_; }
+  /// Of all evaluations so far.
+  Path path() const noexcept { return path_; }
 
  private:
+  using Pixel = PixelOf<View>;
+
+  PolicyRequest<Pixel> request(const PoseTextTerm& term, const SE3d& T_t_w) const noexcept {
+    const int host_level = term.scale_shift < 0 ? level_ - term.scale_shift : level_;
+    PolicyRequest<Pixel> q{{level_input(*term.patch, level_, target_, camera_, term.scale_shift), term.theta,
+                            T_t_w * term.T_w_h, options_.photometric},
+                           policy_at_level(options_.policy, level_, options_.finest_level),
+                           term.prepared ? term.prepared + host_level : nullptr};
+    if (!q.input.patch.gx || !q.input.patch.gy) q.policy = LinearisePolicy::forward;
+    return q;
+  }
+
   PoseTextState& text(int i) noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
 
   Status add_text(const PoseTextTerm& term, const SE3d& T_t_w, PoseTextState& state, PoseSystem& system) noexcept {
     if (!term.patch || !(term.weight > 0) || !is_finite(term.weight)) return Status::invalid_argument;
-    const auto input = level_input(*term.patch, level_, target_, camera_, term.scale_shift);
-    const NormalEquations<6> n = linearise_text(input, term, T_t_w * term.T_w_h);
+    PhotometricWorkspace& workspace = memory_.photometric_;
+    const PolicyRequest<Pixel> q = request(term, T_t_w);
+    NormalEquations<6> n = textplane::linearise<Parameters::pose>(q, workspace);
+    path_ = std::max(path_, n.path);
     if (!is_ok(n.status)) return n.status;
+    // Trials are compared with this cost: it must be the one that evaluate() computes, to the last digit.
+    if (q.prepared && q.policy != LinearisePolicy::forward) {
+      const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
+      if (is_ok(c.status)) n.cost = c.cost;
+    }
     state.visible = n.visible;
     state.zncc = n.zncc;
     state.weight = term.weight * text_weight(options_.weighting, options_.sigma_rep, options_.sigma_photo, n.visible);
-    std::copy_n(memory_.photometric_.visible(), input.patch.n, memory_.visible_.data() + state.offset);
+    std::copy_n(workspace.visible(), q.input.patch.n, memory_.visible_.data() + state.offset);
     for (int i = 0; i < 6; ++i) {
       system.b[i] += state.weight * n.b[i];
       for (int j = 0; j <= i; ++j) system.H(i, j) += state.weight * n.H(i, j);
     }
     system.cost += state.weight * n.cost;
     return Status::ok;
-  }
-
-  template <class Input>
-  NormalEquations<6> linearise_text(const Input& input, const PoseTextTerm& term, const SE3d& T_t_h) noexcept {
-    const LinearisePolicy policy = policy_at_level(options_.policy, level_, options_.finest_level);
-    PhotometricWorkspace& workspace = memory_.photometric_;
-    if (policy == LinearisePolicy::forward || !input.patch.gx || !input.patch.gy)
-      return textplane::linearise_pose(input, term.theta, T_t_h, options_.photometric, workspace);
-    const int host_level = term.scale_shift < 0 ? level_ - term.scale_shift : level_;
-    const TemplatePatch* prepared = term.prepared ? term.prepared + host_level : nullptr;
-    NormalEquations<6> n = linearise_by<6>(policy, input, term.theta, T_t_h, options_.photometric, workspace, prepared);
-    // Trials are compared with this cost: it must be the one that evaluate() computes, to the last digit.
-    if (prepared && is_ok(n.status)) {
-      const PhotometricCost c =
-          textplane::evaluate(input, term.theta, T_t_h, options_.photometric, workspace, workspace.visible());
-      if (is_ok(c.status)) n.cost = c.cost;
-    }
-    return n;
   }
 
   bool add_point(const PosePointTerm& term, const SE3d& T_t_w, PoseSystem& system) noexcept {
@@ -298,6 +193,7 @@ class PoseProblem {
   PoseWorkspace& memory_;
   int level_ = 0;
   int visible_pixels_ = 0, active_points_ = 0, active_texts_ = 0;
+  Path path_ = Path::kernel;
 };
 }  // namespace detail
 

@@ -26,7 +26,7 @@ struct SearchOptions {
 namespace detail {
 
 // Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was there.
-template <class = void>  // as search_pose() below
+TEXTPLANE_DEFERRED
 class PoseSearch {
  public:
   static constexpr int kMost = 8;
@@ -99,7 +99,7 @@ inline int search_level(const TextPatch& patch, int levels, const SearchOptions&
 /// best ZNCC of the patch in the target, and then turned a little about that centre where this is better still; the guess itself
 /// where nothing is better or nothing can be compared. `zncc`, if given, receives the best value, -1 where none. `prepared`: one
 /// TemplatePatch a level, or null. No allocation; `workspace` must have room for the patch.
-template <class = void>  // instantiated where it is called: including the header costs little
+TEXTPLANE_DEFERRED
 SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
                  const Pinhole<double>& camera, const SearchOptions& options, PhotometricWorkspace& workspace,
                  const TemplatePatch* prepared = nullptr, float* zncc = nullptr) noexcept {

@@ -162,6 +162,7 @@ class WindowSolver {
 
   void finish() {
     sum_.final_cost = cost_;
+    sum_.path = terms_.path();
     x_.write(w_);
     terms_.report(w_, o_, x_, structure_);
     sum_.free_frames = structure_.cameras();

@@ -97,7 +97,7 @@ struct WindowTextObservation {
 
   double zncc = 0;  ///< Out: at the final state; 0 if it could not be evaluated.
   int visible = 0;  ///< Out: visible pixels at the final state.
-  /// Out. ok; the status of linearise_pose_plane() at the start, or where the observation dropped out later (too_few,
+  /// Out. ok; the status of linearise() at the start, or where the observation dropped out later (too_few,
   /// no_contrast, behind_camera, ...); degenerate: target is host; invalid_argument: no image or no patch on this
   /// level, weight not positive; too_few also where its text or a frame was left out.
   Status status = Status::ok;
@@ -180,6 +180,7 @@ struct WindowSummary {
   int point_observations = 0;  ///< Took part.
   int text_observations = 0;   ///< Took part to the end.
   int undetermined = 0;        ///< Frames, points and texts with status rank_deficient.
+  Path path = Path::kernel;    ///< Path::reference where any evaluation of a text ran on the slow reference.
 };
 
 TEXTPLANE_END_NAMESPACE

@@ -28,6 +28,7 @@ class BasicWindowTerms {
   /// Resets what the solver writes back, finds unusable elements and linearises the texts once. Allocates where the
   /// window exceeds every earlier one.
   void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
+    path_ = Path::kernel;
     for (WindowFrame& f : w.frames) f.status = Status::ok;
     for (WindowPoint& p : w.points) p.status = all_finite(p.p_w) ? Status::ok : Status::non_finite;
     for (WindowPointObservation& k : w.point_observations) {
@@ -129,11 +130,9 @@ class BasicWindowTerms {
     for (int k = 0; k < count(s.text_active); ++k) {
       if (!at(s.text_active, k)) continue;
       const WindowTextObservation& ob = at(w.text_observations, k);
-      const WindowText& t = at(w.texts, ob.text);
       const int visible = at(text_, k).visible;
-      const PhotometricCost c = textplane::evaluate(
-          photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera, ob.scale_shift),
-          at(y.landmark, count(w.points) + ob.text), relative_pose(t, ob, y), o.photometric, photometric_, mask(k));
+      const PhotometricCost c = textplane::evaluate(request(w, o, y, ob), photometric_, mask(k));
+      path_ = std::max(path_, c.path);
       pixels += visible;
       lost += is_ok(c.status) ? c.lost : visible;
       trial.cost += weight(o, ob, visible) * (is_ok(c.status) ? c.cost : o.photometric.robust.rho(2.0));
@@ -164,6 +163,9 @@ class BasicWindowTerms {
     for (WindowText& t : w.texts)
       if (t.used_observations > 0) t.zncc /= t.used_observations;
   }
+
+  /// What computed the texts since prepare().
+  Path path() const noexcept { return path_; }
 
   /// Mean distance from the cameras of what the active observations see: the length that steps are compared with.
   double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x,
@@ -208,16 +210,21 @@ class BasicWindowTerms {
   }
   const std::uint8_t* mask(int k) const noexcept { return mask_.data() + at(mask_begin_, k); }
 
+  static ResidualRequest<std::uint8_t> request(const Window& w, const WindowOptions& o, const WindowState& x,
+                                               const WindowTextObservation& k) noexcept {
+    const WindowText& t = at(w.texts, k.text);
+    return {photometric_input(*t.patch, o.text_level, at(w.frames, k.frame).image, w.camera, k.scale_shift),
+            at(x.landmark, count(w.points) + k.text), relative_pose(t, k, x), o.photometric};
+  }
+
   Status linearise_text(const Window& w, const WindowOptions& o, const WindowState& x, int k) noexcept {
     const WindowTextObservation& ob = at(w.text_observations, k);
-    const WindowText& t = at(w.texts, ob.text);
     NormalEquations<9>& out = at(text_, k);
-    const PhotometricInput input =
-        photometric_input(*t.patch, o.text_level, at(w.frames, ob.frame).image, w.camera, ob.scale_shift);
-    out = textplane::linearise_pose_plane(input, at(x.landmark, count(w.points) + ob.text), relative_pose(t, ob, x),
-                                          o.photometric, photometric_);
+    const ResidualRequest<std::uint8_t> q = request(w, o, x, ob);
+    out = textplane::linearise<Parameters::pose_plane>(q, photometric_);
+    path_ = std::max(path_, out.path);
     if (is_ok(out.status))
-      std::copy_n(photometric_.visible(), input.patch.n,
+      std::copy_n(photometric_.visible(), q.input.patch.n,
                   mask_.begin() + static_cast<std::ptrdiff_t>(at(mask_begin_, k)));
     return out.status;
   }
@@ -283,6 +290,7 @@ class BasicWindowTerms {
   }
 
   PhotometricWorkspace photometric_;
+  Path path_ = Path::kernel;
   std::vector<NormalEquations<9>> text_;
   std::vector<std::uint8_t> mask_;
   std::vector<std::size_t> mask_begin_;

@@ -6,7 +6,7 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
   simd::PointBounds bounds = a.bounds;
   if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
   ResidualFrame f;
-  info->status = Status::rank_deficient;
+  info->status = Status::unsupported;
   if (!make_frame(a, bounds, &f)) return;
   ResidualArrays s;
   make_arrays(a.scratch, a.n, &s);
@@ -22,10 +22,10 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
     else
       info->status = pixels.n <= kRowPixels ? linearise_small(parameters, a, f, pixels, s, info, H, b)
                                             : linearise_large(parameters, a, f, pixels, s, info, H, b);
-    if (info->status == Status::ok && !finite_d(info->cost)) info->status = Status::rank_deficient;
+    if (info->status == Status::ok && !finite_d(info->cost)) info->status = Status::unsupported;
     if (info->status != Status::non_finite) return;
   }
-  info->status = Status::rank_deficient;
+  info->status = Status::unsupported;
 }
 
 // Eight lanes hold a few pixels as well as sixteen do, and sum them sooner.

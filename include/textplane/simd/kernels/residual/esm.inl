@@ -182,7 +182,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
   simd::PointBounds bounds = a.bounds;
   if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
   ResidualFrame f;
-  info->status = Status::rank_deficient;
+  info->status = Status::unsupported;
   if (!make_frame(a, bounds, &f)) return;
   ResidualArrays s;
   make_arrays(a.scratch, a.n, &s);
@@ -199,8 +199,8 @@ TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualIn
       close_up_like(a.flags, e.gy, a.n, cy);
     }
     info->status = esm_pixels(e, f, pixels, closed ? cx : e.gx, closed ? cy : e.gy, s, info, H, b);
-    if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
+    if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::unsupported;
     if (info->status != Status::non_finite) return;
   }
-  info->status = Status::rank_deficient;
+  info->status = Status::unsupported;
 }

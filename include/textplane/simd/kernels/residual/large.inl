@@ -132,5 +132,5 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
       for (int j = i; j < form; ++j) H[form * i + j] = H[form * j + i] = sums.S[i][j];
     }
   }
-  return finite_sums(parameters, *info, H, b) ? Status::ok : Status::rank_deficient;
+  return finite_sums(parameters, *info, H, b) ? Status::ok : Status::unsupported;
 }

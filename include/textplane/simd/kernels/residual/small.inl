@@ -271,5 +271,5 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];
     squares += (static_cast<double>(p[0]) + p[3]) + p[5];
   }
-  return finite_d(squares) ? Status::ok : Status::rank_deficient;
+  return finite_d(squares) ? Status::ok : Status::unsupported;
 }

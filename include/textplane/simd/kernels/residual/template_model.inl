@@ -150,12 +150,12 @@ TEXTPLANE_SIMD_INLINE void template_outliers(const simd::ResidualArgs& a, const 
 TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
                                         bool derivatives, simd::ResidualInfo* info, double* H, double* b) noexcept {
   ResidualFrame f;
-  info->status = Status::rank_deficient;
+  info->status = Status::unsupported;
   if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
   simd::TemplateArgs t;
   t.target = a.target;
   ImageTiles tiles;
-  info->status = Status::out_of_view;
+  info->status = Status::unsupported;
   if (!template_frame(m, f, &t, &tiles)) return;
   info->candidates = info->visible = m.n;
   if (a.flags) set_all(a.flags, a.n);
@@ -209,7 +209,7 @@ TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const
                                              std::int16_t* values, simd::ResidualInfo* info, double* H,
                                              double* b) noexcept {
   template_any(m, a, values, true, info, H, b);
-  if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::rank_deficient;
+  if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::unsupported;
 }
 TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
                                             std::int16_t* values, simd::ResidualInfo* info) noexcept {

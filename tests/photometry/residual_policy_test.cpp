@@ -1,6 +1,6 @@
 // Rows by policy, derived here from what they mean: the change of the host's intensity where H(0)^-1 H(dp) m~ lands, by
 // central differences.
-#include "textplane/photometry/linearise_policy.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "photometry/scene.hpp"
 
-namespace linearise_policy_test {
+namespace residual_policy_test {
 using namespace textplane_test;
 using tp::LinearisePolicy;
 using Row = Eigen::Matrix<double, 9, 1>;
@@ -28,6 +28,9 @@ struct Patch : Scene<float> {
     in.patch.gx = gx.data();
     in.patch.gy = gy.data();
     return in;
+  }
+  tp::ResidualRequest<float> request(const tp::PhotometricOptions& options = {}) const {
+    return {input(), theta, T_t_h, options};
   }
   tp::Matrix3<double> H(const Row& dp) const {
     const tp::SE3d T = tp::se3_exp<double>(dp.head<6>()) * T_t_h;
@@ -72,8 +75,8 @@ TEST(LinearisePolicy, RowsAreWhatTheyMean) {
       options.normalisation = exact ? tp::Normalisation::exact : tp::Normalisation::frozen;
 
       std::vector<double> r(static_cast<std::size_t>(n)), J(static_cast<std::size_t>(9 * n));
-      ASSERT_EQ(tp::reference::residuals<9>(scene.input(), scene.theta, scene.T_t_h, options, scene.workspace, r.data(),
-                                            J.data())
+      ASSERT_EQ(tp::reference::residuals<tp::Parameters::pose_plane>(scene.request(options), scene.workspace, r.data(),
+                                                                     J.data())
                     .status,
                 tp::Status::ok);
       const Eigen::Map<const Eigen::VectorXd> residual(r.data(), n);
@@ -95,7 +98,7 @@ TEST(LinearisePolicy, RowsAreWhatTheyMean) {
                                       : policy == LinearisePolicy::esm   ? mean
                                                                          : constant;
         const auto e =
-            tp::reference::linearise_by<9>(policy, scene.input(), scene.theta, scene.T_t_h, options, scene.workspace);
+            tp::reference::linearise<tp::Parameters::pose_plane>(scene.request(options).by(policy), scene.workspace);
         ASSERT_EQ(e.status, tp::Status::ok);
         const Eigen::MatrixXd H = rows.transpose() * rows;
         const Eigen::VectorXd b = rows.transpose() * residual;
@@ -119,7 +122,7 @@ TEST(LinearisePolicy, AllVanishAtAPerfectMatch) {
     scene.intensity[k] = static_cast<float>(0.5 * value + 30);
   }
   for (const auto policy : {LinearisePolicy::forward, LinearisePolicy::template_jacobian, LinearisePolicy::esm}) {
-    const auto e = tp::reference::linearise_by<9>(policy, scene.input(), scene.theta, scene.T_t_h, {}, scene.workspace);
+    const auto e = tp::reference::linearise<tp::Parameters::pose_plane>(scene.request().by(policy), scene.workspace);
     ASSERT_EQ(e.status, tp::Status::ok);
     for (int i = 0; i < 9; ++i) EXPECT_LT(std::abs(e.b[i]), 1e-6 * std::sqrt(e.H(i, i)));
   }
@@ -128,7 +131,9 @@ TEST(LinearisePolicy, AllVanishAtAPerfectMatch) {
 TEST(LinearisePolicy, StatusOfWhatCannotBe) {
   Patch scene(3, 30);
   const auto run = [&](const tp::PhotometricInputF& in, LinearisePolicy policy, const tp::SE3d& T) {
-    return tp::reference::linearise_by<6>(policy, in, scene.theta, T, {}, scene.workspace).status;
+    return tp::reference::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, scene.theta, T}.by(policy),
+                                                          scene.workspace)
+        .status;
   };
   tp::PhotometricInputF bare = scene.input();
   bare.patch.gx = nullptr;
@@ -140,4 +145,4 @@ TEST(LinearisePolicy, StatusOfWhatCannotBe) {
   EXPECT_EQ(run(scene.input(), LinearisePolicy::esm, scene.T_t_h), tp::Status::non_finite);
 }
 
-}  // namespace linearise_policy_test
+}  // namespace residual_policy_test

@@ -1,0 +1,121 @@
+// What refine_pose() takes: text objects and points, options, and memory.
+#ifndef TEXTPLANE_SOLVER_POSE_TERMS_HPP
+#define TEXTPLANE_SOLVER_POSE_TERMS_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "textplane/photometry/photometric_workspace.hpp"
+#include "textplane/photometry/residual_request.hpp"
+#include "textplane/photometry/template_patch.hpp"
+#include "textplane/solver/gauss_newton.hpp"
+#include "textplane/solver/weighting.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A text object whose host pose and plane are held fixed. Its pixels come from `patch` (not owned).
+struct PoseTextTerm {
+  /// Its pixels in the host; not owned.
+  const TextPatch* patch = nullptr;
+  Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
+  SE3d T_w_h;                                       ///< Host camera to world.
+  double weight = 1;                                ///< On top of lambda_w.
+  int scale_shift = 0;  ///< Of photometric_input(): where the target sees it at another size.
+  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done without.
+  const TemplatePatch* prepared = nullptr;
+};
+
+/// A known 3D point and where it was seen.
+struct PosePointTerm {
+  /// In the world.
+  Vector3<double> p_w = Vector3<double>::Zero();
+  Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
+  double sigma = 1;  ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
+};
+
+/// Settings of refine_pose() and align_pose().
+struct PoseOptions {
+  /// Of every pixel of the texts.
+  PhotometricOptions photometric;
+  /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's
+  /// residual in units of 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the
+  /// paper's E_text.
+  Weighting weighting = Weighting::variance;
+  /// See `weighting`.
+  double sigma_photo = 0.3;
+  /// px, of a point with sigma 1.
+  double sigma_rep = 1;
+  /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
+  Robust point_robust{RobustKind::huber, 2.4477};
+  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
+                           ///< the latest.
+  int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
+  /// Where it ends; 0 is the image itself.
+  int finest_level = 0;
+  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take forward.
+  /// Whatever the policy, steps are judged by the cost.
+  LinearisePolicy policy = LinearisePolicy::forward;
+};
+
+namespace detail {
+// What the last linearisation found out about a text.
+struct PoseTextState {
+  std::size_t offset = 0;  // Of its visible set.
+  double weight = 0;       // lambda_w times the term's weight, for the visible set.
+  double zncc = 0;
+  int visible = 0;  // 0: it took no part.
+};
+
+template <class View>
+class PoseProblem;
+}  // namespace detail
+
+/// Memory of refine_pose(), to be reused from frame to frame. Not to be shared by two threads at a time.
+class PoseWorkspace {
+ public:
+  /// Makes room for these terms (every level of their patches). The only member that allocates; never shrinks.
+  void reserve(const PoseTextTerm* texts, int text_count, int point_count) {
+    std::size_t pixels = 0;
+    int largest = 0;
+    for (int i = 0; i < text_count; ++i) {
+      const int n = pixel_count(texts[i]);
+      pixels += static_cast<std::size_t>(n);
+      largest = std::max(largest, n);
+    }
+    photometric_.reserve(largest);
+    if (visible_.size() < pixels) visible_.resize(pixels);
+    if (text_count > 0 && texts_.size() < static_cast<std::size_t>(text_count))
+      texts_.resize(static_cast<std::size_t>(text_count));
+    if (point_count > 0 && points_.size() < static_cast<std::size_t>(point_count))
+      points_.resize(static_cast<std::size_t>(point_count));
+  }
+
+  /// reserve() was called for at least these terms.
+  bool fits(const PoseTextTerm* texts, int text_count, int point_count) const noexcept {
+    std::size_t pixels = 0;
+    for (int i = 0; i < text_count; ++i) {
+      const int n = pixel_count(texts[i]);
+      if (n > photometric_.capacity()) return false;
+      pixels += static_cast<std::size_t>(n);
+    }
+    return pixels <= visible_.size() && static_cast<std::size_t>(text_count) <= texts_.size() &&
+           static_cast<std::size_t>(point_count) <= points_.size();
+  }
+
+ private:
+  template <class View>
+  friend class detail::PoseProblem;
+
+  static int pixel_count(const PoseTextTerm& term) noexcept { return term.patch ? term.patch->max_pixels() : 0; }
+
+  PhotometricWorkspace photometric_;
+  std::vector<std::uint8_t> visible_;  // Visible sets of the last linearisation, text after text.
+  std::vector<detail::PoseTextState> texts_;
+  std::vector<std::uint8_t> points_;  // 1: took part in the last linearisation.
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SOLVER_POSE_TERMS_HPP
