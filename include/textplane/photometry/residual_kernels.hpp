@@ -92,9 +92,10 @@ bool kernel_linearise(const KernelRequest& q, PhotometricWorkspace& workspace,
   if (!kernels_take(q, workspace)) return false;
   const simd::ResidualArgs args = kernel_args(q, workspace, workspace.visible_flags(), nullptr);
   double *H = out->H.data(), *b = out->b.data();
-  const simd::ResidualInfo info = Unknowns == Parameters::plane  ? simd::linearise_plane(args, H, b)
-                                  : Unknowns == Parameters::pose ? simd::linearise_pose(args, H, b)
-                                                                 : simd::linearise_pose_plane(args, H, b);
+  simd::ResidualInfo info;
+  if constexpr (Unknowns == Parameters::plane) simd::linearise_plane(args, &info, H, b);
+  if constexpr (Unknowns == Parameters::pose) simd::linearise_pose(args, &info, H, b);
+  if constexpr (Unknowns == Parameters::pose_plane) simd::linearise_pose_plane(args, &info, H, b);
   return take_info(info, q.options.min_visible, out);
 }
 
@@ -102,7 +103,8 @@ bool kernel_linearise(const KernelRequest& q, PhotometricWorkspace& workspace,
 inline bool kernel_evaluate(const KernelRequest& q, PhotometricWorkspace& workspace, const std::uint8_t* on_set,
                             PhotometricCost* out) noexcept {
   if (!kernels_take(q, workspace)) return false;
-  const simd::ResidualInfo info = simd::evaluate(kernel_args(q, workspace, nullptr, on_set));
+  simd::ResidualInfo info;
+  simd::evaluate(kernel_args(q, workspace, nullptr, on_set), &info);
   if (info.status == Status::unsupported) return false;
   out->visible = info.visible;
   out->lost = on_set ? info.candidates - info.visible : 0;

@@ -136,48 +136,23 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-namespace detail {
-TEXTPLANE_KERNEL void linearise_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                           double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_plane_sums(args, out, H, b));
-TEXTPLANE_KERNEL void linearise_pose_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                          double* b) noexcept TEXTPLANE_SIMD_BODY(linearise_pose_sums(args, out, H, b));
-TEXTPLANE_KERNEL void linearise_pose_plane_sums(const simd::ResidualArgs& args, simd::ResidualInfo* out, double* H,
-                                                double* b) noexcept
-    TEXTPLANE_SIMD_BODY(linearise_pose_plane_sums(args, out, H, b));
-TEXTPLANE_KERNEL void evaluate_cost(const simd::ResidualArgs& args, simd::ResidualInfo* out) noexcept
-    TEXTPLANE_SIMD_BODY(evaluate_cost(args, out));
-}  // namespace detail
-
 namespace simd {
 
 /// Normal equations for theta: H (3 x 3, symmetric) and b (3), of which nothing may be used unless the status is ok.
-inline ResidualInfo linearise_plane(const ResidualArgs& args, double* H, double* b) noexcept {
-  ResidualInfo out;
-  detail::linearise_plane_sums(args, &out, H, b);
-  return out;
-}
+TEXTPLANE_KERNEL void linearise_plane(const ResidualArgs& args, ResidualInfo* out, double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_plane(args, out, H, b));
 
 /// The same for the pose, (v, omega): 6 x 6 and 6.
-inline ResidualInfo linearise_pose(const ResidualArgs& args, double* H, double* b) noexcept {
-  ResidualInfo out;
-  detail::linearise_pose_sums(args, &out, H, b);
-  return out;
-}
+TEXTPLANE_KERNEL void linearise_pose(const ResidualArgs& args, ResidualInfo* out, double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_pose(args, out, H, b));
 
 /// The same for both, (v, omega, theta): 9 x 9 and 9.
-inline ResidualInfo linearise_pose_plane(const ResidualArgs& args, double* H, double* b) noexcept {
-  ResidualInfo out;
-  detail::linearise_pose_plane_sums(args, &out, H, b);
-  return out;
-}
+TEXTPLANE_KERNEL void linearise_pose_plane(const ResidualArgs& args, ResidualInfo* out, double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_pose_plane(args, out, H, b));
 
 /// Cost, E and counts alone.
-inline ResidualInfo evaluate(const ResidualArgs& args) noexcept {
-  ResidualInfo out;
-  detail::evaluate_cost(args, &out);
-  return out;
-}
+TEXTPLANE_KERNEL void evaluate(const ResidualArgs& args, ResidualInfo* out) noexcept
+    TEXTPLANE_SIMD_BODY(evaluate(args, out));
 
 }  // namespace simd
 

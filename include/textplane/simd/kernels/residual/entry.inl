@@ -31,22 +31,22 @@ TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs
 // Eight lanes hold a few pixels as well as sixteen do, and sum them sooner.
 enum : int { kFewLanes = simd::lanes(simd::Target::TEXTPLANE_SIMD_REGION_FEW) };
 TEXTPLANE_SIMD_INLINE bool leave_few(int n) noexcept { return kFewLanes != kLanes && n <= 2 * kLanes; }
-TEXTPLANE_SIMD_ENTRY void linearise_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
-                                               double* b) noexcept {
-  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_plane_sums(a, info, H, b);
+TEXTPLANE_SIMD_ENTRY void linearise_plane(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                          double* b) noexcept {
+  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_plane(a, info, H, b);
   residual_any(3, a, info, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void linearise_pose_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
-                                              double* b) noexcept {
-  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_pose_sums(a, info, H, b);
+TEXTPLANE_SIMD_ENTRY void linearise_pose(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                         double* b) noexcept {
+  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_pose(a, info, H, b);
   residual_any(6, a, info, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void linearise_pose_plane_sums(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
-                                                    double* b) noexcept {
-  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_pose_plane_sums(a, info, H, b);
+TEXTPLANE_SIMD_ENTRY void linearise_pose_plane(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                               double* b) noexcept {
+  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_pose_plane(a, info, H, b);
   residual_any(9, a, info, H, b);
 }
-TEXTPLANE_SIMD_ENTRY void evaluate_cost(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
-  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::evaluate_cost(a, info);
+TEXTPLANE_SIMD_ENTRY void evaluate(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
+  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::evaluate(a, info);
   residual_any(0, a, info, nullptr, nullptr);
 }
