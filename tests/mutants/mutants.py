@@ -69,7 +69,7 @@ MUTANTS = [
     # solvers
     ("solver/gauss_newton.hpp", "is_finite(e.cost) && e.cost < current.cost &&", "is_finite(e.cost) &&", ["solver/gauss_newton_test"]),
     ("solver/gauss_newton.hpp", "e.lost_fraction <= options.max_lost_fraction", "e.lost_fraction <= 1.0", ["solver/gauss_newton_test"]),
-    ("solver/gauss_newton.hpp", "step[i] = -step[i];", "step[i] = step[i];", ["solver/gauss_newton_test"]),
+    ("solver/gauss_newton.hpp", "out.step[i] = -out.step[i];", "out.step[i] = out.step[i];", ["solver/gauss_newton_test"]),
     ("solver/weighting.hpp", "ratio * ratio * visible", "ratio * visible", ["solver/weighting_test"]),
     ("solver/pose_problem.hpp", "-fx * u * v, fx * (1 + u * u), -fx * v}", "-fx * u * v, fx * (1 - u * u), -fx * v}", ["solver/pose_test"]),
     ("solver/window_schur.hpp", "at(camera_step_, 6 * ci + k) += g[k];", "at(camera_step_, 6 * ci + k) -= g[k];", ["solver/window_linear_test"]),

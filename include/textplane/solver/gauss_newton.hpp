@@ -22,6 +22,9 @@
 #ifndef TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
 #define TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
 
+#include <algorithm>
+#include <cmath>
+
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/status.hpp"
 
@@ -92,6 +95,46 @@ Status check(const Linearised& system, double rank_tolerance) noexcept {
   if (!all_finite(system.H) || !all_finite(system.b) || !is_finite(system.cost)) return Status::non_finite;
   return Ldlt<double, P>(system.H, rank_tolerance).ok() ? Status::ok : Status::rank_deficient;
 }
+
+// What an accepted step multiplies the damping by, from its gain ratio.
+inline double damping_factor(double decrease, double predicted) noexcept {
+  const double gain = predicted > 0.0 ? decrease / predicted : 1.0, x = 2.0 * gain - 1.0;
+  return std::min(std::max(1.0 - x * x * x, 0.1), 2.0);
+}
+
+// -(H + lambda D)^-1 b and the decrease that the quadratic model promises for it.
+template <int P>
+struct DampedStep {
+  Eigen::Matrix<double, P, 1> step = Eigen::Matrix<double, P, 1>::Zero();
+  double predicted = 0.0, norm = 0.0;
+  bool usable = false;
+};
+template <int P, class Linearised>
+DampedStep<P> damped_step(const Linearised& system, double lambda, double diagonal_floor) noexcept {
+  DampedStep<P> out;
+  double largest = 0.0;
+  for (int i = 0; i < P; ++i) largest = system.H(i, i) > largest ? system.H(i, i) : largest;
+  Eigen::Matrix<double, P, P> damped = system.H;
+  Eigen::Matrix<double, P, 1> damping;
+  for (int i = 0; i < P; ++i) {
+    const double floor = diagonal_floor * largest;
+    damping[i] = lambda * (system.H(i, i) > floor ? system.H(i, i) : floor);
+    damped(i, i) += damping[i];
+  }
+  const Ldlt<double, P> factor(damped, 0.0);
+  if (!factor.ok()) return out;
+  out.step = factor.solve(system.b);
+  // Model C + 2 b.step + step.H step with (H + D) step = -b: the decrease is -b.step + step.D step.
+  double squared_norm = 0.0;
+  for (int i = 0; i < P; ++i) {
+    out.step[i] = -out.step[i];
+    out.predicted += out.step[i] * (damping[i] * out.step[i] - system.b[i]);
+    squared_norm += out.step[i] * out.step[i];
+  }
+  out.norm = std::sqrt(squared_norm);
+  out.usable = is_finite(squared_norm) && is_finite(out.predicted);
+  return out;
+}
 }  // namespace detail
 
 /// Minimise `problem` from `state`, in place.
@@ -104,9 +147,6 @@ template <class Problem>
 SolveSummary minimise(Problem& problem, typename Problem::State& state, const SolveOptions& options = {},
                       decltype(problem.linearise(state))* system = nullptr) noexcept {
   constexpr int P = Problem::kParameters;
-  using Matrix = Eigen::Matrix<double, P, P>;
-  using Vector = Eigen::Matrix<double, P, 1>;
-
   SolveSummary summary;
   if (!detail::valid(options)) return summary;
   auto current = problem.linearise(state);
@@ -124,35 +164,14 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
   double lambda = options.initial_lambda, growth = detail::kFirstGrowth;
   double promise = -1.0;  // Decrease predicted for the first trial of this linearisation; negative before it.
   while (summary.iterations < options.max_iterations) {
-    double largest = 0.0;
-    for (int i = 0; i < P; ++i) largest = current.H(i, i) > largest ? current.H(i, i) : largest;
-    Matrix damped = current.H;
-    Vector damping;
-    for (int i = 0; i < P; ++i) {
-      const double floor = options.diagonal_floor * largest;
-      damping[i] = lambda * (current.H(i, i) > floor ? current.H(i, i) : floor);
-      damped(i, i) += damping[i];
-    }
-    const Ldlt<double, P> factor(damped, 0.0);
-    Vector step = Vector::Zero();
-    double predicted = 0.0, squared_norm = 0.0;
-    if (factor.ok()) {
-      step = factor.solve(current.b);
-      // Model C + 2 b.step + step.H step with (H + D) step = -b: the decrease is -b.step + step.D step.
-      for (int i = 0; i < P; ++i) {
-        step[i] = -step[i];
-        predicted += step[i] * (damping[i] * step[i] - current.b[i]);
-        squared_norm += step[i] * step[i];
-      }
-    }
-    const bool usable = factor.ok() && is_finite(squared_norm) && is_finite(predicted);
+    const auto [step, predicted, norm, usable] = detail::damped_step<P>(current, lambda, options.diagonal_floor);
     const bool first = promise < 0.0;
     if (usable) {
-      summary.last_step = std::sqrt(squared_norm);
+      summary.last_step = norm;
       if (first) promise = predicted;
-      if (first && summary.last_step <= options.step_tolerance) return finish(Status::converged);
+      if (first && norm <= options.step_tolerance) return finish(Status::converged);
     }
-    if (lambda > options.max_lambda || (usable && summary.last_step <= options.step_tolerance))
+    if (lambda > options.max_lambda || (usable && norm <= options.step_tolerance))
       return finish(promise >= 0.0 && promise <= options.stall_tolerance * current.cost ? Status::converged
                                                                                         : Status::diverged);
 
@@ -168,10 +187,7 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
           accepted = true;
           const double decrease = current.cost - e.cost;
           const bool flat = decrease <= options.cost_tolerance * current.cost;
-          const double gain = predicted > 0.0 ? decrease / predicted : 1.0;
-          const double shrink = 1.0 - (2.0 * gain - 1.0) * (2.0 * gain - 1.0) * (2.0 * gain - 1.0);
-          lambda *= shrink > 0.1 ? (shrink < 2.0 ? shrink : 2.0) : 0.1;
-          if (lambda < options.min_lambda) lambda = options.min_lambda;
+          lambda = std::max(lambda * detail::damping_factor(decrease, predicted), options.min_lambda);
           growth = detail::kFirstGrowth;
           promise = -1.0;
           summary.reduction += decrease;

@@ -34,14 +34,11 @@ class BasicWindowTerms {
     for (WindowPointObservation& k : w.point_observations) {
       Vector3<S> p_c;
       k.chi2 = 0;
-      if (!all_finite(k.px) || !is_finite(k.sigma))
-        k.status = Status::non_finite;
-      else if (!valid_sigma(k.sigma))
-        k.status = Status::invalid_argument;
-      else if (at(w.points, k.point).status != Status::ok)
-        k.status = Status::too_few;
-      else
-        k.status = in_front(k, x, o, &p_c) ? Status::ok : Status::behind_camera;
+      k.status = !all_finite(k.px) || !is_finite(k.sigma)     ? Status::non_finite
+                 : !valid_sigma(k.sigma)                      ? Status::invalid_argument
+                 : at(w.points, k.point).status != Status::ok ? Status::too_few
+                 : in_front(k, x, o, &p_c)                    ? Status::ok
+                                                              : Status::behind_camera;
     }
     int longest = 0;
     for (WindowText& t : w.texts) {
