@@ -47,11 +47,7 @@ std::uint8_t pixel(int x, int y) {
   return static_cast<std::uint8_t>((x * x * 3 + y * y * 5 + x * y * 7 + 11 * x) % 251);
 }
 
-void state(bool last) {
-  const tp::SE3d T = pose(0.3, 0.2), T_w_h = pose(1, 2), T_w_t = pose(1, 2);
-  const Vec3 theta(uniform(-0.2, 0.2), uniform(-0.2, 0.2), uniform(0.3, 0.6)),
-      m(uniform(-0.3, 0.3), uniform(-0.3, 0.3), 1);
-  std::printf("{");
+void geometry(const Vec3& theta, const Vec3& m, const tp::SE3d& T, const tp::SE3d& T_w_h, const tp::SE3d& T_w_t) {
   field("R", T.R);
   field("t", T.t);
   field("theta", theta);
@@ -77,7 +73,9 @@ void state(bool last) {
   field("left_target", left.target);
   field("right_host", right.host);
   field("right_target", right.target);
+}
 
+void residual(const Vec3& theta) {
   std::vector<std::uint8_t> bytes;
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) bytes.push_back(pixel(x, y));
@@ -113,6 +111,15 @@ void state(bool last) {
     field(exact ? "exact_H" : "frozen_H", e.H);
     field(exact ? "exact_b" : "frozen_b", e.b);
   }
+}
+
+void state(bool last) {
+  const tp::SE3d T = pose(0.3, 0.2), T_w_h = pose(1, 2), T_w_t = pose(1, 2);
+  const Vec3 theta(uniform(-0.2, 0.2), uniform(-0.2, 0.2), uniform(0.3, 0.6)),
+      m(uniform(-0.3, 0.3), uniform(-0.3, 0.3), 1);
+  std::printf("{");
+  geometry(theta, m, T, T_w_h, T_w_t);
+  residual(theta);
   std::printf("\"status\":\"ok\"}%s\n", last ? "" : ",");
 }
 
