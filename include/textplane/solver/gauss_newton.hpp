@@ -176,7 +176,6 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
                                                                                         : Status::diverged);
 
     ++summary.iterations;
-    bool accepted = false;
     if (usable) {
       const typename Problem::State trial = problem.retract(state, step);
       const Evaluation e = problem.evaluate(trial);
@@ -184,7 +183,6 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
           e.lost_fraction <= options.max_lost_fraction) {
         const auto next = problem.linearise(trial);
         if (is_ok(detail::check<P>(next, options.rank_tolerance))) {
-          accepted = true;
           const double decrease = current.cost - e.cost;
           const bool flat = decrease <= options.cost_tolerance * current.cost;
           lambda = std::max(lambda * detail::damping_factor(decrease, predicted), options.min_lambda);
@@ -195,15 +193,13 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
           state = trial;
           current = next;
           if (flat) return finish(Status::converged);
-        } else {
-          current = problem.linearise(state);  // The problem's sets were those of the trial.
+          continue;
         }
+        current = problem.linearise(state);  // The problem's sets were those of the trial.
       }
     }
-    if (!accepted) {
-      lambda *= growth;
-      growth *= 2.0;
-    }
+    lambda *= growth;
+    growth *= 2.0;
   }
   return finish(Status::iteration_limit);
 }

@@ -25,8 +25,7 @@ struct WindowTrial {
 template <class S>
 class BasicWindowTerms {
  public:
-  /// Resets what the solver writes back, finds unusable elements and linearises the texts once. Allocates where the
-  /// window exceeds every earlier one.
+  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates where the window exceeds all earlier.
   void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
     path_ = Path::kernel;
     for (WindowFrame& f : w.frames) f.status = Status::ok;
