@@ -262,8 +262,10 @@ RC_GTEST_PROP(Photometry, BIsHalfTheGradientOfTheCost, ()) {
     const tp::SE3d target = tp::se3_exp<double>(tp::Vector6<double>(p.segment<6>(6)));
     const bool left = side == tp::PerturbationSide::left;
     const tp::SE3d h = left ? host * T_w_h : T_w_h * host, t = left ? target * T_w_t : T_w_t * target;
-    const auto c = tp::reference::evaluate<std::uint8_t>(s.input(), s.theta + p.tail<3>(), t.inverse() * h, s.options,
-                                                         s.workspace);
+    tp::ResidualRequest<std::uint8_t> request = s.request();
+    request.theta += p.tail<3>();
+    request.T_t_h = t.inverse() * h;
+    const auto c = tp::reference::evaluate(request, s.workspace);
     return Eigen::Matrix<double, 1, 1>(c.cost);
   };
   const auto gradient = central_difference<1, 15>(cost, Vector15(Vector15::Zero()), 5e-6);

@@ -7,6 +7,7 @@
 namespace batch_kernels_test {
 namespace tp = textplane;
 using textplane_test::PolicyScene;
+using textplane_test::unknowns;
 
 // Of simd/residual.hpp, for gradients of up to 90 grey levels a px.
 constexpr double kTolerance = 3e-5;

@@ -4,6 +4,7 @@
 namespace esm_kernels_test {
 namespace tp = textplane;
 using textplane_test::PolicyScene;
+using textplane_test::unknowns;
 
 // Of float rows (simd/residual.hpp), with gradients of up to 40 grey levels a px at a contrast of about 40.
 constexpr double kTolerance = 3e-5;
