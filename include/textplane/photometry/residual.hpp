@@ -1,8 +1,8 @@
 // The photometric residual of a planar text object and its normal equations. `reference` has the same in double
 // (residual_reference.hpp): slow, and the definition.
 //
-// linearise() and evaluate() run in float vectors where the target is 8-bit and the cost l2 or Huber (simd/residual.hpp states
-// the error), and are those of `reference` otherwise; Path in the result tells. A pixel within about 1e-4 px of the image's
+// linearise() and evaluate() run in float vectors where the target is 8-bit (simd/residual.hpp states the error), and are those
+// of `reference` otherwise; Path in the result tells. A pixel within about 1e-4 px of the image's
 // border or of a pixel line may fall on either side of it in the fast form.
 //
 // Residual of pixel i (docs/equations.md; the paper's E_text): r_i = I~_host(x_i) - I~_target(K pi(H m~_i)), with

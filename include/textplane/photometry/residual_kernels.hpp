@@ -1,7 +1,7 @@
 // The typed side of simd/residual.hpp: which requests the float kernels take, what they are given, and what comes back.
 //
-// They take 8-bit targets of at least 2 x 2 pixels with l2 or Huber. The double reference takes all others, and the few cases
-// that float does not carry (numbers far out of proportion, a plane through the target's camera centre).
+// They take 8-bit targets of at least 2 x 2 pixels. The double reference takes all others, and the few cases that float does
+// not carry (numbers far out of proportion, a plane through the target's camera centre).
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 
@@ -11,6 +11,12 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
+
+static_assert(static_cast<int>(simd::RobustKind::l2) == static_cast<int>(RobustKind::l2) &&
+                  static_cast<int>(simd::RobustKind::huber) == static_cast<int>(RobustKind::huber) &&
+                  static_cast<int>(simd::RobustKind::cauchy) == static_cast<int>(RobustKind::cauchy) &&
+                  static_cast<int>(simd::RobustKind::tukey) == static_cast<int>(RobustKind::tukey),
+              "the kernels take the number of a RobustKind");
 
 using KernelRequest = ResidualRequest<std::uint8_t>;
 
@@ -28,8 +34,7 @@ TEXTPLANE_SIMD_INLINE bool kernels_take(const KernelRequest& q, const Photometri
   if (!p.x || !p.y || !p.intensity || p.n < 1 || p.n > workspace.capacity() || !q.input.target.valid() ||
       !q.options.valid())
     return false;
-  if (q.options.precise || (q.options.robust.kind != RobustKind::huber && q.options.robust.kind != RobustKind::l2))
-    return false;
+  if (q.options.precise) return false;
   const Pinhole<double>&h = q.input.host_camera, &t = q.input.target_camera;
   const std::uint64_t bad = not_finite_bit(h.fx) | not_finite_bit(h.fy) | not_finite_bit(t.fx) | not_finite_bit(t.fy);
   if (bad >> 63 != 0 || !(h.fx > 0 && h.fy > 0 && t.fx > 0 && t.fy > 0)) return false;

@@ -168,7 +168,7 @@ class TextBatchResult {
            number_count(scratch_) >= simd::batch_scratch(batch.max_pixels());
   }
 
-  /// Of object i of the batch, as reference::linearise_*() would say it; all zero, `visible` excepted, unless is_ok(status).
+  /// Of object i of the batch, as reference::linearise() would say it; all zero, `visible` excepted, unless is_ok(status).
   Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
   /// Robust cost of object i.
   double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
@@ -227,10 +227,10 @@ class TextBatchResult {
 /// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega, theta).
 /// `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
 ///
-/// Each object's result is that of reference::linearise_*() within the bounds of simd/batch.hpp; one whose geometry float does
+/// Each object's result is that of reference::linearise() within the bounds of simd/batch.hpp; one whose geometry float does
 /// not hold (a number beyond 1e30) is non_finite. ok, or invalid_argument, and
-/// then all statuses are that: null poses, a target below 2 x 2, a camera that is not valid(), robust costs other than l2 and
-/// Huber, other bad options, a result without room.
+/// then all statuses are that: null poses, a target below 2 x 2, a camera that is not valid(), bad options, a result without
+/// room. The kernels compute all of it (Path::kernel).
 template <int P>
 Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
                       const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
@@ -243,8 +243,7 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   args.target.stride = target.stride();
   args.target.width = target.width();
   args.target.height = target.height();
-  const bool robust = options.robust.kind == RobustKind::l2 || options.robust.kind == RobustKind::huber;
-  if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() || !robust ||
+  if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
     std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
