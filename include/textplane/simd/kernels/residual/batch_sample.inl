@@ -18,6 +18,31 @@ struct BatchVerdict {
       whole[simd::kBatchLanes];
 };
 
+// What the corners of kDoubles patches say of depths and of the image's borders.
+TEXTPLANE_SIMD_INLINE void batch_borders(const vp* g, vp r0, vp r1, vp r2, vp ox, vp oy, vp w1, vp h1, vp ru, vp rv,
+                                         int l, BatchVerdict* verdict) noexcept {
+  // What is tested is affine in u and v.
+  const vp margin = set_p(1e-3), x0 = add_p(ox, margin), y0 = add_p(oy, margin);
+  const vp x1 = add_p(sub_p(w1, ox), margin), y1 = add_p(sub_p(h1, oy), margin);
+  const vp left2 = madd_p(x0, g[8], g[2]), upper2 = madd_p(y0, g[8], g[5]);
+  const vp right2 = sub_p(mul_p(x1, g[8]), g[2]), lower2 = sub_p(mul_p(y1, g[8]), g[5]);
+  const vp left = batch_most(madd_p(x0, g[6], g[0]), madd_p(x0, g[7], g[1]), left2, ru, rv);
+  const vp upper = batch_most(madd_p(y0, g[6], g[3]), madd_p(y0, g[7], g[4]), upper2, ru, rv);
+  const vp right = batch_most(sub_p(mul_p(x1, g[6]), g[0]), sub_p(mul_p(x1, g[7]), g[1]), right2, ru, rv);
+  const vp lower = batch_most(sub_p(mul_p(y1, g[6]), g[3]), sub_p(mul_p(y1, g[7]), g[4]), lower2, ru, rv);
+  const vp front = batch_most(g[6], g[7], g[8], ru, rv), front_h = batch_most(r0, r1, r2, ru, rv);
+  const vp back = batch_most(sub_p(set_p(0.0), g[6]), g[7], sub_p(set_p(0.0), g[8]), ru, rv);
+  const vp back_h = batch_most(sub_p(set_p(0.0), r0), r1, sub_p(set_p(0.0), r2), ru, rv);
+  store_p(verdict->most + l, min_p(front, front_h));
+  const vp least = sub_p(set_p(0.0), max_p(back, back_h));
+  store_p(verdict->least + l, least);
+  store_p(verdict->inside + l, min_p(min_p(left, right), min_p(upper, lower)));
+  // The least is as far below the middle as the most is above; the margin counts the other way now.
+  const vp across = min_p(sub_p(add_p(left2, left2), left), sub_p(add_p(right2, right2), right));
+  const vp down = min_p(sub_p(add_p(upper2, upper2), upper), sub_p(add_p(lower2, lower2), lower));
+  store_p(verdict->whole + l, min_p(sub_p(min_p(across, down), mul_p(add_p(margin, margin), front)), least));
+}
+
 // kDoubles lanes of the frame from `l` on. `pose`: R of each lane, column by column, t a.t_offset numbers from there
 // on.
 TEXTPLANE_SIMD_INLINE void batch_lanes(const simd::BatchArgs& a, const simd::BatchGroup& o, const double* const* pose,
@@ -73,27 +98,8 @@ TEXTPLANE_SIMD_INLINE void batch_lanes(const simd::BatchArgs& a, const simd::Bat
   store_as_float(f->y_low + l, sub_p(none, oy));
   store_as_float(f->x_high + l, sub_p(w1, ox));
   store_as_float(f->y_high + l, sub_p(h1, oy));
-  // What is tested is affine in u and v.
-  const vp margin = set_p(1e-3), x0 = add_p(ox, margin), y0 = add_p(oy, margin);
-  const vp x1 = add_p(sub_p(w1, ox), margin), y1 = add_p(sub_p(h1, oy), margin);
-  const vp left2 = madd_p(x0, g[8], g[2]), upper2 = madd_p(y0, g[8], g[5]);
-  const vp right2 = sub_p(mul_p(x1, g[8]), g[2]), lower2 = sub_p(mul_p(y1, g[8]), g[5]);
-  const vp left = batch_most(madd_p(x0, g[6], g[0]), madd_p(x0, g[7], g[1]), left2, ru, rv);
-  const vp upper = batch_most(madd_p(y0, g[6], g[3]), madd_p(y0, g[7], g[4]), upper2, ru, rv);
-  const vp right = batch_most(sub_p(mul_p(x1, g[6]), g[0]), sub_p(mul_p(x1, g[7]), g[1]), right2, ru, rv);
-  const vp lower = batch_most(sub_p(mul_p(y1, g[6]), g[3]), sub_p(mul_p(y1, g[7]), g[4]), lower2, ru, rv);
-  const vp front = batch_most(g[6], g[7], g[8], ru, rv), front_h = batch_most(r0, r1, r2, ru, rv);
-  const vp back = batch_most(sub_p(none, g[6]), g[7], sub_p(none, g[8]), ru, rv);
-  const vp back_h = batch_most(sub_p(none, r0), r1, sub_p(none, r2), ru, rv);
   store_p(verdict->size + l, sum);
-  store_p(verdict->most + l, min_p(front, front_h));
-  const vp least = sub_p(none, max_p(back, back_h));
-  store_p(verdict->least + l, least);
-  store_p(verdict->inside + l, min_p(min_p(left, right), min_p(upper, lower)));
-  // The least is as far below the middle as the most is above; the margin counts the other way now.
-  const vp across = min_p(sub_p(add_p(left2, left2), left), sub_p(add_p(right2, right2), right));
-  const vp down = min_p(sub_p(add_p(upper2, upper2), upper), sub_p(add_p(lower2, lower2), lower));
-  store_p(verdict->whole + l, min_p(sub_p(min_p(across, down), mul_p(add_p(margin, margin), front)), least));
+  batch_borders(g, r0, r1, r2, ox, oy, w1, h1, ru, rv, l, verdict);
 }
 
 // The frame of a group, and what is known of its objects already. A status that is not ok: its pixels need not be

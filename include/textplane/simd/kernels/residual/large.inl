@@ -78,10 +78,9 @@ TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::Residua
                                              double* H, double* b) noexcept {
   const int form = parameters == 9 ? 8 : parameters, products = product_count(form), all = products + 3 * form;
   const int n = host.n;
-  float acc[(kMostSums + 8) * kMostLanes];
   double total[kMostSums];
+  float acc[(kMostSums + 8) * kMostLanes], *sum_i = acc + (products + form) * kLanes, *sum_d = sum_i + form * kLanes;
   zero_rest(all, acc);
-  float *sum_i = acc + (products + form) * kLanes, *sum_d = acc + (products + 2 * form) * kLanes;
   RowConstants constants;
   if (form != 8) make_row_constants(a, f, &constants);
 

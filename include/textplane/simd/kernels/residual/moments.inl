@@ -45,30 +45,14 @@ TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const floa
     t4 = add(t4, Bx);
     t5 = add(t5, By);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc + 3 * kLanes, s3);
-  store(acc + 4 * kLanes, s4);
-  store(acc + 5 * kLanes, s5);
-  store(acc + 6 * kLanes, s6);
-  store(acc + 7 * kLanes, s7);
-  store(acc + 8 * kLanes, s8);
-  store(acc + 9 * kLanes, s9);
-  store(acc + 10 * kLanes, s10);
-  store(acc + 11 * kLanes, s11);
-  store(acc + 12 * kLanes, s12);
-  store(acc + 13 * kLanes, s13);
-  store(acc + 14 * kLanes, s14);
-  store(acc + 15 * kLanes, s15);
-  store(acc + 16 * kLanes, s16);
-  store(acc + 17 * kLanes, s17);
-  store(sums, t0);
-  store(sums + kLanes, t1);
-  store(sums + 2 * kLanes, t2);
-  store(sums + 3 * kLanes, t3);
-  store(sums + 4 * kLanes, t4);
-  store(sums + 5 * kLanes, t5);
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(acc + 6 * kLanes, s6, s7, s8);
+  put3(acc + 9 * kLanes, s9, s10, s11);
+  put3(acc + 12 * kLanes, s12, s13, s14);
+  put3(acc + 15 * kLanes, s15, s16, s17);
+  put3(sums, t0, t1, t2);
+  put3(sums + 3 * kLanes, t3, t4, t5);
 }
 
 // The products of add_cubic(), and the sums of Cx, Cy.
@@ -94,15 +78,9 @@ TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, cons
     t0 = add(t0, Cx);
     t1 = add(t1, Cy);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc + 3 * kLanes, s3);
-  store(acc + 4 * kLanes, s4);
-  store(acc + 5 * kLanes, s5);
-  store(acc + 6 * kLanes, s6);
-  store(acc + 7 * kLanes, s7);
-  store(acc + 8 * kLanes, s8);
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(acc + 6 * kLanes, s6, s7, s8);
   store(sums, t0);
   store(sums + kLanes, t1);
 }
@@ -141,21 +119,13 @@ TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float
     t6 = madd(gC, u, t6);
     t7 = madd(gC, v, t7);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc + 3 * kLanes, s3);
-  store(acc + 4 * kLanes, s4);
-  store(acc + 5 * kLanes, s5);
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
   store(acc + 6 * kLanes, s6);
   store(acc + 7 * kLanes, s7);
   if (!q) return;
-  store(acc2, t0);
-  store(acc2 + kLanes, t1);
-  store(acc2 + 2 * kLanes, t2);
-  store(acc2 + 3 * kLanes, t3);
-  store(acc2 + 4 * kLanes, t4);
-  store(acc2 + 5 * kLanes, t5);
+  put3(acc2, t0, t1, t2);
+  put3(acc2 + 3 * kLanes, t3, t4, t5);
   store(acc2 + 6 * kLanes, t6);
   store(acc2 + 7 * kLanes, t7);
 }

@@ -13,10 +13,9 @@ struct FewPixels {
   float i[kFewStep], e[kFewStep], root[kFewStep];
 };
 
-// From n intensities of target and host: residuals, weights, costs. The status is as that of make_residual().
-TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
-                                      FewPixels* p, simd::ResidualInfo* info) noexcept {
-  const double count = n, by_count = 1 / count;
+// Both sides less an offset near their means, to p->i and p->e; their sums and sums of squares.
+TEXTPLANE_SIMD_INLINE void centre_few(const float* target, const float* host, int n, FewPixels* p, float* sum,
+                                      float* i_offset, float* h_offset) noexcept {
   // Offsets near the means: those of the first pixels.
   const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
   vf t = zero(), h = zero();
@@ -24,11 +23,13 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     t = add(t, load(target + k));
     h = add(h, load_part(host + k, n - k));
   }
-  const float share = 1.0F / static_cast<float>(first), i_offset = reduce_sum(t) * share,
-              h_offset = reduce_sum(h) * share;
+  const float share = 1.0F / static_cast<float>(first);
+  const float i_first = reduce_sum(t) * share, h_first = reduce_sum(h) * share;
+  *i_offset = i_first;
+  *h_offset = h_first;
   vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
   for (int k = 0; k < n; k += kLanes) {
-    vf i = sub(load(target + k), set1(i_offset)), j = sub(load_part(host + k, n - k), set1(h_offset));
+    vf i = sub(load(target + k), set1(i_first)), j = sub(load_part(host + k, n - k), set1(h_first));
     if (n - k < kLanes) {
       i = keep(first_n(n - k), i);
       j = keep(first_n(n - k), j);
@@ -40,8 +41,15 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     i2 = madd(i, i, i2);
     h2 = madd(j, j, h2);
   }
-  float sum[4];
   reduce_sum4(i1, i2, h1, h2, sum);
+}
+
+// From n intensities of target and host: residuals, weights, costs. The status is as that of make_residual().
+TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
+                                      FewPixels* p, simd::ResidualInfo* info) noexcept {
+  const double count = n, by_count = 1 / count;
+  float sum[4], i_offset, h_offset;
+  centre_few(target, host, n, p, sum, &i_offset, &h_offset);
   const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
   const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;

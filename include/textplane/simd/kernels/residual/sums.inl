@@ -4,6 +4,11 @@
 // each. Where `fresh`, they begin at zero and are not read: clearing them first takes longer. At most 12 sums a loop
 // stay in registers.
 TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
+TEXTPLANE_SIMD_INLINE void put3(float* p, vf a, vf b, vf c) noexcept {
+  store(p, a);
+  store(p + kLanes, b);
+  store(p + 2 * kLanes, c);
+}
 
 // r0 r0, r0 r1, r0 r2, r1 r1, r1 r2, r2 r2.
 TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
@@ -19,12 +24,8 @@ TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const f
     s4 = madd(b, c, s4);
     s5 = madd(c, c, s5);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc + 3 * kLanes, s3);
-  store(acc + 4 * kLanes, s4);
-  store(acc + 5 * kLanes, s5);
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
 }
 
 // The same, and to `sums` r0, r1, r2 themselves.
@@ -45,15 +46,9 @@ TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, co
     t1 = add(t1, b);
     t2 = add(t2, c);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc + 3 * kLanes, s3);
-  store(acc + 4 * kLanes, s4);
-  store(acc + 5 * kLanes, s5);
-  store(sums, t0);
-  store(sums + kLanes, t1);
-  store(sums + 2 * kLanes, t2);
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(sums, t0, t1, t2);
 }
 
 // r_j q_k, j the slower index.
@@ -75,15 +70,9 @@ TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const
     s7 = madd(c, y, s7);
     s8 = madd(c, z, s8);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc + 3 * kLanes, s3);
-  store(acc + 4 * kLanes, s4);
-  store(acc + 5 * kLanes, s5);
-  store(acc + 6 * kLanes, s6);
-  store(acc + 7 * kLanes, s7);
-  store(acc + 8 * kLanes, s8);
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(acc + 6 * kLanes, s6, s7, s8);
 }
 
 // r_j p to `acc`, r_j q to `acc2`, for the three rows of j.
@@ -101,12 +90,8 @@ TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const 
     t1 = madd(b, y, t1);
     t2 = madd(c, y, t2);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc2, t0);
-  store(acc2 + kLanes, t1);
-  store(acc2 + 2 * kLanes, t2);
+  put3(acc, s0, s1, s2);
+  put3(acc2, t0, t1, t2);
 }
 
 // r_j p to `acc`, r_j q to `acc2`, for four rows.
@@ -129,13 +114,9 @@ TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const 
     t2 = madd(c, y, t2);
     t3 = madd(d, y, t3);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
+  put3(acc, s0, s1, s2);
   store(acc + 3 * kLanes, s3);
-  store(acc2, t0);
-  store(acc2 + kLanes, t1);
-  store(acc2 + 2 * kLanes, t2);
+  put3(acc2, t0, t1, t2);
   store(acc2 + 3 * kLanes, t3);
 }
 
@@ -158,12 +139,8 @@ TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float
     t0 = add(t0, load(cx + i));
     t1 = add(t1, load(cy + i));
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc + 3 * kLanes, s3);
-  store(acc + 4 * kLanes, s4);
-  store(acc + 5 * kLanes, s5);
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
   store(sums, t0);
   store(sums + kLanes, t1);
 }
@@ -186,13 +163,7 @@ TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const floa
     s7 = madd(Cx, Cy, s7);
     s8 = madd(Cy, Cy, s8);
   }
-  store(acc, s0);
-  store(acc + kLanes, s1);
-  store(acc + 2 * kLanes, s2);
-  store(acc + 3 * kLanes, s3);
-  store(acc + 4 * kLanes, s4);
-  store(acc + 5 * kLanes, s5);
-  store(acc + 6 * kLanes, s6);
-  store(acc + 7 * kLanes, s7);
-  store(acc + 8 * kLanes, s8);
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(acc + 6 * kLanes, s6, s7, s8);
 }
