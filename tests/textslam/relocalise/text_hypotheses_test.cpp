@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "textslam/relocalise/boards_support.hpp"
+#include "textslam/relocalise/relocalisation.hpp"
 
 namespace textslam {
 namespace text_hypotheses_test {
