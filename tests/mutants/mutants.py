@@ -4,7 +4,7 @@ MUTANTS = [
     # core
     ("core/se3.hpp", "v + k.b * product(W, v) + k.c * product(W2, v)", "v + k.b * product(W, v) - k.c * product(W2, v)", ["core/se3_test"]),
     ("core/se3.hpp", "a.template block<3, 3>(0, 3) = product(hat(T.t), T.R);", "a.template block<3, 3>(3, 0) = product(hat(T.t), T.R);", ["core/se3_test"]),
-    ("core/se3.hpp", "if (w < S(0)) {\n", "if (w > S(0)) {\n", ["core/se3_test"]),
+    ("core/se3.hpp", "w < S(0) ? S(-1) : S(1)", "w > S(0) ? S(-1) : S(1)", ["core/se3_test"]),
     ("core/se3.hpp", "x2 * (S(1) / S(720)", "x2 * (S(1) / S(360)", ["core/se3_test"]),
     ("core/numeric.hpp", "(bits & 0x7f800000U) != 0x7f800000U", "(bits & 0x7f800000U) != 0x7f000000U", ["core/numeric_test"]),
     ("core/numeric.hpp", "for (int k = 0; k < j; ++k) s -= l_(i, k)", "for (int k = 1; k < j; ++k) s -= l_(i, k)", ["core/numeric_test"]),
