@@ -29,7 +29,7 @@ def tracked(root):
     listing = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], capture_output=True, text=True)
     if listing.returncode != 0:
         files = [path.relative_to(root) for path in sorted(root.rglob("*")) if path.is_file()]
-        return [path for path in files if path.parts[0] != "build"]
+        return [path for path in files if path.parts[0] not in (".git", "build", "out", "models")]
     return [pathlib.Path(name) for name in listing.stdout.split("\0") if name and (root / name).is_file()]
 
 
