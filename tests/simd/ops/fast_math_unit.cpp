@@ -1,7 +1,7 @@
 // Compiled with -Ofast: a NaN must not get past a clamp, which is what keeps the kernels inside their images.
 #include "textplane/simd/ops.hpp"
 
-#define TEXTPLANE_SIMD_KERNEL "simd/fast_math_kernel.inl"
+#define TEXTPLANE_SIMD_KERNEL "simd/ops/fast_math_kernel.inl"
 #include "textplane/simd/foreach_target.inl"
 
 namespace textplane_test {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "simd/bytes_support.hpp"
+#include "simd/ops/bytes_support.hpp"
 #include "support/guarded.hpp"
 #include "support/targets.hpp"
 

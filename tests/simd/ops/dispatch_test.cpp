@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "simd/dispatch_support.hpp"
+#include "simd/ops/dispatch_support.hpp"
 #include "support/targets.hpp"
 
 namespace textplane_test {

@@ -1,10 +1,10 @@
 // The vector operations behind run-time dispatch, for vec_test.cpp.
-#ifndef TEXTPLANE_TESTS_SIMD_VEC_SUPPORT_HPP
-#define TEXTPLANE_TESTS_SIMD_VEC_SUPPORT_HPP
+#ifndef TEXTPLANE_TESTS_SIMD_OPS_VEC_SUPPORT_HPP
+#define TEXTPLANE_TESTS_SIMD_OPS_VEC_SUPPORT_HPP
 
 #include "textplane/simd/ops.hpp"
 
-#define TEXTPLANE_SIMD_KERNEL "simd/vec_kernel.inl"
+#define TEXTPLANE_SIMD_KERNEL "simd/ops/vec_kernel.inl"
 #include "textplane/simd/foreach_target.inl"
 
 namespace textplane_test {
@@ -45,4 +45,4 @@ inline void copy_bytes(void* to, const void* from, int n) { TEXTPLANE_SIMD_DISPA
 
 }  // namespace textplane_test
 
-#endif  // TEXTPLANE_TESTS_SIMD_VEC_SUPPORT_HPP
+#endif  // TEXTPLANE_TESTS_SIMD_OPS_VEC_SUPPORT_HPP

@@ -1,6 +1,6 @@
 // The operations of the byte vectors behind entry points, for bytes_kernels_test.cpp.
-#ifndef TEXTPLANE_TESTS_SIMD_BYTES_SUPPORT_HPP
-#define TEXTPLANE_TESTS_SIMD_BYTES_SUPPORT_HPP
+#ifndef TEXTPLANE_TESTS_SIMD_OPS_BYTES_SUPPORT_HPP
+#define TEXTPLANE_TESTS_SIMD_OPS_BYTES_SUPPORT_HPP
 
 #include "textplane/simd/ops.hpp"
 
@@ -38,7 +38,7 @@ struct ShortArrays {
 
 }  // namespace textplane_test
 
-#define TEXTPLANE_SIMD_KERNEL "simd/bytes_kernel.inl"
+#define TEXTPLANE_SIMD_KERNEL "simd/ops/bytes_kernel.inl"
 #include "textplane/simd/foreach_target.inl"
 
 namespace textplane_test {
@@ -51,4 +51,4 @@ inline void run_shorts(const ShortArrays& t) { TEXTPLANE_SIMD_DISPATCH(run_short
 
 }  // namespace textplane_test
 
-#endif  // TEXTPLANE_TESTS_SIMD_BYTES_SUPPORT_HPP
+#endif  // TEXTPLANE_TESTS_SIMD_OPS_BYTES_SUPPORT_HPP

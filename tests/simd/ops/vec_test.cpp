@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "simd/vec_support.hpp"
+#include "simd/ops/vec_support.hpp"
 #include "support/guarded.hpp"
 #include "support/targets.hpp"
 

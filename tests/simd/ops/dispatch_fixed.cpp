@@ -2,7 +2,7 @@
 #define TEXTPLANE_TARGET scalar
 #include "textplane/simd/dispatch.hpp"
 
-#include "simd/dispatch_support.hpp"
+#include "simd/ops/dispatch_support.hpp"
 
 namespace textplane_test {
 

@@ -7,7 +7,7 @@
 #include "textplane/photometry/robust.hpp"
 #include "textplane/simd/robust.hpp"
 
-#define TEXTPLANE_SIMD_KERNEL "simd/robust_ops_kernel.inl"
+#define TEXTPLANE_SIMD_KERNEL "simd/ops/robust_ops_kernel.inl"
 #include "textplane/simd/foreach_target.inl"
 
 namespace robust_ops_test {
