@@ -211,7 +211,7 @@ TEST(BatchKernels, BadArguments) {
   EXPECT_EQ(result.status(0), tp::Status::invalid_argument);
   EXPECT_EQ(run(objects.image(), objects.poses.data(), result), tp::Status::ok);
   EXPECT_EQ(result.status(1), tp::Status::invalid_argument);
-  o.robust.kind = tp::RobustKind::cauchy;
+  o.robust.delta = -1;
   EXPECT_EQ(run(objects.image(), objects.poses.data(), result), tp::Status::invalid_argument);
   tp::TextBatch empty;
   EXPECT_EQ(empty.build(nullptr, 2), tp::Status::invalid_argument);

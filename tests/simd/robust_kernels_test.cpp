@@ -14,73 +14,10 @@ using namespace textplane_test;
 constexpr tp::RobustKind kKinds[] = {tp::RobustKind::l2, tp::RobustKind::huber, tp::RobustKind::cauchy,
                                      tp::RobustKind::tukey};
 
-// The arguments of the kernels for a scene, and their memory.
-struct Call {
-  std::vector<float> scratch, more;
-  std::vector<std::uint8_t> flags;
-  std::vector<std::int16_t> values;
-  simd::ResidualArgs args;
-
-  Call(const PolicyScene& s, const tp::PhotometricOptions& o)
-      : scratch(simd::residual_scratch(s.n())),
-        more(simd::esm_scratch(s.n())),
-        flags(static_cast<std::size_t>(s.n())),
-        values(static_cast<std::size_t>(s.n() + simd::kTemplateBlock)) {
-    args.x = s.x.data();
-    args.y = s.y.data();
-    args.intensity = s.intensity.data();
-    args.n = s.n();
-    args.target.data = s.image.data();
-    args.target.stride = args.target.width = PolicyScene::kWidth;
-    args.target.height = PolicyScene::kHeight;
-    for (int k = 0; k < 9; ++k) args.R[k] = s.T_t_h.R(k / 3, k % 3);
-    for (int k = 0; k < 3; ++k) args.t[k] = s.T_t_h.t[k], args.theta[k] = s.theta[k];
-    const tp::Pinhole<double>* cameras[] = {&s.host_camera, &s.target_camera};
-    for (int k = 0; k < 2; ++k) {
-      double* out = k == 0 ? args.host_camera : args.target_camera;
-      out[0] = cameras[k]->fx, out[1] = cameras[k]->fy, out[2] = cameras[k]->cx, out[3] = cameras[k]->cy;
-    }
-    args.exact = o.normalisation == tp::Normalisation::exact;
-    args.robust = static_cast<simd::RobustKind>(o.robust.kind);
-    args.delta = o.robust.delta;
-    args.min_contrast = o.min_contrast;
-    args.min_visible = o.min_visible;
-    args.flags = flags.data();
-    args.scratch = scratch.data();
-  }
-};
-
-template <int P>
-tp::NormalEquations<P> take(const simd::ResidualInfo& info, const double* H, const double* b) {
-  tp::NormalEquations<P> out;
-  out.status = info.status;
-  if (!is_ok(info.status)) return out;
-  for (int i = 0; i < P * P; ++i) out.H.data()[i] = H[i];
-  for (int i = 0; i < P; ++i) out.b[i] = b[i];
-  out.cost = info.cost;
-  out.error = info.error;
-  out.zncc = 1 - 0.5 * info.error;
-  out.mean = info.mean;
-  out.s = info.s;
-  out.visible = info.visible;
-  return out;
-}
-
 tp::PhotometricOptions options_of(tp::RobustKind kind, double delta, bool exact) {
   tp::PhotometricOptions o = any_options(exact);
   o.robust = {kind, delta};
   return o;
-}
-
-template <int P>
-tp::NormalEquations<P> kernel(PolicyScene& s, const tp::PhotometricOptions& o) {
-  Call call(s, o);
-  double H[81], b[9];
-  simd::ResidualInfo info;
-  if (P == 3) info = simd::linearise_plane(call.args, H, b);
-  if (P == 6) info = simd::linearise_pose(call.args, H, b);
-  if (P == 9) info = simd::linearise_pose_plane(call.args, H, b);
-  return take<P>(info, H, b);
 }
 
 template <int P>
@@ -90,15 +27,17 @@ void compare(PolicyScene& s, const tp::PhotometricOptions& o) {
   plain.robust = {tp::RobustKind::l2, 1};
   const auto scale = equations<P, true>(s.input(), s.theta, s.T_t_h, plain, s.workspace);
   const auto exact = equations<P, true>(s.input(), s.theta, s.T_t_h, o, s.workspace);
-  const auto cost = tp::reference::evaluate(s.input(), s.theta, s.T_t_h, o, s.workspace);
+  const auto cost = tp::reference::evaluate(s.request(o), s.workspace);
   for (const simd::Target target : testable_targets()) {
     const TargetScope scope(target);
     SCOPED_TRACE(simd::to_string(target));
-    textplane_test::expect_close<P>(kernel<P>(s, o), exact, scale, kEntryBound);
-    Call call(s, o);
-    const simd::ResidualInfo info = simd::evaluate(call.args);
-    ASSERT_EQ(info.status, cost.status);
-    EXPECT_NEAR(info.cost, cost.cost, kCostBound * cost.cost + kCostFloor);
+    const auto fast = equations<P>(s.input(), s.theta, s.T_t_h, o, s.workspace);
+    EXPECT_EQ(fast.path, tp::Path::kernel);
+    textplane_test::expect_close<P>(fast, exact, scale, kEntryBound);
+    const auto fast_cost = tp::evaluate(s.request(o), s.workspace);
+    ASSERT_EQ(fast_cost.status, cost.status);
+    EXPECT_EQ(fast_cost.path, tp::Path::kernel);
+    EXPECT_NEAR(fast_cost.cost, cost.cost, kCostBound * cost.cost + kCostFloor);
   }
 }
 
@@ -126,23 +65,26 @@ TEST(RobustKernels, EsmAndHostGradients) {
         plain.normalisation = tp::Normalisation::frozen;
         plain.robust = {tp::RobustKind::l2, 1};
         const auto in = s.policy_input();
-        const auto scale = tp::reference::linearise_by<9>(policy, in, s.theta, s.T_t_h, plain, s.workspace);
-        const auto exact = tp::reference::linearise_by<9>(policy, in, s.theta, s.T_t_h, o, s.workspace);
+        constexpr tp::Parameters kBoth = tp::Parameters::pose_plane;
+        const tp::ResidualRequest unweighted{in, s.theta, s.T_t_h, plain}, request{in, s.theta, s.T_t_h, o};
+        const auto scale = tp::reference::linearise<kBoth>(unweighted.by(policy), s.workspace);
+        const auto exact = tp::reference::linearise<kBoth>(request.by(policy), s.workspace);
         tp::TemplatePatch prepared;
         ASSERT_EQ(prepared.prepare(in.patch), tp::Status::ok);
+        std::vector<std::int16_t> values(static_cast<std::size_t>(n + simd::kTemplateBlock));
         for (const simd::Target target : testable_targets()) {
           const TargetScope scope(target);
           SCOPED_TRACE(simd::to_string(target));
-          Call call(s, o);
-          double H[81], b[9];
-          simd::EsmArgs esm{call.args, s.gx.data(), s.gy.data(), policy == tp::LinearisePolicy::esm, call.more.data()};
-          textplane_test::expect_close<9>(take<9>(simd::linearise_esm(esm, H, b), H, b), exact, kEntryBound, scale);
+          const auto fast = tp::linearise<kBoth>(request.by(policy), s.workspace);
+          EXPECT_EQ(fast.path, tp::Path::kernel);
+          textplane_test::expect_close<9>(fast, exact, kEntryBound, scale);
           if (policy == tp::LinearisePolicy::esm) continue;
           // Of the fixed point: 0.08 / sigma (template_patch.hpp), sigma being above 30 here.
-          const auto info = simd::linearise_template(prepared.model(), call.args, call.values.data(), H, b);
-          textplane_test::expect_close<9>(take<9>(info, H, b), exact, 0.08 / 30, scale);
-          EXPECT_NEAR(simd::evaluate_template(prepared.model(), call.args, call.values.data()).cost, exact.cost,
-                      0.08 / 30);
+          const auto fixed = tp::linearise<kBoth>(request.by(policy, &prepared), s.workspace);
+          EXPECT_EQ(fixed.path, tp::Path::kernel);
+          textplane_test::expect_close<9>(fixed, exact, 0.08 / 30, scale);
+          const auto args = tp::detail::kernel_args(request, s.workspace, s.workspace.visible_flags(), nullptr);
+          EXPECT_NEAR(simd::evaluate_template(prepared.model(), args, values.data()).cost, exact.cost, 0.08 / 30);
         }
       }
 }
@@ -165,19 +107,8 @@ TEST(RobustKernels, Batches) {
       for (const simd::Target target : testable_targets()) {
         const TargetScope scope(target);
         SCOPED_TRACE(simd::to_string(target));
-        simd::BatchArgs args;
-        batch.fill(&args);
-        result.fill(9, &args);
-        args.target.data = scenes[0].image.data();
-        args.target.stride = args.target.width = PolicyScene::kWidth;
-        args.target.height = PolicyScene::kHeight;
-        args.pose = poses[0].R.data();
-        const tp::Pinhole<double>& c = scenes[0].target_camera;
-        const double camera[] = {c.fx, c.fy, c.cx, c.cy};
-        for (int k = 0; k < 4; ++k) args.camera[k] = camera[k];
-        args.robust = static_cast<simd::RobustKind>(kind);
-        args.delta = o.robust.delta;
-        simd::batch_linearise_pose_plane(args);
+        ASSERT_EQ(tp::evaluate_batch<9>(batch, scenes[0].view(), scenes[0].target_camera, poses.data(), o, result),
+                  tp::Status::ok);
         for (int i = 0; i < 19; ++i) {
           SCOPED_TRACE(i);
           PolicyScene& s = scenes[static_cast<std::size_t>(i)];
