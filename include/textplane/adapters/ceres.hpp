@@ -1,11 +1,11 @@
-// Ceres: the photometric residual of a text object and the reprojection error of a point as cost functions with analytic
-// derivatives. adapters/ceres_pose.hpp has the pose blocks and their manifold, adapters/ceres_window.hpp makes a whole ceres::Problem
-// of a Window.
+// Ceres: the photometric residual of a text object and the reprojection error of a point as cost functions with
+// analytic derivatives. adapters/ceres_pose.hpp has the pose blocks and their manifold, adapters/ceres_window.hpp makes
+// a whole ceres::Problem of a Window.
 //
-// Blocks. A pose is seven numbers, camera to world; a plane is theta in its host frame, a point is in the world. Derivatives are by these
-// numbers themselves, so that any manifold of unit quaternions goes with them: PoseManifold, or that of Sophus, or
-// ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>. (Not parameterisations that take the
-// first six of the seven columns for those of the tangent space, as VINS-Mono's does.)
+// Blocks. A pose is seven numbers, camera to world; a plane is theta in its host frame, a point is in the world.
+// Derivatives are by these numbers, so any manifold of unit quaternions works: PoseManifold, that of Sophus, or
+// ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>. (Not parameterisations that read
+// the first six of the seven columns as those of the tangent space, as VINS-Mono's does.)
 //
 // Residuals of a text observation, TextRows (docs/equations.md; c is the robust cost, H and b its normal equations):
 //   sums    P + 1 numbers, P = 3, 6 or 9 parameters: with H = L L^T the rows are J = L^T and r = L^-1 b, so that J^T J = H and J^T r = b,
@@ -16,11 +16,10 @@
 //           reference, slow.
 // Both have the same cost and gradient.
 //
-// Robust costs: PhotometricOptions::robust acts on every pixel, inside of these rows, which no loss on a residual block can do. So
-// pass nullptr as the loss of a text; one that you pass acts on the cost of the object as a whole, and may give up on a sign
-// that has changed. Points take an ordinary loss (ceres::HuberLoss).
+// Robust costs: PhotometricOptions::robust acts on every pixel, which no loss on a residual block can do. So pass nullptr
+// as the loss of a text: another one acts on the whole object. Points take an ordinary loss (ceres::HuberLoss).
 //
-// Evaluate() answers false where the kernels have no result (Status unless is_ok: the object left the image, lies behind a camera): Ceres
+// Evaluate() answers false where the kernels have no result (the object left the image, lies behind a camera): Ceres
 // rejects that step, or refuses to start. It may be called on many threads at a time. Tested with Ceres 2.1.
 #ifndef TEXTPLANE_ADAPTERS_CERES_HPP
 #define TEXTPLANE_ADAPTERS_CERES_HPP
@@ -68,8 +67,8 @@ void write_plane(const Rows& rows, double* out) {
 
 }  // namespace detail
 
-/// A text object seen by a camera whose pose is unknown: block T_w_t. `input` is referred to, not copied: patch and image must outlive the
-/// problem; see photometric_input().
+/// A text object seen by a camera whose pose is unknown: block T_w_t. `input` is referred to, not copied: patch and
+/// image must outlive the problem; see photometric_input().
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class TextPoseCost : public detail::TextRowsCost<Parameters::pose> {
  public:
@@ -139,8 +138,8 @@ class TextCost : public detail::TextRowsCost<Parameters::pose_plane> {
   }
 };
 
-/// The reprojection error of a point, (pi(T_w_c^-1 p_w) - px) / sigma: blocks T_w_c and p_w. False where the point has less z
-/// than `min_depth`.
+/// The reprojection error of a point, (pi(T_w_c^-1 p_w) - px) / sigma: blocks T_w_c and p_w. False where the point has
+/// less z than `min_depth`.
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class PointCost : public ceres::SizedCostFunction<2, kPoseSize, 3> {
  public:

@@ -1,8 +1,8 @@
 // Ceres: pose blocks and their manifold.
 //
-// A pose is a block of seven numbers: unit quaternion x y z w, then translation, which is what Sophus::SE3d::data() points to; or
-// translation first (PoseOrder). PoseManifold moves it by T <- T Exp(xi), xi = (v, omega), as solve_window() does
-// (docs/conventions.md); with camera-to-world poses that is the right perturbation.
+// A pose is a block of seven numbers: unit quaternion x y z w, then translation, which is what Sophus::SE3d::data()
+// points to; or translation first (PoseOrder). PoseManifold moves it by T <- T Exp(xi), xi = (v, omega), as
+// solve_window() does (docs/conventions.md); with camera-to-world poses that is the right perturbation.
 //
 // Tested with Ceres 2.1. Other versions are untested: before 2.1 PoseManifold is a ceres::LocalParameterization.
 #ifndef TEXTPLANE_ADAPTERS_CERES_POSE_HPP

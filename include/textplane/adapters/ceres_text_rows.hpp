@@ -1,4 +1,4 @@
-// What the Ceres cost functions of a text share: options, scratch memory, and rows of residuals and derivatives (ceres.hpp).
+// What the Ceres cost functions of a text share (ceres.hpp): options, scratch memory, rows of residuals and derivatives.
 #ifndef TEXTPLANE_ADAPTERS_CERES_TEXT_ROWS_HPP
 #define TEXTPLANE_ADAPTERS_CERES_TEXT_ROWS_HPP
 
@@ -25,7 +25,7 @@ namespace adapters {
 /// How a text observation becomes residuals: see ceres.hpp.
 enum class TextRows { sums, pixels };
 
-/// Settings of a text observation: its term of the cost is weight lambda_w c, lambda_w = text_weight() of the visible pixels.
+/// Settings of a text observation. Its term of the cost is weight lambda_w c, lambda_w = text_weight() of its pixels.
 struct TextCostOptions {
   /// Of every pixel; its robust cost acts inside.
   PhotometricOptions photometric;
@@ -39,8 +39,8 @@ struct TextCostOptions {
   TextRows rows = TextRows::sums;
 };
 
-/// Scratch memory for cost functions that are evaluated on several threads: as many workspaces as were in use at one time. The
-/// costs of a problem should share one; they keep it alive.
+/// Scratch memory for cost functions that are evaluated on several threads: as many workspaces as were in use at one
+/// time. The costs of a problem should share one; they keep it alive.
 class WorkspacePool {
  public:
   /// What one evaluation needs.
@@ -71,8 +71,8 @@ class WorkspacePool {
 
 namespace detail {
 
-// J = L^T and r = L^-1 b of the semi-definite H = L L^T. A pivot that is rounding alone gives a row of zeros: pose and plane
-// share a scale, so that one of nine always is.
+// J = L^T and r = L^-1 b of the semi-definite H = L L^T. A pivot that is rounding alone gives a row of zeros: pose and
+// plane share a scale, so that one of nine always is.
 template <int P>
 void square_root(const NormalEquations<P>& sums, Eigen::Matrix<double, P, P>* J,
                  Eigen::Matrix<double, P, 1>* r) noexcept {

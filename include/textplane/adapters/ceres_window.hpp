@@ -1,5 +1,5 @@
-// Ceres: a Window as a ceres::Problem, the same cost over the same variables as solve_window(), to be solved there together with
-// residuals of your own (odometry, inertial, loops).
+// Ceres: a Window as a ceres::Problem, the same cost over the same variables as solve_window(), to be solved there
+// together with residuals of your own (odometry, inertial, loops).
 //
 //   WindowProblem problem(window, options);
 //   problem.problem().AddResidualBlock(my_cost, nullptr, problem.pose(3), problem.pose(4));
@@ -7,13 +7,12 @@
 //   ceres::Solve(solver, &problem.problem(), &summary);
 //   problem.write_back();
 //
-// Poses are blocks of the WindowProblem (T_w_c, PoseOrder::quaternion_translation, under PoseManifold); points and planes are the window's
-// own memory, which Ceres moves in place. What solve_window() would leave out at the start is left out: observations whose point
-// lies behind the camera or that the kernels cannot evaluate, points and texts of which fewer than two and one are
-// left, and what is fixed is constant. Unlike there, a step is rejected that takes any observation out of view. The gauge is the
+// Poses are blocks of the WindowProblem (T_w_c, PoseOrder::quaternion_translation, under PoseManifold); points and planes
+// are the window's own memory, which Ceres moves in place. What solve_window() leaves out at the start is left out, and
+// what is fixed is constant. Unlike there, a step that takes any observation out of view is rejected. The gauge is the
 // caller's: fix frames; WindowOptions::scale_frame_a is not carried over.
 //
-// Ceres reports half of the cost that solve_window() does. Window and patches and images must outlive the WindowProblem.
+// Ceres reports half of the cost of solve_window(). Window, patches and images must outlive the WindowProblem.
 #ifndef TEXTPLANE_ADAPTERS_CERES_WINDOW_HPP
 #define TEXTPLANE_ADAPTERS_CERES_WINDOW_HPP
 
@@ -73,8 +72,8 @@ class WindowProblem {
   /// Observations that were left out.
   int left_out() const noexcept { return left_out_; }
 
-  /// Tolerances, damping and the limit of iterations of the WindowOptions; SPARSE_SCHUR, one thread, landmarks eliminated first: blocks of your own
-  /// go into linear_solver_ordering too, in group 1.
+  /// Tolerances, damping and the limit of iterations of the WindowOptions; SPARSE_SCHUR, one thread, landmarks
+  /// eliminated first: blocks of your own go into linear_solver_ordering too, in group 1.
   ceres::Solver::Options solver_options() {
     ceres::Solver::Options out;
     out.linear_solver_type = ceres::SPARSE_SCHUR;

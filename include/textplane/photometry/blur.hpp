@@ -1,9 +1,8 @@
 // Blur that makes two views of a plane alike.
 //
-// A camera blurs by its own pixels: on the plane, a view from afar or at a slant is the more blurred one, and along another
-// direction. Where strokes are a few pixels wide, intensities then differ most beside edges, and the plane that fits them best is
-// turned away from the true one, by degrees for small text. match_blur() says what each of two views lacks, the other functions
-// apply it.
+// A camera blurs by its own pixels: on the plane, the view from farther away or at a steeper slant is blurred more, and
+// in another direction. Text strokes are a few pixels wide, so intensities then differ most beside edges, and the plane
+// that fits best is turned by degrees. match_blur() says what each view lacks; the other functions apply it.
 #ifndef TEXTPLANE_PHOTOMETRY_BLUR_HPP
 #define TEXTPLANE_PHOTOMETRY_BLUR_HPP
 
@@ -30,15 +29,14 @@ struct BlurMatch {
   Matrix2d target = Matrix2d::Zero();
 };
 
-/// What each view lacks. `A`: d target px / d host px of the plane where the object is. The variances, px^2 of each image, are of
-/// the blur that the views have: half a pixel squared or so for a sharp lens; for a target that is sampled bilinearly 1/6 more,
-/// the mean variance of that interpolation. Seen in the host the target's blur is V_t (A^T A)^-1; the common blur B has the
-/// eigenvectors of (A^T A)^-1 and `spread` times the larger of both variances along each. Then host = B - V_h I and
-/// target = A B A^T - V_t I. A spread above 1 (2 is a good one) lets a filter of known shape outweigh what is not known of the
-/// views' own.
+/// What each view lacks. `A`: d target px / d host px on the plane. The variances (px^2 of each image) describe the blur
+/// of the views: about half a pixel squared for a sharp lens, and 1/6 more for a target that is sampled bilinearly. Seen
+/// in the host, the target's blur is V_t M with M = (A^T A)^-1. The common blur B has the eigenvectors of M and, along
+/// each, `spread` times the larger variance. host = B - V_h I, target = A B A^T - V_t I. With a spread above 1 (2 is a good
+/// one) a filter of known shape outweighs the unknown part of the blur.
 ///
-/// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1; *out is then
-/// untouched.
+/// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1;
+/// *out is then untouched.
 template <class S = double>  // instantiated where it is called: including the header costs little
 Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
                   BlurMatch* out) noexcept {
@@ -68,8 +66,9 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
   return Status::ok;
 }
 
-/// A Gaussian filter on the pixel grid, of a covariance in px^2 (variances are cut at 0 from below and at kMaxVariance from
-/// above along the principal axes; what is not finite counts as 0). Weights are means over a pixel and sum to 1. No allocation.
+/// A Gaussian filter on the pixel grid, of a covariance in px^2 (variances are cut at 0 from below and at kMaxVariance
+/// from above along the principal axes; what is not finite counts as 0). Weights are means over a pixel and sum to 1.
+/// No allocation.
 class BlurKernel {
  public:
   /// px, of the widest kernel.
@@ -131,9 +130,9 @@ class BlurKernel {
 /// Filters images; keeps the memory that this takes. Beyond the image its border pixels go on.
 class BlurFilter {
  public:
-  /// Writes the filtered pixels [x0, x1) x [y0, y1) of `from` to the same places of `to`, rounded. What of the rectangle lies
-  /// outside the image is left out. The rest of `to` stays. invalid_argument for views that are not valid() or not of one size.
-  /// Allocates while it meets a larger rectangle than before.
+  /// Writes the filtered pixels [x0, x1) x [y0, y1) of `from` to the same places of `to`, rounded. What of the
+  /// rectangle lies outside the image is left out. The rest of `to` stays. invalid_argument for views that are not
+  /// valid() or not of one size. Allocates while it meets a larger rectangle than before.
   Status operator()(const ImageView8& from, const BlurKernel& kernel, int x0, int y0, int x1, int y1,
                     const ImageView<std::uint8_t>& to) {
     if (!from.valid() || !to.valid() || to.width() != from.width() || to.height() != from.height())
@@ -152,8 +151,8 @@ class BlurFilter {
     return Status::ok;
   }
 
-  /// The intensities of a patch's level, taken anew from the filtered host image; gradients stay. Its positions must be whole
-  /// pixels of `host`, as select_pixels() gives them; those outside keep their intensity.
+  /// The intensities of a patch's level, taken anew from the filtered host image; gradients stay. Its positions must be
+  /// whole pixels of `host`, as select_pixels() gives them; those outside keep their intensity.
   Status operator()(const ImageView8& host, const BlurKernel& kernel, PatchLevel* level) {
     if (!host.valid()) return Status::invalid_argument;
     const std::size_t n = level->x.size();

@@ -1,9 +1,8 @@
 // Intensities as they compare with those around them: what light that changes over a few strokes' width leaves alone.
 //
-// The photometric residual takes out one gain and one bias for a whole patch. The edge of a shadow, a highlight, or a lamp from
-// the side changes them within it. Taking the mean of a window round every pixel away and dividing by the window's deviation, on
-// both sides, leaves what is printed. The price is noise, which grows with the print where contrast is low, so that it pays where
-// the light differs and costs a little where it does not.
+// The photometric residual removes one gain and one bias of a whole patch. The edge of a shadow, a highlight or a lamp from
+// the side changes them within it. Here the mean of a window round every pixel is subtracted and its deviation divided
+// out, on both sides. Noise grows where contrast is low, so this pays where the light differs between the views.
 #ifndef TEXTPLANE_PHOTOMETRY_LOCAL_CONTRAST_HPP
 #define TEXTPLANE_PHOTOMETRY_LOCAL_CONTRAST_HPP
 
@@ -34,8 +33,9 @@ struct LocalContrastOptions {
   }
 };
 
-/// Replaces I by 128 + scale (I - mean) / sqrt(variance + floor^2), mean and variance being those of a window round the pixel; cut
-/// to [0, 255], rounded. The cost a pixel does not depend on the window. Keeps the memory that this takes: use one a thread.
+/// Replaces I by 128 + scale (I - mean) / sqrt(variance + floor^2), mean and variance being those of a window round the
+/// pixel; cut to [0, 255], rounded. The cost a pixel does not depend on the window. Keeps the memory that this takes:
+/// use one a thread.
 class LocalContrast {
  public:
   /// With the default options.
@@ -43,8 +43,8 @@ class LocalContrast {
   /// With these: what is not valid() shows in the status of every call.
   explicit LocalContrast(const LocalContrastOptions& options) : options_(options) {}
 
-  /// Fills `to` with what becomes of the pixels of `from` that begin at (x0, y0). invalid_argument for options or views that are not
-  /// valid() and where `to` reaches beyond the image. Allocates while it meets a wider `to` than before.
+  /// Fills `to` with what becomes of the pixels of `from` that begin at (x0, y0). invalid_argument for options or views
+  /// that are not valid() and where `to` reaches beyond the image. Allocates while it meets a wider `to` than before.
   Status operator()(const ImageView8& from, int x0, int y0, const ImageView<std::uint8_t>& to) {
     if (!options_.valid() || !from.valid() || !to.valid() || x0 < 0 || y0 < 0 || x0 > from.width() - to.width() ||
         y0 > from.height() - to.height())
@@ -52,7 +52,8 @@ class LocalContrast {
     const int r = options_.radius, x1 = x0 + to.width();
     const int left = std::max(x0 - r, 0), right = std::min(x1 + r, from.width());
     const auto n = static_cast<std::size_t>(right - left);
-    // Made anew, not grown: the function that grows a vector would be shared between translation units (see config.hpp).
+    // Made anew, not grown: the function that grows a vector would be shared between translation units (see
+    // config.hpp).
     if (sums_.size() < 2 * n) sums_ = std::vector<std::int32_t>(2 * n);
     if (means_.size() < 2 * n) means_ = std::vector<float>(2 * n);
     for (std::size_t i = 0; i < 2 * n; ++i) sums_[i] = 0;
@@ -69,8 +70,8 @@ class LocalContrast {
     return Status::ok;
   }
 
-  /// The intensities and gradients of a patch's level taken anew from an image that begins at (x0, y0) of the level, as the operator
-  /// fills it. Pixels outside of it keep what they had.
+  /// The intensities and gradients of a patch's level taken anew from an image that begins at (x0, y0) of the level, as
+  /// the operator fills it. Pixels outside of it keep what they had.
   static void take(const ImageView8& image, int x0, int y0, PatchLevel* level) noexcept {
     for (std::size_t i = 0; i < level->x.size(); ++i) {
       const float x = level->x[i] - static_cast<float>(x0), y = level->y[i] - static_cast<float>(y0);

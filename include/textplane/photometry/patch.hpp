@@ -15,9 +15,10 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// n host pixels of one pyramid level, as arrays that somebody else owns: positions in px of that level, intensities there,
-/// and optionally a byte each that is zero for pixels to be left out (null: all count). gx, gy: the host image's gradient
-/// there, in intensity units a px, which template_jacobian and esm need (null: these policies are not possible).
+/// n host pixels of one pyramid level, as arrays that somebody else owns: positions in px of that level, intensities
+/// there, and optionally a byte each that is zero for pixels to be left out (null: all count). gx, gy: the host image's
+/// gradient there, in intensity units a px, which template_jacobian and esm need (null: these policies are not
+/// possible).
 struct PatchView {
   /// Columns, px of the level.
   const float* x = nullptr;
@@ -62,8 +63,8 @@ struct PatchLevel {
   }
 };
 
-/// Gradient of the host at one of its pixels (x, y): the symmetric difference of the bilinear interpolant over one px, one
-/// side of it at the image's border. Unlike the interpolant's own gradient it favours no side at integer positions.
+/// Gradient of the host at one of its pixels (x, y): the symmetric difference of the bilinear interpolant over one px,
+/// one side of it at the image's border. Unlike the interpolant's own gradient it favours no side at integer positions.
 /// The image must contain (x, y); zero along an axis of one pixel.
 inline void host_gradient(const ImageView8& image, float x, float y, float* gx, float* gy) noexcept {
   const float left = std::max(x - 0.5F, 0.0F), right = std::min(x + 0.5F, static_cast<float>(image.width() - 1));
@@ -97,8 +98,8 @@ struct TextPatch {
 /// bilinearly, its gradient by host_gradient(). Positions outside the image and NaN are dropped. Levels beyond those of
 /// `host` are ignored.
 ///
-/// Status::too_few where no level has `min_pixels` (the paper's 15) left, non_finite for a NaN quad, invalid_argument for an
-/// empty pyramid, no pixel lists or a camera that is not valid(). Allocates.
+/// Status::too_few where no level has `min_pixels` (the paper's 15) left, non_finite for a NaN quad, invalid_argument
+/// for an empty pyramid, no pixel lists or a camera that is not valid(). Allocates.
 TEXTPLANE_DEFERRED
 TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
                             const std::vector<std::vector<Vector2<float>>>& pixels, int min_pixels = 15) {

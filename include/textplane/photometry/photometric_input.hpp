@@ -60,17 +60,17 @@ BasicPhotometricInput<PixelOf<View>> level_input(const TextPatch& patch, int lev
 
 /// The input of pyramid level `level`; `target_camera` is that of level 0.
 ///
-/// `scale_shift` s pairs levels of one scale where host and target see the object at different sizes: with s > 0 the target's
-/// level is `level` + s, with s < 0 the host's is `level` - s. Neither side is then sampled more coarsely than its pixels,
-/// which would alias. See scale_shift(). A level that patch or target lacks gives an input that every kernel answers with
-/// Status::invalid_argument.
+/// `scale_shift` s pairs levels of one scale where host and target see the object at different sizes: with s > 0 the
+/// target's level is `level` + s, with s < 0 the host's is `level` - s. Neither side is then sampled more coarsely than
+/// its pixels, which would alias. See scale_shift(). A level that patch or target lacks gives an input that every
+/// kernel answers with Status::invalid_argument.
 inline PhotometricInput photometric_input(const TextPatch& patch, int level, const PyramidView& target,
                                           const Pinhole<double>& target_camera, int scale_shift = 0) noexcept {
   return detail::level_input(patch, level, target, target_camera, scale_shift);
 }
 
-/// The shift of photometric_input() for an object of these areas (px^2, level 0) in host and target: the difference of their
-/// scales in octaves, rounded, at most `limit` either way. 0 for areas that are not positive and finite.
+/// The shift of photometric_input() for an object of these areas (px^2, level 0) in host and target: the difference of
+/// their scales in octaves, rounded, at most `limit` either way. 0 for areas that are not positive and finite.
 inline int scale_shift(double host_area, double target_area, int limit = 1) noexcept {
   if (!(host_area > 0) || !(target_area > 0) || !is_finite(host_area) || !is_finite(target_area)) return 0;
   const double octaves = std::round(0.5 * std::log2(target_area / host_area));

@@ -29,8 +29,8 @@ class PhotometricWorkspace {
   /// Kernels answer Status::invalid_argument for patches of more pixels than this.
   int capacity() const noexcept { return static_cast<int>(visible_.size()); }
 
-  /// The visible set of the last linearise() or residuals() that got as far as looking at the pixels: a byte for each pixel of
-  /// its patch, 1 where visible. evaluate() leaves it alone, so that it can be passed there as `on_set`.
+  /// The visible set of the last linearise() or residuals() that got as far as looking at the pixels: a byte for each
+  /// pixel of its patch, 1 where visible. evaluate() leaves it alone, so that it can be passed there as `on_set`.
   const std::uint8_t* visible() const noexcept { return visible_.data(); }
 
   /// Where the kernels write visible().

@@ -1,8 +1,8 @@
 // PreparedTarget: a form of an 8-bit target image from which the kernels sample faster than from its rows.
 //
-// Every pixel lies beside the one below it, pairs(x, y) = I(x, y) | I(x, y + 1) << 8, so that the four pixels of a bilinear cell
-// are one load. Preparing costs about what a copy of the image does, and pays where a frame is sampled often: see
-// docs/benchmarks.md.
+// Every pixel lies beside the one below it, pairs(x, y) = I(x, y) | I(x, y + 1) << 8, so that the four pixels of a
+// bilinear cell are one load. Preparing costs about what a copy of the image does, and pays where a frame is sampled
+// often: see docs/benchmarks.md.
 #ifndef TEXTPLANE_PHOTOMETRY_PREPARED_TARGET_HPP
 #define TEXTPLANE_PHOTOMETRY_PREPARED_TARGET_HPP
 
@@ -33,8 +33,8 @@ class PreparedTarget {
   /// As prepare().
   explicit PreparedTarget(const ImageView8& image) { prepare(image); }
 
-  /// Fills the pairs of `image`. invalid_argument, and none afterwards, for an image that is not valid() or that the kernels
-  /// cannot read (below 2 x 2). Allocates where the image is larger than any before.
+  /// Fills the pairs of `image`. invalid_argument, and none afterwards, for an image that is not valid() or that the
+  /// kernels cannot read (below 2 x 2). Allocates where the image is larger than any before.
   Status prepare(const ImageView8& image) {
     width_ = height_ = 0;
     simd::Image8 raw;

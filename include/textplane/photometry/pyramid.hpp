@@ -1,7 +1,7 @@
 // Pyramid: an image and its repeated halves.
 //
-// Pixel x of level l lies at (x + 0.5) * 2^l - 0.5 of level 0: each level is the mean of 2 x 2 pixels of the one before, so
-// its pixel centres are the centres of those blocks. Pinhole::at_level() gives the camera that fits.
+// Pixel x of level l lies at (x + 0.5) * 2^l - 0.5 of level 0: each level is the mean of 2 x 2 pixels of the one
+// before, so its pixel centres are the centres of those blocks. Pinhole::at_level() gives the camera that fits.
 #ifndef TEXTPLANE_PHOTOMETRY_PYRAMID_HPP
 #define TEXTPLANE_PHOTOMETRY_PYRAMID_HPP
 
@@ -27,11 +27,11 @@ struct PyramidView {
   int levels = 0;
 };
 
-/// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). An odd last row
-/// or column of src is dropped.
+/// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). An odd
+/// last row or column of src is dropped.
 ///
-/// dst must be (src.width() / 2) x (src.height() / 2) and must not overlap src; otherwise, or where one of the views is not
-/// valid(), Status::invalid_argument and nothing is written.
+/// dst must be (src.width() / 2) x (src.height() / 2) and must not overlap src; otherwise, or where one of the views is
+/// not valid(), Status::invalid_argument and nothing is written.
 inline Status halve(const ImageView8& src, const ImageView<std::uint8_t>& dst) noexcept {
   if (!src.valid() || !dst.valid() || dst.width() != src.width() / 2 || dst.height() != src.height() / 2)
     return Status::invalid_argument;
@@ -47,8 +47,8 @@ class Pyramid {
   explicit Pyramid(const ImageView8& image, int levels = 4) { build(image, levels); }
 
   /// Fills the pyramid anew. Allocates only where the memory of the last build is too small. Fewer than `levels` levels
-  /// result where the next one would be empty; levels() tells. Status::invalid_argument for an image that is not valid() or
-  /// `levels` outside [1, kMaxPyramidLevels]: the pyramid then has no levels.
+  /// result where the next one would be empty; levels() tells. Status::invalid_argument for an image that is not
+  /// valid() or `levels` outside [1, kMaxPyramidLevels]: the pyramid then has no levels.
   Status build(const ImageView8& image, int levels) {
     count_ = 0;
     if (!image.valid() || levels < 1 || levels > kMaxPyramidLevels) return Status::invalid_argument;
@@ -78,7 +78,8 @@ class Pyramid {
   /// How many levels it has; 0 before it is built.
   int levels() const noexcept { return count_; }
 
-  /// Level l, an empty view for l outside [0, levels()). It lives as long as the pyramid is neither built anew nor moved.
+  /// Level l, an empty view for l outside [0, levels()). It lives as long as the pyramid is neither built anew nor
+  /// moved.
   ImageView8 level(int l) const noexcept {
     if (l < 0 || l >= count_) return {};
     const auto i = static_cast<std::size_t>(l);

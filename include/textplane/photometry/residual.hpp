@@ -1,17 +1,17 @@
 // The photometric residual of a planar text object and its normal equations. `reference` has the same in double
 // (residual_reference.hpp): slow, and the definition.
 //
-// linearise() and evaluate() run in float vectors where the target is 8-bit (simd/residual.hpp states the error), and are those
-// of `reference` otherwise; Path in the result tells. A pixel within about 1e-4 px of the image's
-// border or of a pixel line may fall on either side of it in the fast form.
+// linearise() and evaluate() run in float vectors where the target is 8-bit (simd/residual.hpp states the error), and
+// are those of `reference` otherwise; Path in the result tells. A pixel within about 1e-4 px of the image's border or
+// of a pixel line may fall on either side of it in the fast form.
 //
-// Residual of pixel i (docs/equations.md; the paper's E_text): r_i = I~_host(x_i) - I~_target(K pi(H m~_i)), with
-// H = R + t theta^T of T_t_h and I~ = (I - mean) / ||I - mean|| over the visible pixels alone, on the host's side, too. So r
+// Residual of pixel i (docs/equations.md; the paper's E_text): r_i = I~_host(x_i) - I~_target(K pi(H m~_i)), with H = R
+// + t theta^T of T_t_h and I~ = (I - mean) / ||I - mean|| over the visible pixels alone, on the host's side, too. So r
 // does not change with gain and bias of either image. E = sum r^2 is in [0, 4] and ZNCC = 1 - E / 2.
 //
 // A pixel is visible when it is not masked, its plane point lies in front of both cameras (theta^T m~ > 0, q_z > 0), it
-// projects into [0, w - 1] x [0, h - 1] of the target, and both of its intensities are finite. Image gradients are those of
-// the bilinear interpolant. Parameters names the unknowns, their order, units and perturbation.
+// projects into [0, w - 1] x [0, h - 1] of the target, and both of its intensities are finite. Image gradients are
+// those of the bilinear interpolant. Parameters names the unknowns, their order, units and perturbation.
 //
 // All functions: noexcept, no allocation, thread-safe for distinct workspaces. Status (results are zero unless is_ok):
 //   too_few           fewer than options.min_visible visible pixels (or an empty or wholly masked patch)

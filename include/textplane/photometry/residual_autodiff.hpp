@@ -1,4 +1,5 @@
-// The photometric residual for any scalar: the definition that dual numbers differentiate, with no derivative written out.
+// The photometric residual for any scalar: the definition that dual numbers differentiate, with no derivative written
+// out.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
 
@@ -11,15 +12,16 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace reference {
 
-/// Residuals r_i = I~_host - I~_target over exactly the pixels of `on_set` (a byte a pixel; usually workspace.visible() of
-/// residuals()), as functions of theta and T_t_h of scalar type S: double, a dual number, ceres::Jet. The image is sampled
-/// with the gradient of the bilinear interpolant. r receives patch.n numbers, zero outside the set.
+/// Residuals r_i = I~_host - I~_target over exactly the pixels of `on_set` (a byte a pixel; usually workspace.visible()
+/// of residuals()), as functions of theta and T_t_h of scalar type S: double, a dual number, ceres::Jet. The image is
+/// sampled with the gradient of the bilinear interpolant. r receives patch.n numbers, zero outside the set.
 ///
 /// `frozen`: mean and s to hold for the target (Normalisation::frozen); null: they are functions of the parameters too
 /// (Normalisation::exact).
 ///
-/// Status::behind_camera or out_of_view where a pixel of the set is not visible, too_few or no_contrast as intensity_stats()
-/// says, invalid_argument for null pointers or an image that is not valid(); r then holds no residuals. No allocation.
+/// Status::behind_camera or out_of_view where a pixel of the set is not visible, too_few or no_contrast as
+/// intensity_stats() says, invalid_argument for null pointers or an image that is not valid(); r then holds no
+/// residuals. No allocation.
 template <class S, class T>
 Status residuals_t(const BasicPhotometricInput<T>& in, const Vector3<S>& theta, const SE3<S>& T_t_h,
                    const std::uint8_t* on_set, const IntensityStats* frozen, S* r) noexcept {

@@ -1,7 +1,7 @@
 // The typed side of simd/residual.hpp: which requests the float kernels take, what they are given, and what comes back.
 //
-// They take 8-bit targets of at least 2 x 2 pixels. The double reference takes all others, and the few cases that float does
-// not carry (numbers far out of proportion, a plane through the target's camera centre).
+// They take 8-bit targets of at least 2 x 2 pixels. The double reference takes all others, and the few cases that float
+// does not carry (numbers far out of proportion, a plane through the target's camera centre).
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 
@@ -27,8 +27,8 @@ inline simd::Image8 kernel_image(const PhotometricInput& in) noexcept {
   return {in.target.data(), in.target.stride(), in.target.width(), in.target.height(), pairs.data, pairs.stride};
 }
 
-/// False where the reference must take the call, which also says what is wrong with it. Theta, pose and principal points are
-/// not asked: what is not finite there ends in the homography, at which the kernels decline.
+/// False where the reference must take the call, which also says what is wrong with it. Theta, pose and principal
+/// points are not asked: what is not finite there ends in the homography, at which the kernels decline.
 TEXTPLANE_SIMD_INLINE bool kernels_take(const KernelRequest& q, const PhotometricWorkspace& workspace) noexcept {
   const PatchView& p = q.input.patch;
   if (!p.x || !p.y || !p.intensity || p.n < 1 || p.n > workspace.capacity() || !q.input.target.valid() ||

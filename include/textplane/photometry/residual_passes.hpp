@@ -71,8 +71,8 @@ void intensity_row(double mx, double my, const double* q, double rho, const doub
 }
 
 // Visits the pixels of the patch (of `on_set`, where given) and writes host intensity, target intensity and row of each
-// visible one to the workspace, closed up. A pixel is visible when its plane point lies in front of both cameras, it projects
-// into the target, and both intensities are finite. `flags`, where given, receives one byte a pixel.
+// visible one to the workspace, closed up. A pixel is visible when its plane point lies in front of both cameras, it
+// projects into the target, and both intensities are finite. `flags`, where given, receives one byte a pixel.
 template <int P, class T>
 Collected collect(const ResidualRequest<T>& request, const std::uint8_t* on_set, std::uint8_t* flags,
                   PhotometricWorkspace& workspace) noexcept {
@@ -189,8 +189,8 @@ inline WeightedCost weigh(int n, const Robust& robust, PhotometricWorkspace& wor
   return out;
 }
 
-// Row I of the upper triangle of sum w j j^T, columns I to P - 1, and sum w r j_I. A pass over all pixels for each row keeps
-// its accumulators in registers.
+// Row I of the upper triangle of sum w j j^T, columns I to P - 1, and sum w r j_I. A pass over all pixels for each row
+// keeps its accumulators in registers.
 template <int P, int I, int... K>
 void accumulate_row(int n, const double* w, const double* r, const double* row, Eigen::Matrix<double, P, P>* H,
                     Eigen::Matrix<double, P, 1>* b, std::integer_sequence<int, K...>) noexcept {

@@ -40,11 +40,12 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
 }
 }  // namespace detail
 
-/// Normal equations with derivatives by a policy: see reference::linearise() of a PolicyRequest. A `prepared` patch makes
-/// template_jacobian several times faster where all of the patch is visible. Then sums are of host intensities rounded to 1/64
-/// grey level and target intensities within 0.025 of the interpolant (simd/template.hpp): E and the entries of b, in units of
-/// sqrt(H_ii), are within 0.08 / sigma of the reference's, sigma being the lesser standard deviation of the two sides, and H
-/// within 3e-4 of sqrt(H_ii H_jj) without weights. Otherwise the bounds are those of simd/residual.hpp.
+/// Normal equations with derivatives by a policy: see reference::linearise() of a PolicyRequest. A `prepared` patch
+/// makes template_jacobian several times faster where all of the patch is visible. Then sums are of host intensities
+/// rounded to 1/64 grey level and target intensities within 0.025 of the interpolant (simd/template.hpp): E and the
+/// entries of b, in units of sqrt(H_ii), are within 0.08 / sigma of the reference's, sigma being the lesser standard
+/// deviation of the two sides, and H within 3e-4 of sqrt(H_ii H_jj) without weights. Otherwise the bounds are those of
+/// simd/residual.hpp.
 template <Parameters Unknowns, class T>
 NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
   NormalEquations<dof(Unknowns)> out{detail::Unset()};

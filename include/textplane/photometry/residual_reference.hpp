@@ -1,7 +1,8 @@
-// The double reference of the photometric residual and its normal equations: slow, and the definition of what the kernels do.
+// The double reference of the photometric residual and its normal equations: slow, and the definition of what the
+// kernels do.
 //
-// All functions: noexcept, no allocation, thread-safe for distinct workspaces; what residual.hpp says of r, visibility and
-// status holds.
+// All functions: noexcept, no allocation, thread-safe for distinct workspaces; what residual.hpp says of r, visibility
+// and status holds.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 
@@ -86,9 +87,9 @@ void add_host_rows(const PolicyRequest<T>& request, const Matrix3<double>& inver
 
 namespace reference {
 
-/// Normal equations with derivatives by a policy. The cost, the visible set and the status are those of the policy `forward`;
-/// besides, invalid_argument for a patch without gradients or the policy `automatic`, non_finite for a gradient that is,
-/// behind_camera where the plane passes through the target's camera.
+/// Normal equations with derivatives by a policy. The cost, the visible set and the status are those of the policy
+/// `forward`; besides, invalid_argument for a patch without gradients or the policy `automatic`, non_finite for a
+/// gradient that is, behind_camera where the plane passes through the target's camera.
 template <Parameters Unknowns, class T>
 NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
   NormalEquations<dof(Unknowns)> out;
@@ -132,10 +133,11 @@ NormalEquations<dof(Unknowns)> linearise(const ResidualRequest<T>& request, Phot
   return reference::linearise<Unknowns>(request.by(LinearisePolicy::forward), workspace);
 }
 
-/// The cost alone. With `on_set` (a byte a pixel, usually workspace.visible() after a linearisation) a trial step is judged
-/// on that set: pixels outside of it are ignored, and each of its pixels that is not visible now costs what an uncorrelated
-/// pixel would, rho(2) / N_set in the unit of `cost` (two uncorrelated patches of N pixels have r^2 = 2 / N on average), and
-/// is counted in `lost`. error and zncc are of the visible pixels alone. The workspace's visible() stays as it is.
+/// The cost alone. With `on_set` (a byte a pixel, usually workspace.visible() after a linearisation) a trial step is
+/// judged on that set: pixels outside of it are ignored, and each of its pixels that is not visible now costs what an
+/// uncorrelated pixel would, rho(2) / N_set in the unit of `cost` (two uncorrelated patches of N pixels have r^2 = 2 /
+/// N on average), and is counted in `lost`. error and zncc are of the visible pixels alone. The workspace's visible()
+/// stays as it is.
 template <class T>
 PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace& workspace,
                          const std::uint8_t* on_set = nullptr) noexcept {
@@ -154,9 +156,9 @@ PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace
   return out;
 }
 
-/// The residuals themselves, without weights, for other solvers: r receives one number a pixel of the patch (patch.n), and J,
-/// unless null, patch.n rows of dof(Unknowns) derivatives, row-major. A pixel that is not visible has residual and row zero;
-/// all have unless is_ok(status) and n, r are valid. workspace.visible() tells which.
+/// The residuals themselves, without weights, for other solvers: r receives one number a pixel of the patch (patch.n),
+/// and J, unless null, patch.n rows of dof(Unknowns) derivatives, row-major. A pixel that is not visible has residual
+/// and row zero; all have unless is_ok(status) and n, r are valid. workspace.visible() tells which.
 template <Parameters Unknowns, class T>
 ResidualSummary residuals(const ResidualRequest<T>& request, PhotometricWorkspace& workspace, double* r,
                           double* J) noexcept {

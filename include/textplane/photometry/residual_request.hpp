@@ -1,4 +1,5 @@
-// ResidualRequest: what the photometric residual is to be evaluated for. linearise(), evaluate() and residuals() take it.
+// ResidualRequest: what the photometric residual is to be evaluated for. linearise(), evaluate() and residuals() take
+// it.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REQUEST_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REQUEST_HPP
 
@@ -57,8 +58,8 @@ struct PhotometricOptions {
 ///                      have the same derivatives by m~, and m~ moves by H^-1 dq. Constant but for H^-1
 ///   esm                the mean of the two normalised rows, right to second order near the match
 ///
-/// All three vanish together at a perfect match. Elsewhere only the first is a gradient of the cost, so a solver must judge
-/// the steps of the others by the cost. Ours do.
+/// All three vanish together at a perfect match. Elsewhere only the first is a gradient of the cost, so a solver must
+/// judge the steps of the others by the cost. Ours do.
 enum class LinearisePolicy : std::uint8_t {
   forward,            ///< Gradients of the target: the derivative of the cost itself.
   template_jacobian,  ///< Gradients of the host, prepared once: the cheapest iteration.
@@ -66,8 +67,8 @@ enum class LinearisePolicy : std::uint8_t {
   automatic,          ///< A coarse-to-fine solver chooses by level: see policy_at_level().
 };
 
-/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where forward ends at the minimum of the
-/// cost. The other policies are themselves on every level.
+/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where forward ends at the minimum of
+/// the cost. The other policies are themselves on every level.
 constexpr LinearisePolicy policy_at_level(LinearisePolicy policy, int level, int finest_level) noexcept {
   return policy != LinearisePolicy::automatic ? policy
          : level > finest_level               ? LinearisePolicy::esm
@@ -78,8 +79,8 @@ class TemplatePatch;
 template <class T>
 struct PolicyRequest;
 
-/// One patch in one target under one pose and plane; T is the pixel type of the target (std::uint8_t or float). An aggregate:
-/// ResidualRequest{input, theta, T_t_h, options}. It refers to pixels and images, and owns the rest.
+/// One patch in one target under one pose and plane; T is the pixel type of the target (std::uint8_t or float). An
+/// aggregate: ResidualRequest{input, theta, T_t_h, options}. It refers to pixels and images, and owns the rest.
 template <class T>
 struct ResidualRequest {
   /// Patch, target and cameras.
@@ -87,13 +88,13 @@ struct ResidualRequest {
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_t_h = {};                                  ///< Host to target.
   PhotometricOptions options = {};
-  /// For Parameters::host_target_plane alone, see world_request(): target to world, with T_w_h = T_w_t T_t_h, and the side
-  /// that both world poses are perturbed on, T_w_x <- Exp(xi_x) T_w_x or T_w_x <- T_w_x Exp(xi_x).
+  /// For Parameters::host_target_plane alone, see world_request(): target to world, with T_w_h = T_w_t T_t_h, and the
+  /// side that both world poses are perturbed on, T_w_x <- Exp(xi_x) T_w_x or T_w_x <- T_w_x Exp(xi_x).
   SE3d T_w_t = {};
   PerturbationSide side = PerturbationSide::right;
 
-  /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if given, is
-  /// of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
+  /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if
+  /// given, is of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
   PolicyRequest<T> by(LinearisePolicy policy, const TemplatePatch* prepared = nullptr) const noexcept {
     return {*this, policy, prepared};
   }
@@ -102,8 +103,8 @@ template <class T>
 ResidualRequest(BasicPhotometricInput<T>, Vector3<double> = {}, SE3d = {}, PhotometricOptions = {})
     -> ResidualRequest<T>;
 
-/// A request whose derivatives follow a policy. A type of its own, so that a program that never chooses one compiles the
-/// forward kernels alone.
+/// A request whose derivatives follow a policy. A type of its own, so that a program that never chooses one compiles
+/// the forward kernels alone.
 template <class T>
 struct PolicyRequest : ResidualRequest<T> {
   LinearisePolicy policy = LinearisePolicy::forward;

@@ -35,8 +35,9 @@ struct ResidualStats {
   Path path = Path::kernel;  ///< What computed them.
 };
 
-/// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P), and
-/// the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless is_ok(status).
+/// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P),
+/// and the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless
+/// is_ok(status).
 template <int P>
 struct NormalEquations : ResidualStats {
   /// J^T W J.
@@ -45,7 +46,8 @@ struct NormalEquations : ResidualStats {
   Eigen::Matrix<double, P, 1> b;
 
   NormalEquations() noexcept { clear(); }
-  /// Leaves H and b as they are in memory, for callers that fill them at once: zeroing both takes as long as some kernels.
+  /// Leaves H and b as they are in memory, for callers that fill them at once: zeroing both takes as long as some
+  /// kernels.
   explicit NormalEquations(detail::Unset) noexcept {}
   /// H and b become zero.
   void clear() noexcept {

@@ -12,7 +12,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// The shape of a robust cost: see Robust.
 enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
 
-/// A robust cost rho(r^2) that is r^2 near zero, and its derivative, the weight of iteratively re-weighted least squares.
+/// A robust cost rho(r^2) that is r^2 near zero, and its derivative, the weight of iteratively re-weighted least
+/// squares.
 ///
 /// With d = delta, in the unit of the residual r, and r2 = r^2 >= 0:
 ///   l2      rho = r2                                           weight = 1

@@ -1,7 +1,7 @@
 // Bilinear interpolation with the gradient of the interpolant itself.
 //
-// The interpolant is continuous, its gradient jumps at pixel lines: on a line it is that of the cell to the right (below),
-// on the last column (row) that of the cell to the left (above).
+// The interpolant is continuous, its gradient jumps at pixel lines: on a line it is that of the cell to the right
+// (below), on the last column (row) that of the cell to the left (above).
 #ifndef TEXTPLANE_PHOTOMETRY_SAMPLE_HPP
 #define TEXTPLANE_PHOTOMETRY_SAMPLE_HPP
 
@@ -45,9 +45,9 @@ void sample_inside(const ImageView<const T>& image, const S& x, const S& y, S* v
 
 /// Bilinear interpolant of the image at (x, y), in the image's units, and (where asked for) its gradient in units a px.
 ///
-/// Domain [0, width - 1] x [0, height - 1], borders included. False, and nothing written, outside of it, for NaN, and for an
-/// image that is not valid(). T: std::uint8_t or float. S: float, double, or a dual number, whose derivative then is that of
-/// the interpolant. Non-finite pixels of a float image give a non-finite value.
+/// Domain [0, width - 1] x [0, height - 1], borders included. False, and nothing written, outside of it, for NaN, and
+/// for an image that is not valid(). T: std::uint8_t or float. S: float, double, or a dual number, whose derivative
+/// then is that of the interpolant. Non-finite pixels of a float image give a non-finite value.
 template <class T, class S>
 bool sample_bilinear(const ImageView<const T>& image, S x, S y, S* value, S* gx = nullptr, S* gy = nullptr) noexcept {
   if (!image.valid() || !image.contains(x, y)) return false;

@@ -1,7 +1,7 @@
 // TemplatePatch: what the template-Jacobian kernels keep of a host patch.
 //
-// Preparing costs about as much as ten iterations and is done once per object and level. A patch of n pixels takes 42 bytes a
-// pixel.
+// Preparing costs about as much as ten iterations and is done once per object and level. A patch of n pixels takes 42
+// bytes a pixel.
 #ifndef TEXTPLANE_PHOTOMETRY_TEMPLATE_PATCH_HPP
 #define TEXTPLANE_PHOTOMETRY_TEMPLATE_PATCH_HPP
 
@@ -29,8 +29,9 @@ class TemplatePatch {
   TemplatePatch(const TemplatePatch&) = delete;
   TemplatePatch& operator=(const TemplatePatch&) = delete;
 
-  /// Prepares a patch without a mask and with gradients, else invalid_argument; non_finite where a number is; no_contrast for
-  /// constant intensities; too_few for an empty one. ready() tells. Allocates where it holds less than before.
+  /// Prepares a patch without a mask and with gradients, else invalid_argument; non_finite where a number is;
+  /// no_contrast for constant intensities; too_few for an empty one. ready() tells. Allocates where it holds less than
+  /// before.
   Status prepare(const PatchView& patch) {
     ready_ = false;
     if (!patch.x || !patch.y || !patch.intensity || !patch.gx || !patch.gy || patch.mask || patch.n < 0)
@@ -93,8 +94,8 @@ class TemplatePatch {
     model_.rows = numbers(rows_);
   }
 
-  // Column 0: centred on the middle of its range, in 1/64 of the intensity's unit, or coarser for ranges above 255. Exact for
-  // 8-bit hosts at integer positions.
+  // Column 0: centred on the middle of its range, in 1/64 of the intensity's unit, or coarser for ranges above 255.
+  // Exact for 8-bit hosts at integer positions.
   bool set_intensity(const PatchView& patch, float* intensity) {
     double low = static_cast<double>(patch.intensity[0]), high = low;
     for (int i = 0; i < patch.n; ++i) {

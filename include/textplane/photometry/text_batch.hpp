@@ -1,8 +1,9 @@
-// TextBatch: many text objects of a few pixels each (the paper's 15, up to some hundred), judged against one image at once:
-// verification of all signs of a map in one frame, or normal equations of all of them.
+// TextBatch: many text objects of a few pixels each (the paper's 15, up to some hundred), judged against one image at
+// once: verification of all signs of a map in one frame, or normal equations of all of them.
 //
-// One object fills one lane of the vectors, so 15 pixels cost no more a pixel than thousands do; objects that lie wholly behind
-// a camera or outside the image cost a few dozen cycles. Objects of very different size waste lanes: sort them by size.
+// One object fills one lane of the vectors, so 15 pixels cost no more a pixel than thousands do; objects that lie
+// wholly behind a camera or outside the image cost a few dozen cycles. Objects of very different size waste lanes: sort
+// them by size.
 #ifndef TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
 #define TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
 
@@ -37,8 +38,8 @@ class TextBatch {
   /// As build().
   TextBatch(const TextBatchItem* items, int count) { build(items, count); }
 
-  /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a negative
-  /// n or a camera that is not valid() keeps its place, and has Status::invalid_argument in every result.
+  /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a
+  /// negative n or a camera that is not valid() keeps its place, and has Status::invalid_argument in every result.
   /// invalid_argument for null items or a negative count: the batch is then empty.
   Status build(const TextBatchItem* items, int count) {
     groups_.clear();
@@ -46,7 +47,8 @@ class TextBatch {
     pixels_ = cache_lines<float>(0);
     most_ = 0;
     if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
-    // Vectors of numbers do not grow, they are made: growing ones would share weak symbols with files built for other CPUs.
+    // Vectors of numbers do not grow, they are made: growing ones would share weak symbols with files built for other
+    // CPUs.
     valid_ = std::vector<std::uint8_t>(static_cast<std::size_t>(count));
     std::size_t total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
@@ -168,7 +170,8 @@ class TextBatchResult {
            number_count(scratch_) >= simd::batch_scratch(batch.max_pixels());
   }
 
-  /// Of object i of the batch, as reference::linearise() would say it; all zero, `visible` excepted, unless is_ok(status).
+  /// Of object i of the batch, as reference::linearise() would say it; all zero, `visible` excepted, unless
+  /// is_ok(status).
   Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
   /// Robust cost of object i.
   double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
@@ -224,13 +227,13 @@ class TextBatchResult {
   int parameters_ = 0;
 };
 
-/// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega, theta).
-/// `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
+/// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega,
+/// theta). `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
 ///
-/// Each object's result is that of reference::linearise() within the bounds of simd/batch.hpp; one whose geometry float does
-/// not hold (a number beyond 1e30) is non_finite. ok, or invalid_argument, and
-/// then all statuses are that: null poses, a target below 2 x 2, a camera that is not valid(), bad options, a result without
-/// room. The kernels compute all of it (Path::kernel).
+/// Each object's result is that of reference::linearise() within the bounds of simd/batch.hpp; one whose geometry float
+/// does not hold (a number beyond 1e30) is non_finite. ok, or invalid_argument, and then all statuses are that: null
+/// poses, a target below 2 x 2, a camera that is not valid(), bad options, a result without room. The kernels compute
+/// all of it (Path::kernel).
 template <int P>
 Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
                       const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {

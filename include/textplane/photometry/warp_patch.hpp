@@ -1,9 +1,9 @@
-// Warps: a regular grid of pixels, sampled from an image through a homography. Unwarps a text quad to an upright patch, and
-// draws a patch as another view would see it.
+// Warps: a regular grid of pixels, sampled from an image through a homography. Unwarps a text quad to an upright patch,
+// and draws a patch as another view would see it.
 //
-// out(x, y) = source(q_xy / q_z), q = H (x, y, 1): H maps output pixels to source pixels, scale kept, so q_z > 0 means in front
-// (pixel_homography()). Bilinear, domain [0, w - 1] x [0, h - 1] as sample_bilinear(). Output pixels that fall outside, or
-// lie behind, receive `fill` and a zero in the mask.
+// out(x, y) = source(q_xy / q_z), q = H (x, y, 1): H maps output pixels to source pixels, scale kept, so q_z > 0 means
+// in front (pixel_homography()). Bilinear, domain [0, w - 1] x [0, h - 1] as sample_bilinear(). Output pixels that fall
+// outside, or lie behind, receive `fill` and a zero in the mask.
 //
 // noexcept, no allocation, thread-safe. Status of all functions:
 //   ok                at least one output pixel is inside
@@ -79,8 +79,8 @@ WarpSummary warp_patch(const ImageView<const S>& source, const Matrix3<double>& 
 }  // namespace reference
 
 /// The warp, by the SIMD kernel of the active target: 8-bit source to float or 8-bit, float to float. Differs from the
-/// reference by less than 0.01 grey levels where a step in the output is at most two pixels in the source, and agrees with it
-/// after rounding unless within 0.01 of a tie. A point within 1e-4 px of the border may count as in or out.
+/// reference by less than 0.01 grey levels where a step in the output is at most two pixels in the source, and agrees
+/// with it after rounding unless within 0.01 of a tie. A point within 1e-4 px of the border may count as in or out.
 template <class S, class D>
 WarpSummary warp_patch(const ImageView<const S>& source, const Matrix3<double>& H, const ImageView<D>& out,
                        float fill = 0.0F, const ImageView<std::uint8_t>& mask = {}) noexcept {

@@ -16,7 +16,8 @@ inline double dot3(const double* p, const double* q) noexcept { return p[0] * q[
 template <class S>
 void world_sums(const NormalEquations<9>& inner, const SE3<S>& T, bool right, NormalEquations<15>* out) noexcept {
   const Matrix3<S> upper = product(hat(T.t), T.R);
-  // Of the adjoint: columns 0 to 2 are (R_k, 0), columns 3 to 5 are (X_k, R_k). W is its transpose times the pose's rows.
+  // Of the adjoint: columns 0 to 2 are (R_k, 0), columns 3 to 5 are (X_k, R_k). W is its transpose times the pose's
+  // rows.
   const S *R = T.R.data(), *X = upper.data(), *H = inner.H.data(), *b = inner.b.data();
   double W[6][9], *to = out->H.data();
   for (int i = 0; i < 3; ++i) {

@@ -25,9 +25,9 @@ struct IntensityStats {
 
 /// Statistics of those of the n values whose mask byte is not zero (a null mask: all of them).
 ///
-/// Status::too_few below `min_n` (at least one) values, no_contrast where sigma is at most `min_contrast` or is lost in the
-/// rounding of the mean, non_finite where a counted value is, invalid_argument for a negative n or a null pointer with n > 0.
-/// mean and s are zero unless the status is ok.
+/// Status::too_few below `min_n` (at least one) values, no_contrast where sigma is at most `min_contrast` or is lost in
+/// the rounding of the mean, non_finite where a counted value is, invalid_argument for a negative n or a null pointer
+/// with n > 0. mean and s are zero unless the status is ok.
 template <class T>
 IntensityStats intensity_stats(const T* values, const std::uint8_t* mask, int n, int min_n = 1,
                                double min_contrast = 0.0) noexcept {
@@ -66,8 +66,8 @@ IntensityStats intensity_stats(const T* values, const std::uint8_t* mask, int n,
 }
 
 /// Zero-mean normalised cross-correlation of a and b over the n pixels whose mask byte is not zero (a null mask: all):
-/// the sum of the products of their normalised intensities, in [-1, 1] up to rounding. With E the squared distance of the
-/// normalised patches it is 1 - E / 2. Zero, with the reason in `status` where asked for, if either side has no
+/// the sum of the products of their normalised intensities, in [-1, 1] up to rounding. With E the squared distance of
+/// the normalised patches it is 1 - E / 2. Zero, with the reason in `status` where asked for, if either side has no
 /// intensity_stats().
 template <class A, class B>
 double zncc(const A* a, const B* b, const std::uint8_t* mask, int n, Status* status = nullptr) noexcept {

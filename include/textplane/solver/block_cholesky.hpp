@@ -36,8 +36,8 @@ void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
   }
 }
 
-/// Lower block triangle of an n x n block matrix, blocks column-major. S is double: a template, so that including the header
-/// costs little.
+/// Lower block triangle of an n x n block matrix, blocks column-major. S is double: a template, so that including the
+/// header costs little.
 template <class S>
 class BasicBlockCholesky {
  public:

@@ -32,18 +32,19 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// When to stop and how to damp. Tolerances of zero are allowed and mean "never by this test".
 struct SolveOptions {
-  int max_iterations = 20;         ///< Trial steps, rejected ones included.
-  double step_tolerance = 1e-6;    ///< Converged when the norm of the step (in the units of the parameters) is at
-                                   ///< most this; that step is not taken any more.
-  double cost_tolerance = 1e-6;    ///< Converged when an accepted step lowers the cost by at most this share of it.
-  double stall_tolerance = 1e-3;   ///< Where no step lowers the cost: converged if the full step promised at most
-                                   ///< this share of it.
-  double initial_lambda = 1e-4;    ///< First damping, a multiple of the diagonal of H.
-  double min_lambda = 1e-12;       ///< Damping never falls below.
-  double max_lambda = 1e8;         ///< Damping above this counts as a stall.
-  double diagonal_floor = 1e-15;   ///< Entries of D are at least this share of the largest one.
-  double rank_tolerance = 1e-13;   ///< H is singular where a Cholesky pivot is at most this share of its diagonal
-                                   ///< entry.
+  int max_iterations = 20;  ///< Trial steps, rejected ones included.
+  /// Converged when the norm of the step (in the units of the parameters) is at most this; that step is not taken any
+  /// more.
+  double step_tolerance = 1e-6;
+  double cost_tolerance = 1e-6;  ///< Converged when an accepted step lowers the cost by at most this share of it.
+  /// Where no step lowers the cost: converged if the full step promised at most this share of it.
+  double stall_tolerance = 1e-3;
+  double initial_lambda = 1e-4;   ///< First damping, a multiple of the diagonal of H.
+  double min_lambda = 1e-12;      ///< Damping never falls below.
+  double max_lambda = 1e8;        ///< Damping above this counts as a stall.
+  double diagonal_floor = 1e-15;  ///< Entries of D are at least this share of the largest one.
+  /// H is singular where a Cholesky pivot is at most this share of its diagonal entry.
+  double rank_tolerance = 1e-13;
   double max_lost_fraction = 0.1;  ///< A trial that loses a larger share of the residuals is rejected.
 };
 
@@ -64,13 +65,13 @@ struct SolveSummary {
   /// Why it ended.
   Status status = Status::invalid_argument;
   double initial_cost = 0;  ///< At the initial state, on its own residuals.
-  double final_cost = 0;    ///< At the returned state, on its own residuals: comparable with initial_cost if the set
-                            ///< did not change.
-  double reduction = 0;     ///< Sum of the decreases of the accepted steps, each on the set of its linearisation; never
-                            ///< negative.
-  int iterations = 0;       ///< Trials made.
-  int accepted = 0;         ///< Trials accepted.
-  double last_step = 0;     ///< Norm of the last step computed.
+  /// At the returned state, on its own residuals: comparable with initial_cost if the set did not change.
+  double final_cost = 0;
+  /// Sum of the decreases of the accepted steps, each on the set of its linearisation; never negative.
+  double reduction = 0;
+  int iterations = 0;    ///< Trials made.
+  int accepted = 0;      ///< Trials accepted.
+  double last_step = 0;  ///< Norm of the last step computed.
 };
 
 namespace detail {

@@ -20,8 +20,8 @@ struct PlaneRefinement {
   /// share: the noise of the host pixels and errors of the poses.
   Matrix3<double> covariance = Matrix3<double>::Zero();
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
-  double residual_variance = 0;  ///< Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and
-                                 ///< norm costing two.
+  /// Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and norm costing two.
+  double residual_variance = 0;
   /// C(theta).
   double cost = 0;
   double zncc = 0;  ///< Mean over the targets used.

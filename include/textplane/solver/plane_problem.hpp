@@ -25,8 +25,8 @@ struct BasicPlaneTarget {
   /// Host to target.
   SE3d T_t_h;
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
-  /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to refine_plane(), whose
-  /// levels and numbers of pixels it must have: a target with another is not used.
+  /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to
+  /// refine_plane(), whose levels and numbers of pixels it must have: a target with another is not used.
   const TextPatch* patch = nullptr;
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;    ///< Of 8-bit images.
@@ -36,8 +36,8 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
 struct PlaneOptions {
   /// Of every pixel.
   PhotometricOptions photometric;
-  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
-                           ///< the latest.
+  /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  SolveOptions solve;
   int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
   /// Where it ends; 0 is the image itself.
   int finest_level = 0;

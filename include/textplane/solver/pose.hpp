@@ -17,10 +17,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// for a NaN pose or camera; invalid_argument for null pointers, bad options, a camera that is not valid() or a
 /// workspace without room.
 struct PoseResult {
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  ///< Of xi = (v, omega), left: H /
-                                                                                  ///< sigma_rep^2. Its inverse is the
-                                                                                  ///< covariance under
-                                                                                  ///< Weighting::variance.
+  /// Of xi = (v, omega), left: H / sigma_rep^2. Its inverse is the covariance under Weighting::variance.
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   /// C(T_t_w) of the finest level.
   double cost = 0;
   double zncc = 0;           ///< Mean over the texts that took part.

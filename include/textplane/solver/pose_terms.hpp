@@ -23,7 +23,8 @@ struct PoseTextTerm {
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< On top of lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees it at another size.
-  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done without.
+  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done
+  /// without.
   const TemplatePatch* prepared = nullptr;
 };
 
@@ -49,13 +50,13 @@ struct PoseOptions {
   double sigma_rep = 1;
   /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
   Robust point_robust{RobustKind::huber, 2.4477};
-  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
-                           ///< the latest.
+  /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  SolveOptions solve;
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
   /// Where it ends; 0 is the image itself.
   int finest_level = 0;
-  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take forward.
-  /// Whatever the policy, steps are judged by the cost.
+  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take
+  /// forward. Whatever the policy, steps are judged by the cost.
   LinearisePolicy policy = LinearisePolicy::forward;
 };
 

@@ -1,5 +1,5 @@
-// A coarse search before a pose is refined: ZNCC of one text object under shifts and turns of its image, where the guess may
-// be further off than the basin of refine_pose().
+// A coarse search before a pose is refined: ZNCC of one text object under shifts and turns of its image, where the
+// guess may be further off than the basin of refine_pose().
 #ifndef TEXTPLANE_SOLVER_SEARCH_HPP
 #define TEXTPLANE_SOLVER_SEARCH_HPP
 
@@ -17,15 +17,16 @@ struct SearchOptions {
   int level = 2;      ///< Pyramid level; lowered to the coarsest that patch and target have with enough pixels.
   int radius = 4;     ///< Shifts -radius .. radius along x and along y, at most 8.
   double step = 1.0;  ///< Between shifts.
-  double roll =
-      0.1;  ///< Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
+  /// Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
+  double roll = 0.1;
   /// Of every pixel.
   PhotometricOptions photometric;
 };
 
 namespace detail {
 
-// Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was there.
+// Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was
+// there.
 TEXTPLANE_DEFERRED
 class PoseSearch {
  public:
@@ -85,8 +86,8 @@ class PoseSearch {
 
 }  // namespace detail
 
-/// The level that search_pose() searches on in a target of `levels` levels: options.level, or the next finer one that is there and has
-/// twice the pixels that must be visible; 0 where none has, -1 where there is no level.
+/// The level that search_pose() searches on in a target of `levels` levels: options.level, or the next finer one that
+/// is there and has twice the pixels that must be visible; 0 where none has, -1 where there is no level.
 inline int search_level(const TextPatch& patch, int levels, const SearchOptions& options) noexcept {
   int level = std::min({options.level, patch.level_count() - 1, levels - 1});
   while (level > 0 &&
@@ -95,10 +96,11 @@ inline int search_level(const TextPatch& patch, int levels, const SearchOptions&
   return level;
 }
 
-/// The pose T_t_h, out of those that turn the target camera so that the patch's centre moves by the shifts of a grid, with the
-/// best ZNCC of the patch in the target, and then turned a little about that centre where this is better still; the guess itself
-/// where nothing is better or nothing can be compared. `zncc`, if given, receives the best value, -1 where none. `prepared`: one
-/// TemplatePatch a level, or null. No allocation; `workspace` must have room for the patch.
+/// The pose T_t_h, out of those that turn the target camera so that the patch's centre moves by the shifts of a grid,
+/// with the best ZNCC of the patch in the target, and then turned a little about that centre where this is better
+/// still; the guess itself where nothing is better or nothing can be compared. `zncc`, if given, receives the best
+/// value, -1 where none. `prepared`: one TemplatePatch a level, or null. No allocation; `workspace` must have room for
+/// the patch.
 TEXTPLANE_DEFERRED
 SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
                  const Pinhole<double>& camera, const SearchOptions& options, PhotometricWorkspace& workspace,

@@ -18,7 +18,8 @@ enum class Weighting {
              ///< chi-square.
 };
 
-/// Whether a standard deviation is finite and in [1e-50, 1e50], so that its square, its inverse and the ratio of two are numbers.
+/// Whether a standard deviation is finite and in [1e-50, 1e50], so that its square, its inverse and the ratio of two
+/// are numbers.
 inline bool valid_sigma(double sigma) noexcept { return is_finite(sigma) && sigma >= 1e-50 && sigma <= 1e50; }
 
 /// lambda_w of an observation with `visible` pixels. `sigma_rep`: standard deviation of a reprojection error whose own

@@ -8,13 +8,13 @@
 // the distance of two frames can be held; a gauge that is missing is counted from the graph of observations and
 // reported, never left to the damping.
 //
-// No decomposition of Eigen's is instantiated, and products are written out (core/numeric.hpp), but sums of fixed-size matrices
-// and std::vector members are, and the compiler may keep them as weak symbols outside of our ABI namespace: include this
-// header in translation units of one instruction set only.
+// No decomposition of Eigen's is instantiated, and products are written out (core/numeric.hpp), but sums of fixed-size
+// matrices and std::vector members are, and the compiler may keep them as weak symbols outside of our ABI namespace:
+// include this header in translation units of one instruction set only.
 //
-// A text term is judged on the visible set of its linearisation, lost pixels charged (docs/equations.md). An observation
-// that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted state drops
-// out with its status.
+// A text term is judged on the visible set of its linearisation, lost pixels charged (docs/equations.md). An
+// observation that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted
+// state drops out with its status.
 #ifndef TEXTPLANE_SOLVER_WINDOW_HPP
 #define TEXTPLANE_SOLVER_WINDOW_HPP
 

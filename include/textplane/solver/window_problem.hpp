@@ -56,8 +56,8 @@ struct WindowPointObservation {
   /// Index into Window::points.
   int point = -1;
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
-  double sigma =
-      1;  ///< Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
+  /// Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
+  double sigma = 1;
 
   /// Out: |e|^2 / sigma^2 at the final state, without the robust function, for observations that were left out too.
   /// The largest double where there is no projection.
@@ -129,14 +129,15 @@ struct WindowOptions {
   Weighting weighting = Weighting::variance;
   double sigma_rep = 1;      ///< px.
   double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
-  int text_level =
-      0;  ///< Pyramid level of patches and images; for coarse to fine call solve_window() once a level, same workspace.
+  /// Pyramid level of patches and images; for coarse to fine call solve_window() once a level, same workspace.
+  int text_level = 0;
 
   int max_iterations = 10;  ///< Steps tried, rejected ones included.
-  double cost_tolerance =
-      1e-6;  ///< Converged where a step lowers (or is predicted to lower) the cost by no more than this fraction.
-  double step_tolerance = 1e-9;    ///< Converged where no parameter moves by more than this fraction of its scale
-                                   ///< (rotation: rad; others: relative to distances).
+  /// Converged where a step lowers (or is predicted to lower) the cost by no more than this fraction.
+  double cost_tolerance = 1e-6;
+  /// Converged where no parameter moves by more than this fraction of its scale (rotation: rad; others: relative to
+  /// distances).
+  double step_tolerance = 1e-9;
   double initial_lambda = 1e-5;    ///< Marquardt damping, relative to the diagonal.
   double max_lambda = 1e10;        ///< diverged beyond.
   double max_lost_fraction = 0.1;  ///< A step that loses more of the visible text pixels is rejected.
@@ -165,18 +166,18 @@ struct WindowSummary {
   /// Why it ended: see above.
   Status status = Status::too_few;
   double initial_cost = 0;  ///< E over what took part at the start.
-  double final_cost =
-      0;  ///< E at the final state. It can exceed the initial cost only where patches gained visible pixels meanwhile.
+  /// E at the final state. It can exceed the initial cost only where patches gained visible pixels meanwhile.
+  double final_cost = 0;
   int iterations = 0;  ///< Steps tried.
-  int accepted =
-      0;  ///< Steps taken; none raised the cost on the visible set of its linearisation, lost pixels charged.
+  /// Steps taken; none raised the cost on the visible set of its linearisation, lost pixels charged.
+  int accepted = 0;
   double last_step = 0;  ///< Scaled size of the last step taken, as step_tolerance measures it.
 
-  int gauge_freedom = 0;  ///< Degrees of freedom that no fixed frame or scale takes away: 7 a free-floating component,
-                          ///< 1 a missing scale.
-  int free_frames = 0;    ///< Frames adjusted.
-  int free_points = 0;    ///< Points solved for.
-  int free_texts = 0;     ///< Texts solved for.
+  /// Degrees of freedom that no fixed frame or scale takes away: 7 a free-floating component, 1 a missing scale.
+  int gauge_freedom = 0;
+  int free_frames = 0;         ///< Frames adjusted.
+  int free_points = 0;         ///< Points solved for.
+  int free_texts = 0;          ///< Texts solved for.
   int point_observations = 0;  ///< Took part.
   int text_observations = 0;   ///< Took part to the end.
   int undetermined = 0;        ///< Frames, points and texts with status rank_deficient.

@@ -72,8 +72,8 @@ class BasicWindowSchur {
   }
   void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
 
-  /// The same of two residuals e, whose derivatives are `rows`; `weighted` are derivatives times the weight, for a coupling those by
-  /// the camera.
+  /// The same of two residuals e, whose derivatives are `rows`; `weighted` are derivatives times the weight, for a
+  /// coupling those by the camera.
   void add_camera(int camera, const Matrix26& weighted, const Matrix26& rows, const Vector2<S>& e) noexcept {
     add_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
     add_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
