@@ -8,8 +8,8 @@
 // the first six of the seven columns as those of the tangent space, as VINS-Mono's does.)
 //
 // Residuals of a text observation, TextRows (docs/equations.md; c is the robust cost, H and b its normal equations):
-//   sums    P + 1 numbers, P = 3, 6 or 9 parameters: with H = L L^T the rows are J = L^T and r = L^-1 b, so that J^T J = H and J^T r = b,
-//           and a last residual without derivatives makes r^T r the cost. Ceres gets the sums of the SIMD kernel as they are,
+//   sums    P + 1 numbers, P = 3, 6 or 9 parameters: with H = L L^T the rows are J = L^T and r = L^-1 b, so that
+//           J^T J = H and J^T r = b. A last residual without derivatives makes r^T r the cost. Ceres gets the sums of the SIMD kernel as they are,
 //           a hundred times less than a row a pixel. J is no derivative of r, only of the cost: give
 //           ceres::GradientChecker r^T r / 2, not r.
 //   pixels  one number a pixel of the patch, +-sqrt(rho(e^2) / N), e = r sqrt(N), 0 where a pixel is not visible; by the double

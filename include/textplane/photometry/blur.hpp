@@ -29,11 +29,11 @@ struct BlurMatch {
   Matrix2d target = Matrix2d::Zero();
 };
 
-/// What each view lacks. `A`: d target px / d host px on the plane. The variances (px^2 of each image) describe the blur
-/// of the views: about half a pixel squared for a sharp lens, and 1/6 more for a target that is sampled bilinearly. Seen
-/// in the host, the target's blur is V_t M with M = (A^T A)^-1. The common blur B has the eigenvectors of M and, along
-/// each, `spread` times the larger variance. host = B - V_h I, target = A B A^T - V_t I. With a spread above 1 (2 is a good
-/// one) a filter of known shape outweighs the unknown part of the blur.
+/// What each view lacks. `A`: d target px / d host px on the plane. The variances (px^2 of each image) describe the
+/// blur of the views: about half a pixel squared for a sharp lens, and 1/6 more for a target that is sampled
+/// bilinearly. Seen in the host, the target's blur is V_t M with M = (A^T A)^-1. The common blur B has the eigenvectors
+/// of M and, along each, `spread` times the larger variance. host = B - V_h I, target = A B A^T - V_t I. With a spread
+/// above 1 (2 is a good one) a filter of known shape outweighs the unknown part of the blur.
 ///
 /// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1;
 /// *out is then untouched.

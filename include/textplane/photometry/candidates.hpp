@@ -9,8 +9,9 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// zncc[i] = ZNCC of the patch in the target under the pose T_t_h[i], over the pixels visible then; -1 where fewer than
-/// options.min_visible are or contrast is missing. `prepared`, of in.patch, makes it several times faster where all of the
-/// patch is visible; then the bound of simd/zncc.hpp holds, else that of evaluate(). options.robust has no influence.
+/// options.min_visible are or contrast is missing. `prepared`, of in.patch, makes it several times faster where all of
+/// the patch is visible; then the bound of simd/zncc.hpp holds, else that of evaluate(). options.robust has no
+/// influence.
 ///
 /// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1
 /// then. A candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.

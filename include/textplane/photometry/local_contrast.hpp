@@ -1,8 +1,9 @@
 // Intensities as they compare with those around them: what light that changes over a few strokes' width leaves alone.
 //
-// The photometric residual removes one gain and one bias of a whole patch. The edge of a shadow, a highlight or a lamp from
-// the side changes them within it. Here the mean of a window round every pixel is subtracted and its deviation divided
-// out, on both sides. Noise grows where contrast is low, so this pays where the light differs between the views.
+// The photometric residual removes one gain and one bias of a whole patch. The edge of a shadow, a highlight or a lamp
+// from the side changes them within it. Here the mean of a window round every pixel is subtracted and its deviation
+// divided out, on both sides. Noise grows where contrast is low, so this pays where the light differs between the
+// views.
 #ifndef TEXTPLANE_PHOTOMETRY_LOCAL_CONTRAST_HPP
 #define TEXTPLANE_PHOTOMETRY_LOCAL_CONTRAST_HPP
 

@@ -37,11 +37,7 @@ class PreparedTarget {
   /// kernels cannot read (below 2 x 2). Allocates where the image is larger than any before.
   Status prepare(const ImageView8& image) {
     width_ = height_ = 0;
-    simd::Image8 raw;
-    raw.data = image.data();
-    raw.stride = image.stride();
-    raw.width = image.width();
-    raw.height = image.height();
+    const simd::Image8 raw = {image.data(), image.stride(), image.width(), image.height()};
     if (!image.valid() || !simd::readable(raw)) return Status::invalid_argument;
     // Rows of a power of two bytes would keep falling on the same lines of a cache.
     stride_ = (static_cast<std::ptrdiff_t>(raw.width) + 31) / 32 * 32 + 32;
@@ -54,14 +50,7 @@ class PreparedTarget {
   }
 
   /// Valid until the next prepare().
-  PairView view() const noexcept {
-    PairView out;
-    out.data = pairs_.data();
-    out.stride = stride_;
-    out.width = width_;
-    out.height = height_;
-    return out;
-  }
+  PairView view() const noexcept { return {pairs_.data(), stride_, width_, height_}; }
 
  private:
   std::vector<std::uint16_t> pairs_;

@@ -18,7 +18,7 @@
 //   behind_camera     every pixel lies behind a camera          out_of_view    none is visible, for other reasons too
 //   no_contrast       options.min_contrast is not reached on either side
 //   non_finite        NaN or infinity in theta, pose or camera, or an overflow
-//   invalid_argument  null pointers, an image that is not valid(), focal lengths <= 0, bad options, too small a workspace
+//   invalid_argument  null pointers, an image that is not valid(), focal lengths <= 0, bad options, small workspace
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 

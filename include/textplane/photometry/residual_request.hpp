@@ -54,8 +54,8 @@ struct PhotometricOptions {
 /// parameters move q = H m~ (docs/equations.md):
 ///
 ///   forward            dI = a . dq,  a = dI_target/dq at the warped pixel
-///   template_jacobian  dI = c . dq,  c = H^-T a_h,  a_h = dI_host/dm~: where the images match, I_target(H m~) and I_host(m~)
-///                      have the same derivatives by m~, and m~ moves by H^-1 dq. Constant but for H^-1
+///   template_jacobian  dI = c . dq,  c = H^-T a_h,  a_h = dI_host/dm~: where the images match, I_target(H m~) and
+///                      I_host(m~) have the same derivatives by m~, and m~ moves by H^-1 dq. Constant but for H^-1
 ///   esm                the mean of the two normalised rows, right to second order near the match
 ///
 /// All three vanish together at a perfect match. Elsewhere only the first is a gradient of the cost, so a solver must

@@ -11,8 +11,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// What computed a result. A solver reports the greater of all its evaluations.
 enum class Path : std::uint8_t {
-  kernel,  ///< The SIMD kernels; also where a bad argument was found before anything was computed.
-  reference,  ///< The double reference, slow: float images, PhotometricOptions::precise, or numbers that float does not hold.
+  kernel,     ///< The SIMD kernels; also where a bad argument was found before anything was computed.
+  reference,  ///< The slow double reference: float images, PhotometricOptions::precise, numbers beyond float.
 };
 
 namespace detail {

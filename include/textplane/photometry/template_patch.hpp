@@ -162,7 +162,7 @@ class TemplatePatch {
     const double u = static_cast<double>(model_.u[i]), v = static_cast<double>(model_.v[i]);
     const double a = static_cast<double>(model_.gx[i]), b = static_cast<double>(model_.gy[i]), c = a * u + b * v;
     const double row[8] = {a, a * u, a * v, b, b * u, b * v, c * u, c * v};
-    for (int k = 0; k < 8; ++k) j[k] = row[k];
+    std::copy_n(row, 8, j);
   }
 
   std::vector<CacheLine<float>> floats_;

@@ -242,10 +242,7 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   simd::BatchArgs args;
   batch.fill(&args);
   result.fill(P, &args);
-  args.target.data = target.data();
-  args.target.stride = target.stride();
-  args.target.width = target.width();
-  args.target.height = target.height();
+  args.target = {target.data(), target.stride(), target.width(), target.height()};
   if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
@@ -257,10 +254,8 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   args.pose = T_t_h->R.data();
   args.pose_step = 12;
   args.t_offset = 9;
-  args.camera[0] = camera.fx;
-  args.camera[1] = camera.fy;
-  args.camera[2] = camera.cx;
-  args.camera[3] = camera.cy;
+  const double intrinsics[] = {camera.fx, camera.fy, camera.cx, camera.cy};
+  std::copy_n(intrinsics, 4, args.camera);
   args.exact = options.normalisation == Normalisation::exact;
   args.robust = static_cast<simd::RobustKind>(options.robust.kind);
   args.delta = options.robust.delta;

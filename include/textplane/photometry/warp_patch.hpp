@@ -9,7 +9,7 @@
 //   ok                at least one output pixel is inside
 //   out_of_view       none is; the output is all `fill`
 //   non_finite        NaN or infinity in H; nothing is written
-//   invalid_argument  an image that is not valid(), or a mask that is given and not of the output's size; nothing is written
+//   invalid_argument  an image that is not valid(), or a mask of another size than the output; nothing is written
 #ifndef TEXTPLANE_PHOTOMETRY_WARP_PATCH_HPP
 #define TEXTPLANE_PHOTOMETRY_WARP_PATCH_HPP
 
