@@ -9,15 +9,15 @@
 //
 // Residuals of a text observation, TextRows (docs/equations.md; c is the robust cost, H and b its normal equations):
 //   sums    P + 1 numbers, P = 3, 6 or 9 parameters: with H = L L^T the rows are J = L^T and r = L^-1 b, so that
-//           J^T J = H and J^T r = b. A last residual without derivatives makes r^T r the cost. Ceres gets the sums of the SIMD kernel as they are,
-//           a hundred times less than a row a pixel. J is no derivative of r, only of the cost: give
+//           J^T J = H and J^T r = b. A last residual without derivatives makes r^T r the cost. Ceres gets the sums of the
+//           SIMD kernel, a hundred times less than a row a pixel. J is the derivative of the cost alone, not of r: give
 //           ceres::GradientChecker r^T r / 2, not r.
-//   pixels  one number a pixel of the patch, +-sqrt(rho(e^2) / N), e = r sqrt(N), 0 where a pixel is not visible; by the double
-//           reference, slow.
+//   pixels  one number a pixel of the patch, +-sqrt(rho(e^2) / N), e = r sqrt(N), 0 where a pixel is not visible; by the
+//           slow double reference.
 // Both have the same cost and gradient.
 //
-// Robust costs: PhotometricOptions::robust acts on every pixel, which no loss on a residual block can do. So pass nullptr
-// as the loss of a text: another one acts on the whole object. Points take an ordinary loss (ceres::HuberLoss).
+// Robust costs: PhotometricOptions::robust acts on every pixel, which no loss on a residual block can do. So pass
+// nullptr as the loss of a text: another one acts on the whole object. Points take an ordinary loss (ceres::HuberLoss).
 //
 // Evaluate() answers false where the kernels have no result (the object left the image, lies behind a camera): Ceres
 // rejects that step, or refuses to start. It may be called on many threads at a time. Tested with Ceres 2.1.

@@ -1,4 +1,4 @@
-// What the Ceres cost functions of a text share (ceres.hpp): options, scratch memory, rows of residuals and derivatives.
+// What the Ceres cost functions of a text share (ceres.hpp): options, scratch memory, residuals and derivatives.
 #ifndef TEXTPLANE_ADAPTERS_CERES_TEXT_ROWS_HPP
 #define TEXTPLANE_ADAPTERS_CERES_TEXT_ROWS_HPP
 

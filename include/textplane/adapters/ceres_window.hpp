@@ -7,10 +7,10 @@
 //   ceres::Solve(solver, &problem.problem(), &summary);
 //   problem.write_back();
 //
-// Poses are blocks of the WindowProblem (T_w_c, PoseOrder::quaternion_translation, under PoseManifold); points and planes
-// are the window's own memory, which Ceres moves in place. What solve_window() leaves out at the start is left out, and
-// what is fixed is constant. Unlike there, a step that takes any observation out of view is rejected. The gauge is the
-// caller's: fix frames; WindowOptions::scale_frame_a is not carried over.
+// Poses are blocks of the WindowProblem (T_w_c, PoseOrder::quaternion_translation, under PoseManifold); points and
+// planes are the window's own memory, which Ceres moves in place. What solve_window() leaves out at the start is left
+// out, and what is fixed is constant. Unlike there, a step that takes any observation out of view is rejected. The
+// gauge is the caller's: fix frames; WindowOptions::scale_frame_a is not carried over.
 //
 // Ceres reports half of the cost of solve_window(). Window, patches and images must outlive the WindowProblem.
 #ifndef TEXTPLANE_ADAPTERS_CERES_WINDOW_HPP
