@@ -9,10 +9,10 @@
 //
 // Residuals of a text observation, TextRows (docs/equations.md; c is the robust cost, H and b its normal equations):
 //   sums    P + 1 numbers, P = 3, 6 or 9 parameters: with H = L L^T the rows are J = L^T and r = L^-1 b, so that
-//           J^T J = H and J^T r = b. A last residual without derivatives makes r^T r the cost. Ceres gets the sums of the
-//           SIMD kernel, a hundred times less than a row a pixel. J is the derivative of the cost alone, not of r: give
+//           J^T J = H and J^T r = b. A last residual without derivatives makes r^T r the cost. Ceres gets the sums of
+//           the SIMD kernel, a hundred times less than a row a pixel. J is the derivative of the cost, not of r: give
 //           ceres::GradientChecker r^T r / 2, not r.
-//   pixels  one number a pixel of the patch, +-sqrt(rho(e^2) / N), e = r sqrt(N), 0 where a pixel is not visible; by the
+//   pixels  one number a pixel of the patch, +-sqrt(rho(e^2) / N), e = r sqrt(N), 0 where it is not visible; by the
 //           slow double reference.
 // Both have the same cost and gradient.
 //

@@ -1,7 +1,7 @@
 // Intensities as they compare with those around them: what light that changes over a few strokes' width leaves alone.
 //
 // The photometric residual removes one gain and one bias of a whole patch. The edge of a shadow, a highlight or a lamp
-// from the side changes them within it. Here the mean of a window round every pixel is subtracted and its deviation
+// from the side changes them within it. Here the mean of a square round every pixel is subtracted and its deviation
 // divided out, on both sides. Noise grows where contrast is low, so this pays where the light differs between the
 // views.
 #ifndef TEXTPLANE_PHOTOMETRY_LOCAL_CONTRAST_HPP
@@ -22,10 +22,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// How LocalContrast compares a pixel with its surroundings.
 struct LocalContrastOptions {
-  int radius = 6;       ///< px: the window is a square of 2 radius + 1, cut where the image ends; in [1, kMaxRadius].
+  int radius = 6;       ///< px: the square has 2 radius + 1 a side, cut where the image ends; in [1, kMaxRadius].
   double floor = 4.0;   ///< Grey levels: deviations well below this are taken for noise and not made larger.
   double scale = 40.0;  ///< Grey levels that one deviation becomes.
-  /// px, of the largest window.
+  /// px, of the largest square.
   static constexpr int kMaxRadius = 64;
 
   /// Whether the numbers make sense.
@@ -34,7 +34,7 @@ struct LocalContrastOptions {
   }
 };
 
-/// Replaces I by 128 + scale (I - mean) / sqrt(variance + floor^2), mean and variance being those of a window round the
+/// Replaces I by 128 + scale (I - mean) / sqrt(variance + floor^2), mean and variance being those of a square round the
 /// pixel; cut to [0, 255], rounded. The cost a pixel does not depend on the window. Keeps the memory that this takes:
 /// use one a thread.
 class LocalContrast {
@@ -98,7 +98,7 @@ class LocalContrast {
     }
   }
 
-  // Pixels [x0, x1) of a row, from the sums over its window's `rows` rows of the n columns from `left` on.
+  // Pixels [x0, x1) of a row, from the sums over its square's `rows` rows of the n columns from `left` on.
   void write_row(const std::uint8_t* row, int rows, int left, std::size_t n, int x0, int x1, int width,
                  std::uint8_t* to) noexcept {
     const int r = options_.radius;
@@ -128,8 +128,8 @@ class LocalContrast {
   }
 
   LocalContrastOptions options_;
-  std::vector<std::int32_t> sums_;  // of the window's rows, a column each: values, then squares
-  std::vector<float> means_;        // of the window of each pixel of a row: values, then squares
+  std::vector<std::int32_t> sums_;  // of the square's rows, a column each: values, then squares
+  std::vector<float> means_;        // of the square of each pixel of a row: values, then squares
 };
 
 TEXTPLANE_END_NAMESPACE

@@ -115,9 +115,9 @@ class TemplatePatch {
       squares += kept * kept;
     }
     model_.mean = sum / patch.n;
-    const double spread = squares - sum * model_.mean;
-    if (!(spread > 0)) return false;
-    model_.norm = std::sqrt(spread);
+    const double squared_norm = squares - sum * model_.mean;
+    if (!(squared_norm > 0)) return false;
+    model_.norm = std::sqrt(squared_norm);
     model_.s = model_.norm / scale;
     return true;
   }
