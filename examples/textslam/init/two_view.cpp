@@ -29,14 +29,16 @@ double huber_weight(double r, double bound) { return std::abs(r) <= bound ? 1 : 
 double huber_cost(double r, double bound) { return std::abs(r) <= bound ? r * r : bound * (2 * std::abs(r) - bound); }
 
 // The rotation that best turns a into b, translation ignored: where the search starts.
-Eigen::Matrix3d rotation_only(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal) {
+Eigen::Matrix3d rotation_only(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double focal,
+                              const Parameters& parameters) {
+  const double scale = parameters.init_rotation_scale;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  for (int iteration = 0; iteration < 10; ++iteration) {
+  for (int iteration = 0; iteration < parameters.init_rotation_iterations; ++iteration) {
     Eigen::Matrix3d H = 1e-9 * Eigen::Matrix3d::Identity();
     Vec3 g = Vec3::Zero();
     for (std::size_t i = 0; i < a.size(); ++i) {
       const Vec3 p = (R * a[i]).normalized(), e = p - b[i].normalized();
-      const double w = 1 / (1 + focal * focal * e.squaredNorm() / 100);
+      const double w = 1 / (1 + focal * focal * e.squaredNorm() / (scale * scale));
       const Eigen::Matrix3d J = -textplane::hat(p);
       H += w * J.transpose() * J;
       g += w * J.transpose() * e;
@@ -115,7 +117,7 @@ class TwoViewSearch {
   // All distinct minima, the best first.
   std::vector<Hypothesis> minima() {
     Hypothesis start;
-    start.R = rotation_only(a_, b_, focal_);
+    start.R = rotation_only(a_, b_, focal_, parameters_);
     // A half-sphere of directions: t and -t have the same epipolar lines.
     for (int polar = 0; polar < 4; ++polar) {
       const int around = polar == 0 ? 1 : polar == 3 ? 3 : 6;

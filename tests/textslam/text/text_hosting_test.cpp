@@ -1,5 +1,6 @@
 // A camera that walks up to a sign: the text gets a host that shows it better, and stays the sign that it was.
 #include "textslam/text/text_hosting.hpp"
+#include "textslam/map/text_geometry.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 // The last refinement tells how sure a plane is: views that disagree make it less so, the surface round it more.
 #include "textslam/text/text_refiner.hpp"
+#include "textslam/map/text_geometry.hpp"
 
 #include "textslam/map/observations.hpp"
 #include "textslam/text/text_hosting_support.hpp"

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "textplane/geometry/plane.hpp"
+#include "textslam/map/text_geometry.hpp"
 #include "textslam/text/text_surface.hpp"
 
 namespace textslam {
