@@ -53,8 +53,8 @@ const FrameRecord& System::process(const Frame& frame, double detect_ms) {
   return record;
 }
 
-// After each change of the map's key frames, what depends on them is updated here: the tracker (the last frame's pose, and
-// lengths by `scale`) and the live world; where that frame is the newest key frame, also the local map and its record.
+// After each change of the map's key frames, what depends on them is updated here: the tracker (the last frame's pose,
+// and lengths by `scale`) and the live world; for `newest`, that frame as newest key frame, also local map and pose.
 void System::map_changed(const SE3d& T_c_w, FrameRecord* newest, double scale) {
   if (newest) local_ = local_map(map_, parameters_, last_keyframe_);
   if (tracker_) tracker_->correct(T_c_w, scale);

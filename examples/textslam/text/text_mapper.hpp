@@ -1,8 +1,8 @@
 // TextMapper: the life of a text object (sections IV-B and V of the paper).
 //
 //   candidate  a detection in a key frame, on no known text and off the image border; its corners are tracked
-//   tentative  theta by the linear system [m']x t m^T theta = -[m']x R m once they have parallax, else by the map points
-//              round it; refined photometrically against its views
+//   tentative  theta by the linear system [m']x t m^T theta = -[m']x R m once the corners have parallax, else by map
+//              points round it; refined photometrically against its views
 //   mapped     after n_min observations: takes part in tracking and adjustment; gets a better host (text_hosting.hpp)
 //   dropped    by the rules of culling.hpp
 #ifndef TEXTSLAM_TEXT_TEXT_MAPPER_HPP
