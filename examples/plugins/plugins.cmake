@@ -4,7 +4,10 @@ option(TEXTSLAM_TESSERACT "Build the detector and reader `tesseract` (Debian: li
 option(TEXTSLAM_VIDEO "Read video files (Debian: libavformat-dev libavcodec-dev libswscale-dev)" OFF)
 
 textplane_add_example_library(plugins textplane_textslam)
-target_sources(textplane_plugins PRIVATE detectors/east_boxes.cpp detectors/line_picture.cpp)
+# Those of detectors/ that need no library; the others follow.
+file(GLOB detectors CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/detectors/*.cpp)
+list(FILTER detectors EXCLUDE REGEX "/(db|dnn|tesseract)_[a-z]+\\.cpp$")
+target_sources(textplane_plugins PRIVATE ${detectors})
 if(TEXTSLAM_DNN)
   find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs dnn)
   target_sources(textplane_plugins PRIVATE detectors/db_boxes.cpp detectors/dnn_detector.cpp detectors/dnn_reader.cpp)
