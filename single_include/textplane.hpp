@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 117 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: d1addbfcb9f60944
+// Hash of these files: b635f279ab74ecd7
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 d1addbfcb9f60944"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 b635f279ab74ecd7"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -2112,10 +2112,9 @@ TEXTPLANE_END_NAMESPACE
 
 // Blur that makes two views of a plane alike.
 //
-// A camera blurs by its own pixels: on the plane, a view from afar or at a slant is the more blurred one, and along another
-// direction. Where strokes are a few pixels wide, intensities then differ most beside edges, and the plane that fits them best is
-// turned away from the true one, by degrees for small text. match_blur() says what each of two views lacks, the other functions
-// apply it.
+// A camera blurs by its own pixels: on the plane, the view from farther away or at a steeper slant is blurred more, and
+// in another direction. Text strokes are a few pixels wide, so intensities then differ most beside edges, and the plane
+// that fits best is turned by degrees. match_blur() says what each view lacks; the other functions apply it.
 #ifndef TEXTPLANE_PHOTOMETRY_BLUR_HPP
 #define TEXTPLANE_PHOTOMETRY_BLUR_HPP
 
@@ -2136,8 +2135,8 @@ TEXTPLANE_END_NAMESPACE
 
 // Pyramid: an image and its repeated halves.
 //
-// Pixel x of level l lies at (x + 0.5) * 2^l - 0.5 of level 0: each level is the mean of 2 x 2 pixels of the one before, so
-// its pixel centres are the centres of those blocks. Pinhole::at_level() gives the camera that fits.
+// Pixel x of level l lies at (x + 0.5) * 2^l - 0.5 of level 0: each level is the mean of 2 x 2 pixels of the one
+// before, so its pixel centres are the centres of those blocks. Pinhole::at_level() gives the camera that fits.
 #ifndef TEXTPLANE_PHOTOMETRY_PYRAMID_HPP
 #define TEXTPLANE_PHOTOMETRY_PYRAMID_HPP
 
@@ -5946,11 +5945,11 @@ struct PyramidView {
   int levels = 0;
 };
 
-/// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). An odd last row
-/// or column of src is dropped.
+/// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). An odd
+/// last row or column of src is dropped.
 ///
-/// dst must be (src.width() / 2) x (src.height() / 2) and must not overlap src; otherwise, or where one of the views is not
-/// valid(), Status::invalid_argument and nothing is written.
+/// dst must be (src.width() / 2) x (src.height() / 2) and must not overlap src; otherwise, or where one of the views is
+/// not valid(), Status::invalid_argument and nothing is written.
 inline Status halve(const ImageView8& src, const ImageView<std::uint8_t>& dst) noexcept {
   if (!src.valid() || !dst.valid() || dst.width() != src.width() / 2 || dst.height() != src.height() / 2)
     return Status::invalid_argument;
@@ -5966,8 +5965,8 @@ class Pyramid {
   explicit Pyramid(const ImageView8& image, int levels = 4) { build(image, levels); }
 
   /// Fills the pyramid anew. Allocates only where the memory of the last build is too small. Fewer than `levels` levels
-  /// result where the next one would be empty; levels() tells. Status::invalid_argument for an image that is not valid() or
-  /// `levels` outside [1, kMaxPyramidLevels]: the pyramid then has no levels.
+  /// result where the next one would be empty; levels() tells. Status::invalid_argument for an image that is not
+  /// valid() or `levels` outside [1, kMaxPyramidLevels]: the pyramid then has no levels.
   Status build(const ImageView8& image, int levels) {
     count_ = 0;
     if (!image.valid() || levels < 1 || levels > kMaxPyramidLevels) return Status::invalid_argument;
@@ -5997,7 +5996,8 @@ class Pyramid {
   /// How many levels it has; 0 before it is built.
   int levels() const noexcept { return count_; }
 
-  /// Level l, an empty view for l outside [0, levels()). It lives as long as the pyramid is neither built anew nor moved.
+  /// Level l, an empty view for l outside [0, levels()). It lives as long as the pyramid is neither built anew nor
+  /// moved.
   ImageView8 level(int l) const noexcept {
     if (l < 0 || l >= count_) return {};
     const auto i = static_cast<std::size_t>(l);
@@ -6026,8 +6026,8 @@ TEXTPLANE_END_NAMESPACE
 #endif  // TEXTPLANE_PHOTOMETRY_PYRAMID_HPP
 // Bilinear interpolation with the gradient of the interpolant itself.
 //
-// The interpolant is continuous, its gradient jumps at pixel lines: on a line it is that of the cell to the right (below),
-// on the last column (row) that of the cell to the left (above).
+// The interpolant is continuous, its gradient jumps at pixel lines: on a line it is that of the cell to the right
+// (below), on the last column (row) that of the cell to the left (above).
 #ifndef TEXTPLANE_PHOTOMETRY_SAMPLE_HPP
 #define TEXTPLANE_PHOTOMETRY_SAMPLE_HPP
 
@@ -6068,9 +6068,9 @@ void sample_inside(const ImageView<const T>& image, const S& x, const S& y, S* v
 
 /// Bilinear interpolant of the image at (x, y), in the image's units, and (where asked for) its gradient in units a px.
 ///
-/// Domain [0, width - 1] x [0, height - 1], borders included. False, and nothing written, outside of it, for NaN, and for an
-/// image that is not valid(). T: std::uint8_t or float. S: float, double, or a dual number, whose derivative then is that of
-/// the interpolant. Non-finite pixels of a float image give a non-finite value.
+/// Domain [0, width - 1] x [0, height - 1], borders included. False, and nothing written, outside of it, for NaN, and
+/// for an image that is not valid(). T: std::uint8_t or float. S: float, double, or a dual number, whose derivative
+/// then is that of the interpolant. Non-finite pixels of a float image give a non-finite value.
 template <class T, class S>
 bool sample_bilinear(const ImageView<const T>& image, S x, S y, S* value, S* gx = nullptr, S* gy = nullptr) noexcept {
   if (!image.valid() || !image.contains(x, y)) return false;
@@ -8161,9 +8161,10 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// n host pixels of one pyramid level, as arrays that somebody else owns: positions in px of that level, intensities there,
-/// and optionally a byte each that is zero for pixels to be left out (null: all count). gx, gy: the host image's gradient
-/// there, in intensity units a px, which template_jacobian and esm need (null: these policies are not possible).
+/// n host pixels of one pyramid level, as arrays that somebody else owns: positions in px of that level, intensities
+/// there, and optionally a byte each that is zero for pixels to be left out (null: all count). gx, gy: the host image's
+/// gradient there, in intensity units a px, which template_jacobian and esm need (null: these policies are not
+/// possible).
 struct PatchView {
   /// Columns, px of the level.
   const float* x = nullptr;
@@ -8208,8 +8209,8 @@ struct PatchLevel {
   }
 };
 
-/// Gradient of the host at one of its pixels (x, y): the symmetric difference of the bilinear interpolant over one px, one
-/// side of it at the image's border. Unlike the interpolant's own gradient it favours no side at integer positions.
+/// Gradient of the host at one of its pixels (x, y): the symmetric difference of the bilinear interpolant over one px,
+/// one side of it at the image's border. Unlike the interpolant's own gradient it favours no side at integer positions.
 /// The image must contain (x, y); zero along an axis of one pixel.
 inline void host_gradient(const ImageView8& image, float x, float y, float* gx, float* gy) noexcept {
   const float left = std::max(x - 0.5F, 0.0F), right = std::min(x + 0.5F, static_cast<float>(image.width() - 1));
@@ -8243,8 +8244,8 @@ struct TextPatch {
 /// bilinearly, its gradient by host_gradient(). Positions outside the image and NaN are dropped. Levels beyond those of
 /// `host` are ignored.
 ///
-/// Status::too_few where no level has `min_pixels` (the paper's 15) left, non_finite for a NaN quad, invalid_argument for an
-/// empty pyramid, no pixel lists or a camera that is not valid(). Allocates.
+/// Status::too_few where no level has `min_pixels` (the paper's 15) left, non_finite for a NaN quad, invalid_argument
+/// for an empty pyramid, no pixel lists or a camera that is not valid(). Allocates.
 TEXTPLANE_DEFERRED
 TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
                             const std::vector<std::vector<Vector2<float>>>& pixels, int min_pixels = 15) {
@@ -8302,15 +8303,14 @@ struct BlurMatch {
   Matrix2d target = Matrix2d::Zero();
 };
 
-/// What each view lacks. `A`: d target px / d host px of the plane where the object is. The variances, px^2 of each image, are of
-/// the blur that the views have: half a pixel squared or so for a sharp lens; for a target that is sampled bilinearly 1/6 more,
-/// the mean variance of that interpolation. Seen in the host the target's blur is V_t (A^T A)^-1; the common blur B has the
-/// eigenvectors of (A^T A)^-1 and `spread` times the larger of both variances along each. Then host = B - V_h I and
-/// target = A B A^T - V_t I. A spread above 1 (2 is a good one) lets a filter of known shape outweigh what is not known of the
-/// views' own.
+/// What each view lacks. `A`: d target px / d host px on the plane. The variances (px^2 of each image) describe the
+/// blur of the views: about half a pixel squared for a sharp lens, and 1/6 more for a target that is sampled
+/// bilinearly. Seen in the host, the target's blur is V_t M with M = (A^T A)^-1. The common blur B has the eigenvectors
+/// of M and, along each, `spread` times the larger variance. host = B - V_h I, target = A B A^T - V_t I. With a spread
+/// above 1 (2 is a good one) a filter of known shape outweighs the unknown part of the blur.
 ///
-/// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1; *out is then
-/// untouched.
+/// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1;
+/// *out is then untouched.
 template <class S = double>  // instantiated where it is called: including the header costs little
 Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
                   BlurMatch* out) noexcept {
@@ -8340,8 +8340,9 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
   return Status::ok;
 }
 
-/// A Gaussian filter on the pixel grid, of a covariance in px^2 (variances are cut at 0 from below and at kMaxVariance from
-/// above along the principal axes; what is not finite counts as 0). Weights are means over a pixel and sum to 1. No allocation.
+/// A Gaussian filter on the pixel grid, of a covariance in px^2 (variances are cut at 0 from below and at kMaxVariance
+/// from above along the principal axes; what is not finite counts as 0). Weights are means over a pixel and sum to 1.
+/// No allocation.
 class BlurKernel {
  public:
   /// px, of the widest kernel.
@@ -8403,9 +8404,9 @@ class BlurKernel {
 /// Filters images; keeps the memory that this takes. Beyond the image its border pixels go on.
 class BlurFilter {
  public:
-  /// Writes the filtered pixels [x0, x1) x [y0, y1) of `from` to the same places of `to`, rounded. What of the rectangle lies
-  /// outside the image is left out. The rest of `to` stays. invalid_argument for views that are not valid() or not of one size.
-  /// Allocates while it meets a larger rectangle than before.
+  /// Writes the filtered pixels [x0, x1) x [y0, y1) of `from` to the same places of `to`, rounded. What of the
+  /// rectangle lies outside the image is left out. The rest of `to` stays. invalid_argument for views that are not
+  /// valid() or not of one size. Allocates while it meets a larger rectangle than before.
   Status operator()(const ImageView8& from, const BlurKernel& kernel, int x0, int y0, int x1, int y1,
                     const ImageView<std::uint8_t>& to) {
     if (!from.valid() || !to.valid() || to.width() != from.width() || to.height() != from.height())
@@ -8424,8 +8425,8 @@ class BlurFilter {
     return Status::ok;
   }
 
-  /// The intensities of a patch's level, taken anew from the filtered host image; gradients stay. Its positions must be whole
-  /// pixels of `host`, as select_pixels() gives them; those outside keep their intensity.
+  /// The intensities of a patch's level, taken anew from the filtered host image; gradients stay. Its positions must be
+  /// whole pixels of `host`, as select_pixels() gives them; those outside keep their intensity.
   Status operator()(const ImageView8& host, const BlurKernel& kernel, PatchLevel* level) {
     if (!host.valid()) return Status::invalid_argument;
     const std::size_t n = level->x.size();
@@ -8497,31 +8498,31 @@ TEXTPLANE_END_NAMESPACE
 // The photometric residual of a planar text object and its normal equations. `reference` has the same in double
 // (residual_reference.hpp): slow, and the definition.
 //
-// linearise() and evaluate() run in float vectors where the target is 8-bit (simd/residual.hpp states the error), and are those
-// of `reference` otherwise; Path in the result tells. A pixel within about 1e-4 px of the image's
-// border or of a pixel line may fall on either side of it in the fast form.
+// linearise() and evaluate() run in float vectors where the target is 8-bit (simd/residual.hpp states the error), and
+// are those of `reference` otherwise; Path in the result tells. A pixel within about 1e-4 px of the image's border or
+// of a pixel line may fall on either side of it in the fast form.
 //
-// Residual of pixel i (docs/equations.md; the paper's E_text): r_i = I~_host(x_i) - I~_target(K pi(H m~_i)), with
-// H = R + t theta^T of T_t_h and I~ = (I - mean) / ||I - mean|| over the visible pixels alone, on the host's side, too. So r
+// Residual of pixel i (docs/equations.md; the paper's E_text): r_i = I~_host(x_i) - I~_target(K pi(H m~_i)), with H = R
+// + t theta^T of T_t_h and I~ = (I - mean) / ||I - mean|| over the visible pixels alone, on the host's side, too. So r
 // does not change with gain and bias of either image. E = sum r^2 is in [0, 4] and ZNCC = 1 - E / 2.
 //
 // A pixel is visible when it is not masked, its plane point lies in front of both cameras (theta^T m~ > 0, q_z > 0), it
-// projects into [0, w - 1] x [0, h - 1] of the target, and both of its intensities are finite. Image gradients are those of
-// the bilinear interpolant. Parameters names the unknowns, their order, units and perturbation.
+// projects into [0, w - 1] x [0, h - 1] of the target, and both of its intensities are finite. Image gradients are
+// those of the bilinear interpolant. Parameters names the unknowns, their order, units and perturbation.
 //
 // All functions: noexcept, no allocation, thread-safe for distinct workspaces. Status (results are zero unless is_ok):
 //   too_few           fewer than options.min_visible visible pixels (or an empty or wholly masked patch)
 //   behind_camera     every pixel lies behind a camera          out_of_view    none is visible, for other reasons too
 //   no_contrast       options.min_contrast is not reached on either side
 //   non_finite        NaN or infinity in theta, pose or camera, or an overflow
-//   invalid_argument  null pointers, an image that is not valid(), focal lengths <= 0, bad options, too small a workspace
+//   invalid_argument  null pointers, an image that is not valid(), focal lengths <= 0, bad options, small workspace
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 
 // The typed side of simd/residual.hpp: which requests the float kernels take, what they are given, and what comes back.
 //
-// They take 8-bit targets of at least 2 x 2 pixels. The double reference takes all others, and the few cases that float does
-// not carry (numbers far out of proportion, a plane through the target's camera centre).
+// They take 8-bit targets of at least 2 x 2 pixels. The double reference takes all others, and the few cases that float
+// does not carry (numbers far out of proportion, a plane through the target's camera centre).
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 
@@ -17678,8 +17679,8 @@ class PhotometricWorkspace {
   /// Kernels answer Status::invalid_argument for patches of more pixels than this.
   int capacity() const noexcept { return static_cast<int>(visible_.size()); }
 
-  /// The visible set of the last linearise() or residuals() that got as far as looking at the pixels: a byte for each pixel of
-  /// its patch, 1 where visible. evaluate() leaves it alone, so that it can be passed there as `on_set`.
+  /// The visible set of the last linearise() or residuals() that got as far as looking at the pixels: a byte for each
+  /// pixel of its patch, 1 where visible. evaluate() leaves it alone, so that it can be passed there as `on_set`.
   const std::uint8_t* visible() const noexcept { return visible_.data(); }
 
   /// Where the kernels write visible().
@@ -17710,7 +17711,8 @@ class PhotometricWorkspace {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_PHOTOMETRIC_WORKSPACE_HPP
-// ResidualRequest: what the photometric residual is to be evaluated for. linearise(), evaluate() and residuals() take it.
+// ResidualRequest: what the photometric residual is to be evaluated for. linearise(), evaluate() and residuals() take
+// it.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REQUEST_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REQUEST_HPP
 
@@ -17728,9 +17730,9 @@ TEXTPLANE_END_NAMESPACE
 
 // PreparedTarget: a form of an 8-bit target image from which the kernels sample faster than from its rows.
 //
-// Every pixel lies beside the one below it, pairs(x, y) = I(x, y) | I(x, y + 1) << 8, so that the four pixels of a bilinear cell
-// are one load. Preparing costs about what a copy of the image does, and pays where a frame is sampled often: see
-// docs/benchmarks.md.
+// Every pixel lies beside the one below it, pairs(x, y) = I(x, y) | I(x, y + 1) << 8, so that the four pixels of a
+// bilinear cell are one load. Preparing costs about what a copy of the image does, and pays where a frame is sampled
+// often: see docs/benchmarks.md.
 #ifndef TEXTPLANE_PHOTOMETRY_PREPARED_TARGET_HPP
 #define TEXTPLANE_PHOTOMETRY_PREPARED_TARGET_HPP
 
@@ -17757,15 +17759,11 @@ class PreparedTarget {
   /// As prepare().
   explicit PreparedTarget(const ImageView8& image) { prepare(image); }
 
-  /// Fills the pairs of `image`. invalid_argument, and none afterwards, for an image that is not valid() or that the kernels
-  /// cannot read (below 2 x 2). Allocates where the image is larger than any before.
+  /// Fills the pairs of `image`. invalid_argument, and none afterwards, for an image that is not valid() or that the
+  /// kernels cannot read (below 2 x 2). Allocates where the image is larger than any before.
   Status prepare(const ImageView8& image) {
     width_ = height_ = 0;
-    simd::Image8 raw;
-    raw.data = image.data();
-    raw.stride = image.stride();
-    raw.width = image.width();
-    raw.height = image.height();
+    const simd::Image8 raw = {image.data(), image.stride(), image.width(), image.height()};
     if (!image.valid() || !simd::readable(raw)) return Status::invalid_argument;
     // Rows of a power of two bytes would keep falling on the same lines of a cache.
     stride_ = (static_cast<std::ptrdiff_t>(raw.width) + 31) / 32 * 32 + 32;
@@ -17778,14 +17776,7 @@ class PreparedTarget {
   }
 
   /// Valid until the next prepare().
-  PairView view() const noexcept {
-    PairView out;
-    out.data = pairs_.data();
-    out.stride = stride_;
-    out.width = width_;
-    out.height = height_;
-    return out;
-  }
+  PairView view() const noexcept { return {pairs_.data(), stride_, width_, height_}; }
 
  private:
   std::vector<std::uint16_t> pairs_;
@@ -17842,17 +17833,17 @@ BasicPhotometricInput<PixelOf<View>> level_input(const TextPatch& patch, int lev
 
 /// The input of pyramid level `level`; `target_camera` is that of level 0.
 ///
-/// `scale_shift` s pairs levels of one scale where host and target see the object at different sizes: with s > 0 the target's
-/// level is `level` + s, with s < 0 the host's is `level` - s. Neither side is then sampled more coarsely than its pixels,
-/// which would alias. See scale_shift(). A level that patch or target lacks gives an input that every kernel answers with
-/// Status::invalid_argument.
+/// `scale_shift` s pairs levels of one scale where host and target see the object at different sizes: with s > 0 the
+/// target's level is `level` + s, with s < 0 the host's is `level` - s. Neither side is then sampled more coarsely than
+/// its pixels, which would alias. See scale_shift(). A level that patch or target lacks gives an input that every
+/// kernel answers with Status::invalid_argument.
 inline PhotometricInput photometric_input(const TextPatch& patch, int level, const PyramidView& target,
                                           const Pinhole<double>& target_camera, int scale_shift = 0) noexcept {
   return detail::level_input(patch, level, target, target_camera, scale_shift);
 }
 
-/// The shift of photometric_input() for an object of these areas (px^2, level 0) in host and target: the difference of their
-/// scales in octaves, rounded, at most `limit` either way. 0 for areas that are not positive and finite.
+/// The shift of photometric_input() for an object of these areas (px^2, level 0) in host and target: the difference of
+/// their scales in octaves, rounded, at most `limit` either way. 0 for areas that are not positive and finite.
 inline int scale_shift(double host_area, double target_area, int limit = 1) noexcept {
   if (!(host_area > 0) || !(target_area > 0) || !is_finite(host_area) || !is_finite(target_area)) return 0;
   const double octaves = std::round(0.5 * std::log2(target_area / host_area));
@@ -17874,7 +17865,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// The shape of a robust cost: see Robust.
 enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
 
-/// A robust cost rho(r^2) that is r^2 near zero, and its derivative, the weight of iteratively re-weighted least squares.
+/// A robust cost rho(r^2) that is r^2 near zero, and its derivative, the weight of iteratively re-weighted least
+/// squares.
 ///
 /// With d = delta, in the unit of the residual r, and r2 = r^2 >= 0:
 ///   l2      rho = r2                                           weight = 1
@@ -17975,12 +17967,12 @@ struct PhotometricOptions {
 /// parameters move q = H m~ (docs/equations.md):
 ///
 ///   forward            dI = a . dq,  a = dI_target/dq at the warped pixel
-///   template_jacobian  dI = c . dq,  c = H^-T a_h,  a_h = dI_host/dm~: where the images match, I_target(H m~) and I_host(m~)
-///                      have the same derivatives by m~, and m~ moves by H^-1 dq. Constant but for H^-1
+///   template_jacobian  dI = c . dq,  c = H^-T a_h,  a_h = dI_host/dm~: where the images match, I_target(H m~) and
+///                      I_host(m~) have the same derivatives by m~, and m~ moves by H^-1 dq. Constant but for H^-1
 ///   esm                the mean of the two normalised rows, right to second order near the match
 ///
-/// All three vanish together at a perfect match. Elsewhere only the first is a gradient of the cost, so a solver must judge
-/// the steps of the others by the cost. Ours do.
+/// All three vanish together at a perfect match. Elsewhere only the first is a gradient of the cost, so a solver must
+/// judge the steps of the others by the cost. Ours do.
 enum class LinearisePolicy : std::uint8_t {
   forward,            ///< Gradients of the target: the derivative of the cost itself.
   template_jacobian,  ///< Gradients of the host, prepared once: the cheapest iteration.
@@ -17988,8 +17980,8 @@ enum class LinearisePolicy : std::uint8_t {
   automatic,          ///< A coarse-to-fine solver chooses by level: see policy_at_level().
 };
 
-/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where forward ends at the minimum of the
-/// cost. The other policies are themselves on every level.
+/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where forward ends at the minimum of
+/// the cost. The other policies are themselves on every level.
 constexpr LinearisePolicy policy_at_level(LinearisePolicy policy, int level, int finest_level) noexcept {
   return policy != LinearisePolicy::automatic ? policy
          : level > finest_level               ? LinearisePolicy::esm
@@ -18000,8 +17992,8 @@ class TemplatePatch;
 template <class T>
 struct PolicyRequest;
 
-/// One patch in one target under one pose and plane; T is the pixel type of the target (std::uint8_t or float). An aggregate:
-/// ResidualRequest{input, theta, T_t_h, options}. It refers to pixels and images, and owns the rest.
+/// One patch in one target under one pose and plane; T is the pixel type of the target (std::uint8_t or float). An
+/// aggregate: ResidualRequest{input, theta, T_t_h, options}. It refers to pixels and images, and owns the rest.
 template <class T>
 struct ResidualRequest {
   /// Patch, target and cameras.
@@ -18009,13 +18001,13 @@ struct ResidualRequest {
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_t_h = {};                                  ///< Host to target.
   PhotometricOptions options = {};
-  /// For Parameters::host_target_plane alone, see world_request(): target to world, with T_w_h = T_w_t T_t_h, and the side
-  /// that both world poses are perturbed on, T_w_x <- Exp(xi_x) T_w_x or T_w_x <- T_w_x Exp(xi_x).
+  /// For Parameters::host_target_plane alone, see world_request(): target to world, with T_w_h = T_w_t T_t_h, and the
+  /// side that both world poses are perturbed on, T_w_x <- Exp(xi_x) T_w_x or T_w_x <- T_w_x Exp(xi_x).
   SE3d T_w_t = {};
   PerturbationSide side = PerturbationSide::right;
 
-  /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if given, is
-  /// of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
+  /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if
+  /// given, is of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
   PolicyRequest<T> by(LinearisePolicy policy, const TemplatePatch* prepared = nullptr) const noexcept {
     return {*this, policy, prepared};
   }
@@ -18024,8 +18016,8 @@ template <class T>
 ResidualRequest(BasicPhotometricInput<T>, Vector3<double> = {}, SE3d = {}, PhotometricOptions = {})
     -> ResidualRequest<T>;
 
-/// A request whose derivatives follow a policy. A type of its own, so that a program that never chooses one compiles the
-/// forward kernels alone.
+/// A request whose derivatives follow a policy. A type of its own, so that a program that never chooses one compiles
+/// the forward kernels alone.
 template <class T>
 struct PolicyRequest : ResidualRequest<T> {
   LinearisePolicy policy = LinearisePolicy::forward;
@@ -18053,8 +18045,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// What computed a result. A solver reports the greater of all its evaluations.
 enum class Path : std::uint8_t {
-  kernel,  ///< The SIMD kernels; also where a bad argument was found before anything was computed.
-  reference,  ///< The double reference, slow: float images, PhotometricOptions::precise, or numbers that float does not hold.
+  kernel,     ///< The SIMD kernels; also where a bad argument was found before anything was computed.
+  reference,  ///< The slow double reference: float images, PhotometricOptions::precise, numbers beyond float.
 };
 
 namespace detail {
@@ -18077,8 +18069,9 @@ struct ResidualStats {
   Path path = Path::kernel;  ///< What computed them.
 };
 
-/// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P), and
-/// the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless is_ok(status).
+/// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P),
+/// and the robust weights W, H = J^T W J and b = J^T W r. The Gauss-Newton step is -H^-1 b. All zero unless
+/// is_ok(status).
 template <int P>
 struct NormalEquations : ResidualStats {
   /// J^T W J.
@@ -18087,7 +18080,8 @@ struct NormalEquations : ResidualStats {
   Eigen::Matrix<double, P, 1> b;
 
   NormalEquations() noexcept { clear(); }
-  /// Leaves H and b as they are in memory, for callers that fill them at once: zeroing both takes as long as some kernels.
+  /// Leaves H and b as they are in memory, for callers that fill them at once: zeroing both takes as long as some
+  /// kernels.
   explicit NormalEquations(detail::Unset) noexcept {}
   /// H and b become zero.
   void clear() noexcept {
@@ -18144,9 +18138,9 @@ struct IntensityStats {
 
 /// Statistics of those of the n values whose mask byte is not zero (a null mask: all of them).
 ///
-/// Status::too_few below `min_n` (at least one) values, no_contrast where sigma is at most `min_contrast` or is lost in the
-/// rounding of the mean, non_finite where a counted value is, invalid_argument for a negative n or a null pointer with n > 0.
-/// mean and s are zero unless the status is ok.
+/// Status::too_few below `min_n` (at least one) values, no_contrast where sigma is at most `min_contrast` or is lost in
+/// the rounding of the mean, non_finite where a counted value is, invalid_argument for a negative n or a null pointer
+/// with n > 0. mean and s are zero unless the status is ok.
 template <class T>
 IntensityStats intensity_stats(const T* values, const std::uint8_t* mask, int n, int min_n = 1,
                                double min_contrast = 0.0) noexcept {
@@ -18185,8 +18179,8 @@ IntensityStats intensity_stats(const T* values, const std::uint8_t* mask, int n,
 }
 
 /// Zero-mean normalised cross-correlation of a and b over the n pixels whose mask byte is not zero (a null mask: all):
-/// the sum of the products of their normalised intensities, in [-1, 1] up to rounding. With E the squared distance of the
-/// normalised patches it is 1 - E / 2. Zero, with the reason in `status` where asked for, if either side has no
+/// the sum of the products of their normalised intensities, in [-1, 1] up to rounding. With E the squared distance of
+/// the normalised patches it is 1 - E / 2. Zero, with the reason in `status` where asked for, if either side has no
 /// intensity_stats().
 template <class A, class B>
 double zncc(const A* a, const B* b, const std::uint8_t* mask, int n, Status* status = nullptr) noexcept {
@@ -18259,8 +18253,8 @@ void intensity_row(double mx, double my, const double* q, double rho, const doub
 }
 
 // Visits the pixels of the patch (of `on_set`, where given) and writes host intensity, target intensity and row of each
-// visible one to the workspace, closed up. A pixel is visible when its plane point lies in front of both cameras, it projects
-// into the target, and both intensities are finite. `flags`, where given, receives one byte a pixel.
+// visible one to the workspace, closed up. A pixel is visible when its plane point lies in front of both cameras, it
+// projects into the target, and both intensities are finite. `flags`, where given, receives one byte a pixel.
 template <int P, class T>
 Collected collect(const ResidualRequest<T>& request, const std::uint8_t* on_set, std::uint8_t* flags,
                   PhotometricWorkspace& workspace) noexcept {
@@ -18377,8 +18371,8 @@ inline WeightedCost weigh(int n, const Robust& robust, PhotometricWorkspace& wor
   return out;
 }
 
-// Row I of the upper triangle of sum w j j^T, columns I to P - 1, and sum w r j_I. A pass over all pixels for each row keeps
-// its accumulators in registers.
+// Row I of the upper triangle of sum w j j^T, columns I to P - 1, and sum w r j_I. A pass over all pixels for each row
+// keeps its accumulators in registers.
 template <int P, int I, int... K>
 void accumulate_row(int n, const double* w, const double* r, const double* row, Eigen::Matrix<double, P, P>* H,
                     Eigen::Matrix<double, P, 1>* b, std::integer_sequence<int, K...>) noexcept {
@@ -18416,11 +18410,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 
-static_assert(static_cast<int>(simd::RobustKind::l2) == static_cast<int>(RobustKind::l2) &&
-                  static_cast<int>(simd::RobustKind::huber) == static_cast<int>(RobustKind::huber) &&
-                  static_cast<int>(simd::RobustKind::cauchy) == static_cast<int>(RobustKind::cauchy) &&
-                  static_cast<int>(simd::RobustKind::tukey) == static_cast<int>(RobustKind::tukey),
-              "the kernels take the number of a RobustKind");
+static_assert(static_cast<int>(simd::RobustKind::tukey) == static_cast<int>(RobustKind::tukey), "one order of kinds");
 
 using KernelRequest = ResidualRequest<std::uint8_t>;
 
@@ -18431,8 +18421,8 @@ inline simd::Image8 kernel_image(const PhotometricInput& in) noexcept {
   return {in.target.data(), in.target.stride(), in.target.width(), in.target.height(), pairs.data, pairs.stride};
 }
 
-/// False where the reference must take the call, which also says what is wrong with it. Theta, pose and principal points are
-/// not asked: what is not finite there ends in the homography, at which the kernels decline.
+/// False where the reference must take the call, which also says what is wrong with it. Theta, pose and principal
+/// points are not asked: what is not finite there ends in the homography, at which the kernels decline.
 TEXTPLANE_SIMD_INLINE bool kernels_take(const KernelRequest& q, const PhotometricWorkspace& workspace) noexcept {
   const PatchView& p = q.input.patch;
   if (!p.x || !p.y || !p.intensity || p.n < 1 || p.n > workspace.capacity() || !q.input.target.valid() ||
@@ -18531,10 +18521,11 @@ inline bool kernel_evaluate(const KernelRequest& q, PhotometricWorkspace& worksp
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
-// The double reference of the photometric residual and its normal equations: slow, and the definition of what the kernels do.
+// The double reference of the photometric residual and its normal equations: slow, and the definition of what the
+// kernels do.
 //
-// All functions: noexcept, no allocation, thread-safe for distinct workspaces; what residual.hpp says of r, visibility and
-// status holds.
+// All functions: noexcept, no allocation, thread-safe for distinct workspaces; what residual.hpp says of r, visibility
+// and status holds.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 
@@ -18553,7 +18544,8 @@ inline double dot3(const double* p, const double* q) noexcept { return p[0] * q[
 template <class S>
 void world_sums(const NormalEquations<9>& inner, const SE3<S>& T, bool right, NormalEquations<15>* out) noexcept {
   const Matrix3<S> upper = product(hat(T.t), T.R);
-  // Of the adjoint: columns 0 to 2 are (R_k, 0), columns 3 to 5 are (X_k, R_k). W is its transpose times the pose's rows.
+  // Of the adjoint: columns 0 to 2 are (R_k, 0), columns 3 to 5 are (X_k, R_k). W is its transpose times the pose's
+  // rows.
   const S *R = T.R.data(), *X = upper.data(), *H = inner.H.data(), *b = inner.b.data();
   double W[6][9], *to = out->H.data();
   for (int i = 0; i < 3; ++i) {
@@ -18686,9 +18678,9 @@ void add_host_rows(const PolicyRequest<T>& request, const Matrix3<double>& inver
 
 namespace reference {
 
-/// Normal equations with derivatives by a policy. The cost, the visible set and the status are those of the policy `forward`;
-/// besides, invalid_argument for a patch without gradients or the policy `automatic`, non_finite for a gradient that is,
-/// behind_camera where the plane passes through the target's camera.
+/// Normal equations with derivatives by a policy. The cost, the visible set and the status are those of the policy
+/// `forward`; besides, invalid_argument for a patch without gradients or the policy `automatic`, non_finite for a
+/// gradient that is, behind_camera where the plane passes through the target's camera.
 template <Parameters Unknowns, class T>
 NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
   NormalEquations<dof(Unknowns)> out;
@@ -18732,10 +18724,11 @@ NormalEquations<dof(Unknowns)> linearise(const ResidualRequest<T>& request, Phot
   return reference::linearise<Unknowns>(request.by(LinearisePolicy::forward), workspace);
 }
 
-/// The cost alone. With `on_set` (a byte a pixel, usually workspace.visible() after a linearisation) a trial step is judged
-/// on that set: pixels outside of it are ignored, and each of its pixels that is not visible now costs what an uncorrelated
-/// pixel would, rho(2) / N_set in the unit of `cost` (two uncorrelated patches of N pixels have r^2 = 2 / N on average), and
-/// is counted in `lost`. error and zncc are of the visible pixels alone. The workspace's visible() stays as it is.
+/// The cost alone. With `on_set` (a byte a pixel, usually workspace.visible() after a linearisation) a trial step is
+/// judged on that set: pixels outside of it are ignored, and each of its pixels that is not visible now costs what an
+/// uncorrelated pixel would, rho(2) / N_set in the unit of `cost` (two uncorrelated patches of N pixels have r^2 = 2 /
+/// N on average), and is counted in `lost`. error and zncc are of the visible pixels alone. The workspace's visible()
+/// stays as it is.
 template <class T>
 PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace& workspace,
                          const std::uint8_t* on_set = nullptr) noexcept {
@@ -18754,9 +18747,9 @@ PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace
   return out;
 }
 
-/// The residuals themselves, without weights, for other solvers: r receives one number a pixel of the patch (patch.n), and J,
-/// unless null, patch.n rows of dof(Unknowns) derivatives, row-major. A pixel that is not visible has residual and row zero;
-/// all have unless is_ok(status) and n, r are valid. workspace.visible() tells which.
+/// The residuals themselves, without weights, for other solvers: r receives one number a pixel of the patch (patch.n),
+/// and J, unless null, patch.n rows of dof(Unknowns) derivatives, row-major. A pixel that is not visible has residual
+/// and row zero; all have unless is_ok(status) and n, r are valid. workspace.visible() tells which.
 template <Parameters Unknowns, class T>
 ResidualSummary residuals(const ResidualRequest<T>& request, PhotometricWorkspace& workspace, double* r,
                           double* J) noexcept {
@@ -18844,8 +18837,8 @@ TEXTPLANE_END_NAMESPACE
 #endif  // TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 // TemplatePatch: what the template-Jacobian kernels keep of a host patch.
 //
-// Preparing costs about as much as ten iterations and is done once per object and level. A patch of n pixels takes 42 bytes a
-// pixel.
+// Preparing costs about as much as ten iterations and is done once per object and level. A patch of n pixels takes 42
+// bytes a pixel.
 #ifndef TEXTPLANE_PHOTOMETRY_TEMPLATE_PATCH_HPP
 #define TEXTPLANE_PHOTOMETRY_TEMPLATE_PATCH_HPP
 
@@ -22947,8 +22940,9 @@ class TemplatePatch {
   TemplatePatch(const TemplatePatch&) = delete;
   TemplatePatch& operator=(const TemplatePatch&) = delete;
 
-  /// Prepares a patch without a mask and with gradients, else invalid_argument; non_finite where a number is; no_contrast for
-  /// constant intensities; too_few for an empty one. ready() tells. Allocates where it holds less than before.
+  /// Prepares a patch without a mask and with gradients, else invalid_argument; non_finite where a number is;
+  /// no_contrast for constant intensities; too_few for an empty one. ready() tells. Allocates where it holds less than
+  /// before.
   Status prepare(const PatchView& patch) {
     ready_ = false;
     if (!patch.x || !patch.y || !patch.intensity || !patch.gx || !patch.gy || patch.mask || patch.n < 0)
@@ -23011,8 +23005,8 @@ class TemplatePatch {
     model_.rows = numbers(rows_);
   }
 
-  // Column 0: centred on the middle of its range, in 1/64 of the intensity's unit, or coarser for ranges above 255. Exact for
-  // 8-bit hosts at integer positions.
+  // Column 0: centred on the middle of its range, in 1/64 of the intensity's unit, or coarser for ranges above 255.
+  // Exact for 8-bit hosts at integer positions.
   bool set_intensity(const PatchView& patch, float* intensity) {
     double low = static_cast<double>(patch.intensity[0]), high = low;
     for (int i = 0; i < patch.n; ++i) {
@@ -23032,9 +23026,9 @@ class TemplatePatch {
       squares += kept * kept;
     }
     model_.mean = sum / patch.n;
-    const double spread = squares - sum * model_.mean;
-    if (!(spread > 0)) return false;
-    model_.norm = std::sqrt(spread);
+    const double squared_norm = squares - sum * model_.mean;
+    if (!(squared_norm > 0)) return false;
+    model_.norm = std::sqrt(squared_norm);
     model_.s = model_.norm / scale;
     return true;
   }
@@ -23079,7 +23073,7 @@ class TemplatePatch {
     const double u = static_cast<double>(model_.u[i]), v = static_cast<double>(model_.v[i]);
     const double a = static_cast<double>(model_.gx[i]), b = static_cast<double>(model_.gy[i]), c = a * u + b * v;
     const double row[8] = {a, a * u, a * v, b, b * u, b * v, c * u, c * v};
-    for (int k = 0; k < 8; ++k) j[k] = row[k];
+    std::copy_n(row, 8, j);
   }
 
   std::vector<CacheLine<float>> floats_;
@@ -23350,12 +23344,13 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// zncc[i] = ZNCC of the patch in the target under the pose T_t_h[i], over the pixels visible then; -1 where there are fewer
-/// than options.min_visible or no contrast. `prepared`, of in.patch, makes it several times faster where all of the patch is
-/// visible, and then the bound of simd/zncc.hpp holds; else that of evaluate(). options.robust has no influence.
+/// zncc[i] = ZNCC of the patch in the target under the pose T_t_h[i], over the pixels visible then; -1 where fewer than
+/// options.min_visible are or contrast is missing. `prepared`, of in.patch, makes it several times faster where all of
+/// the patch is visible; then the bound of simd/zncc.hpp holds, else that of evaluate(). options.robust has no
+/// influence.
 ///
-/// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1 then. A
-/// candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.
+/// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1
+/// then. A candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.
 TEXTPLANE_DEFERRED
 Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
                        const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
@@ -23394,10 +23389,10 @@ TEXTPLANE_END_NAMESPACE
 #endif  // TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 // Intensities as they compare with those around them: what light that changes over a few strokes' width leaves alone.
 //
-// The photometric residual takes out one gain and one bias for a whole patch. The edge of a shadow, a highlight, or a lamp from
-// the side changes them within it. Taking the mean of a window round every pixel away and dividing by the window's deviation, on
-// both sides, leaves what is printed. The price is noise, which grows with the print where contrast is low, so that it pays where
-// the light differs and costs a little where it does not.
+// The photometric residual removes one gain and one bias of a whole patch. The edge of a shadow, a highlight or a lamp
+// from the side changes them within it. Here the mean of a square round every pixel is subtracted and its deviation
+// divided out, on both sides. Noise grows where contrast is low, so this pays where the light differs between the
+// views.
 #ifndef TEXTPLANE_PHOTOMETRY_LOCAL_CONTRAST_HPP
 #define TEXTPLANE_PHOTOMETRY_LOCAL_CONTRAST_HPP
 
@@ -23411,10 +23406,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// How LocalContrast compares a pixel with its surroundings.
 struct LocalContrastOptions {
-  int radius = 6;       ///< px: the window is a square of 2 radius + 1, cut where the image ends; in [1, kMaxRadius].
+  int radius = 6;       ///< px: the square has 2 radius + 1 a side, cut where the image ends; in [1, kMaxRadius].
   double floor = 4.0;   ///< Grey levels: deviations well below this are taken for noise and not made larger.
   double scale = 40.0;  ///< Grey levels that one deviation becomes.
-  /// px, of the largest window.
+  /// px, of the largest square.
   static constexpr int kMaxRadius = 64;
 
   /// Whether the numbers make sense.
@@ -23423,8 +23418,9 @@ struct LocalContrastOptions {
   }
 };
 
-/// Replaces I by 128 + scale (I - mean) / sqrt(variance + floor^2), mean and variance being those of a window round the pixel; cut
-/// to [0, 255], rounded. The cost a pixel does not depend on the window. Keeps the memory that this takes: use one a thread.
+/// Replaces I by 128 + scale (I - mean) / sqrt(variance + floor^2), mean and variance being those of a square round the
+/// pixel; cut to [0, 255], rounded. The cost a pixel does not depend on the window. Keeps the memory that this takes:
+/// use one a thread.
 class LocalContrast {
  public:
   /// With the default options.
@@ -23432,8 +23428,8 @@ class LocalContrast {
   /// With these: what is not valid() shows in the status of every call.
   explicit LocalContrast(const LocalContrastOptions& options) : options_(options) {}
 
-  /// Fills `to` with what becomes of the pixels of `from` that begin at (x0, y0). invalid_argument for options or views that are not
-  /// valid() and where `to` reaches beyond the image. Allocates while it meets a wider `to` than before.
+  /// Fills `to` with what becomes of the pixels of `from` that begin at (x0, y0). invalid_argument for options or views
+  /// that are not valid() and where `to` reaches beyond the image. Allocates while it meets a wider `to` than before.
   Status operator()(const ImageView8& from, int x0, int y0, const ImageView<std::uint8_t>& to) {
     if (!options_.valid() || !from.valid() || !to.valid() || x0 < 0 || y0 < 0 || x0 > from.width() - to.width() ||
         y0 > from.height() - to.height())
@@ -23441,7 +23437,8 @@ class LocalContrast {
     const int r = options_.radius, x1 = x0 + to.width();
     const int left = std::max(x0 - r, 0), right = std::min(x1 + r, from.width());
     const auto n = static_cast<std::size_t>(right - left);
-    // Made anew, not grown: the function that grows a vector would be shared between translation units (see config.hpp).
+    // Made anew, not grown: the function that grows a vector would be shared between translation units (see
+    // config.hpp).
     if (sums_.size() < 2 * n) sums_ = std::vector<std::int32_t>(2 * n);
     if (means_.size() < 2 * n) means_ = std::vector<float>(2 * n);
     for (std::size_t i = 0; i < 2 * n; ++i) sums_[i] = 0;
@@ -23458,8 +23455,8 @@ class LocalContrast {
     return Status::ok;
   }
 
-  /// The intensities and gradients of a patch's level taken anew from an image that begins at (x0, y0) of the level, as the operator
-  /// fills it. Pixels outside of it keep what they had.
+  /// The intensities and gradients of a patch's level taken anew from an image that begins at (x0, y0) of the level, as
+  /// the operator fills it. Pixels outside of it keep what they had.
   static void take(const ImageView8& image, int x0, int y0, PatchLevel* level) noexcept {
     for (std::size_t i = 0; i < level->x.size(); ++i) {
       const float x = level->x[i] - static_cast<float>(x0), y = level->y[i] - static_cast<float>(y0);
@@ -23485,7 +23482,7 @@ class LocalContrast {
     }
   }
 
-  // Pixels [x0, x1) of a row, from the sums over its window's `rows` rows of the n columns from `left` on.
+  // Pixels [x0, x1) of a row, from the sums over its square's `rows` rows of the n columns from `left` on.
   void write_row(const std::uint8_t* row, int rows, int left, std::size_t n, int x0, int x1, int width,
                  std::uint8_t* to) noexcept {
     const int r = options_.radius;
@@ -23515,14 +23512,15 @@ class LocalContrast {
   }
 
   LocalContrastOptions options_;
-  std::vector<std::int32_t> sums_;  // of the window's rows, a column each: values, then squares
-  std::vector<float> means_;        // of the window of each pixel of a row: values, then squares
+  std::vector<std::int32_t> sums_;  // of the square's rows, a column each: values, then squares
+  std::vector<float> means_;        // of the square of each pixel of a row: values, then squares
 };
 
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_LOCAL_CONTRAST_HPP
-// The photometric residual for any scalar: the definition that dual numbers differentiate, with no derivative written out.
+// The photometric residual for any scalar: the definition that dual numbers differentiate, with no derivative written
+// out.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
 
@@ -23530,15 +23528,16 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace reference {
 
-/// Residuals r_i = I~_host - I~_target over exactly the pixels of `on_set` (a byte a pixel; usually workspace.visible() of
-/// residuals()), as functions of theta and T_t_h of scalar type S: double, a dual number, ceres::Jet. The image is sampled
-/// with the gradient of the bilinear interpolant. r receives patch.n numbers, zero outside the set.
+/// Residuals r_i = I~_host - I~_target over exactly the pixels of `on_set` (a byte a pixel; usually workspace.visible()
+/// of residuals()), as functions of theta and T_t_h of scalar type S: double, a dual number, ceres::Jet. The image is
+/// sampled with the gradient of the bilinear interpolant. r receives patch.n numbers, zero outside the set.
 ///
 /// `frozen`: mean and s to hold for the target (Normalisation::frozen); null: they are functions of the parameters too
 /// (Normalisation::exact).
 ///
-/// Status::behind_camera or out_of_view where a pixel of the set is not visible, too_few or no_contrast as intensity_stats()
-/// says, invalid_argument for null pointers or an image that is not valid(); r then holds no residuals. No allocation.
+/// Status::behind_camera or out_of_view where a pixel of the set is not visible, too_few or no_contrast as
+/// intensity_stats() says, invalid_argument for null pointers or an image that is not valid(); r then holds no
+/// residuals. No allocation.
 template <class S, class T>
 Status residuals_t(const BasicPhotometricInput<T>& in, const Vector3<S>& theta, const SE3<S>& T_t_h,
                    const std::uint8_t* on_set, const IntensityStats* frozen, S* r) noexcept {
@@ -23627,11 +23626,12 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
 }
 }  // namespace detail
 
-/// Normal equations with derivatives by a policy: see reference::linearise() of a PolicyRequest. A `prepared` patch makes
-/// template_jacobian several times faster where all of the patch is visible. Then sums are of host intensities rounded to 1/64
-/// grey level and target intensities within 0.025 of the interpolant (simd/template.hpp): E and the entries of b, in units of
-/// sqrt(H_ii), are within 0.08 / sigma of the reference's, sigma being the lesser standard deviation of the two sides, and H
-/// within 3e-4 of sqrt(H_ii H_jj) without weights. Otherwise the bounds are those of simd/residual.hpp.
+/// Normal equations with derivatives by a policy: see reference::linearise() of a PolicyRequest. A `prepared` patch
+/// makes template_jacobian several times faster where all of the patch is visible. Then sums are of host intensities
+/// rounded to 1/64 grey level and target intensities within 0.025 of the interpolant (simd/template.hpp): E and the
+/// entries of b, in units of sqrt(H_ii), are within 0.08 / sigma of the reference's, sigma being the lesser standard
+/// deviation of the two sides, and H within 3e-4 of sqrt(H_ii H_jj) without weights. Otherwise the bounds are those of
+/// simd/residual.hpp.
 template <Parameters Unknowns, class T>
 NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
   NormalEquations<dof(Unknowns)> out{detail::Unset()};
@@ -23652,11 +23652,12 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
-// TextBatch: many text objects of a few pixels each (the paper's 15, up to some hundred), judged against one image at once:
-// verification of all signs of a map in one frame, or normal equations of all of them.
+// TextBatch: many text objects of a few pixels each (the paper's 15, up to some hundred), judged against one image at
+// once: verification of all signs of a map in one frame, or normal equations of all of them.
 //
-// One object fills one lane of the vectors, so 15 pixels cost no more a pixel than thousands do; objects that lie wholly behind
-// a camera or outside the image cost a few dozen cycles. Objects of very different size waste lanes: sort them by size.
+// One object fills one lane of the vectors, so 15 pixels cost no more a pixel than thousands do; objects that lie
+// wholly behind a camera or outside the image cost a few dozen cycles. Objects of very different size waste lanes: sort
+// them by size.
 #ifndef TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
 #define TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
 
@@ -26610,8 +26611,8 @@ class TextBatch {
   /// As build().
   TextBatch(const TextBatchItem* items, int count) { build(items, count); }
 
-  /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a negative
-  /// n or a camera that is not valid() keeps its place, and has Status::invalid_argument in every result.
+  /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a
+  /// negative n or a camera that is not valid() keeps its place, and has Status::invalid_argument in every result.
   /// invalid_argument for null items or a negative count: the batch is then empty.
   Status build(const TextBatchItem* items, int count) {
     groups_.clear();
@@ -26619,7 +26620,8 @@ class TextBatch {
     pixels_ = cache_lines<float>(0);
     most_ = 0;
     if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
-    // Vectors of numbers do not grow, they are made: growing ones would share weak symbols with files built for other CPUs.
+    // Vectors of numbers do not grow, they are made: growing ones would share weak symbols with files built for other
+    // CPUs.
     valid_ = std::vector<std::uint8_t>(static_cast<std::size_t>(count));
     std::size_t total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
@@ -26741,7 +26743,8 @@ class TextBatchResult {
            number_count(scratch_) >= simd::batch_scratch(batch.max_pixels());
   }
 
-  /// Of object i of the batch, as reference::linearise() would say it; all zero, `visible` excepted, unless is_ok(status).
+  /// Of object i of the batch, as reference::linearise() would say it; all zero, `visible` excepted, unless
+  /// is_ok(status).
   Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
   /// Robust cost of object i.
   double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
@@ -26797,13 +26800,13 @@ class TextBatchResult {
   int parameters_ = 0;
 };
 
-/// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega, theta).
-/// `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
+/// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega,
+/// theta). `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
 ///
-/// Each object's result is that of reference::linearise() within the bounds of simd/batch.hpp; one whose geometry float does
-/// not hold (a number beyond 1e30) is non_finite. ok, or invalid_argument, and
-/// then all statuses are that: null poses, a target below 2 x 2, a camera that is not valid(), bad options, a result without
-/// room. The kernels compute all of it (Path::kernel).
+/// Each object's result is that of reference::linearise() within the bounds of simd/batch.hpp; one whose geometry float
+/// does not hold (a number beyond 1e30) is non_finite. ok, or invalid_argument, and then all statuses are that: null
+/// poses, a target below 2 x 2, a camera that is not valid(), bad options, a result without room. The kernels compute
+/// all of it (Path::kernel).
 template <int P>
 Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
                       const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
@@ -26812,10 +26815,7 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   simd::BatchArgs args;
   batch.fill(&args);
   result.fill(P, &args);
-  args.target.data = target.data();
-  args.target.stride = target.stride();
-  args.target.width = target.width();
-  args.target.height = target.height();
+  args.target = {target.data(), target.stride(), target.width(), target.height()};
   if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
@@ -26827,10 +26827,8 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   args.pose = T_t_h->R.data();
   args.pose_step = 12;
   args.t_offset = 9;
-  args.camera[0] = camera.fx;
-  args.camera[1] = camera.fy;
-  args.camera[2] = camera.cx;
-  args.camera[3] = camera.cy;
+  const double intrinsics[] = {camera.fx, camera.fy, camera.cx, camera.cy};
+  std::copy_n(intrinsics, 4, args.camera);
   args.exact = options.normalisation == Normalisation::exact;
   args.robust = static_cast<simd::RobustKind>(options.robust.kind);
   args.delta = options.robust.delta;
@@ -26847,18 +26845,18 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
-// Warps: a regular grid of pixels, sampled from an image through a homography. Unwarps a text quad to an upright patch, and
-// draws a patch as another view would see it.
+// Warps: a regular grid of pixels, sampled from an image through a homography. Unwarps a text quad to an upright patch,
+// and draws a patch as another view would see it.
 //
-// out(x, y) = source(q_xy / q_z), q = H (x, y, 1): H maps output pixels to source pixels, scale kept, so q_z > 0 means in front
-// (pixel_homography()). Bilinear, domain [0, w - 1] x [0, h - 1] as sample_bilinear(). Output pixels that fall outside, or
-// lie behind, receive `fill` and a zero in the mask.
+// out(x, y) = source(q_xy / q_z), q = H (x, y, 1): H maps output pixels to source pixels, scale kept, so q_z > 0 means
+// in front (pixel_homography()). Bilinear, domain [0, w - 1] x [0, h - 1] as sample_bilinear(). Output pixels that fall
+// outside, or lie behind, receive `fill` and a zero in the mask.
 //
 // noexcept, no allocation, thread-safe. Status of all functions:
 //   ok                at least one output pixel is inside
 //   out_of_view       none is; the output is all `fill`
 //   non_finite        NaN or infinity in H; nothing is written
-//   invalid_argument  an image that is not valid(), or a mask that is given and not of the output's size; nothing is written
+//   invalid_argument  an image that is not valid(), or a mask of another size than the output; nothing is written
 #ifndef TEXTPLANE_PHOTOMETRY_WARP_PATCH_HPP
 #define TEXTPLANE_PHOTOMETRY_WARP_PATCH_HPP
 
@@ -28314,8 +28312,8 @@ WarpSummary warp_patch(const ImageView<const S>& source, const Matrix3<double>& 
 }  // namespace reference
 
 /// The warp, by the SIMD kernel of the active target: 8-bit source to float or 8-bit, float to float. Differs from the
-/// reference by less than 0.01 grey levels where a step in the output is at most two pixels in the source, and agrees with it
-/// after rounding unless within 0.01 of a tie. A point within 1e-4 px of the border may count as in or out.
+/// reference by less than 0.01 grey levels where a step in the output is at most two pixels in the source, and agrees
+/// with it after rounding unless within 0.01 of a tie. A point within 1e-4 px of the border may count as in or out.
 template <class S, class D>
 WarpSummary warp_patch(const ImageView<const S>& source, const Matrix3<double>& H, const ImageView<D>& out,
                        float fill = 0.0F, const ImageView<std::uint8_t>& mask = {}) noexcept {
@@ -30617,8 +30615,8 @@ void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
   }
 }
 
-/// Lower block triangle of an n x n block matrix, blocks column-major. S is double: a template, so that including the header
-/// costs little.
+/// Lower block triangle of an n x n block matrix, blocks column-major. S is double: a template, so that including the
+/// header costs little.
 template <class S>
 class BasicBlockCholesky {
  public:
@@ -30782,18 +30780,19 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// When to stop and how to damp. Tolerances of zero are allowed and mean "never by this test".
 struct SolveOptions {
-  int max_iterations = 20;         ///< Trial steps, rejected ones included.
-  double step_tolerance = 1e-6;    ///< Converged when the norm of the step (in the units of the parameters) is at
-                                   ///< most this; that step is not taken any more.
-  double cost_tolerance = 1e-6;    ///< Converged when an accepted step lowers the cost by at most this share of it.
-  double stall_tolerance = 1e-3;   ///< Where no step lowers the cost: converged if the full step promised at most
-                                   ///< this share of it.
-  double initial_lambda = 1e-4;    ///< First damping, a multiple of the diagonal of H.
-  double min_lambda = 1e-12;       ///< Damping never falls below.
-  double max_lambda = 1e8;         ///< Damping above this counts as a stall.
-  double diagonal_floor = 1e-15;   ///< Entries of D are at least this share of the largest one.
-  double rank_tolerance = 1e-13;   ///< H is singular where a Cholesky pivot is at most this share of its diagonal
-                                   ///< entry.
+  int max_iterations = 20;  ///< Trial steps, rejected ones included.
+  /// Converged when the norm of the step (in the units of the parameters) is at most this; that step is not taken any
+  /// more.
+  double step_tolerance = 1e-6;
+  double cost_tolerance = 1e-6;  ///< Converged when an accepted step lowers the cost by at most this share of it.
+  /// Where no step lowers the cost: converged if the full step promised at most this share of it.
+  double stall_tolerance = 1e-3;
+  double initial_lambda = 1e-4;   ///< First damping, a multiple of the diagonal of H.
+  double min_lambda = 1e-12;      ///< Damping never falls below.
+  double max_lambda = 1e8;        ///< Damping above this counts as a stall.
+  double diagonal_floor = 1e-15;  ///< Entries of D are at least this share of the largest one.
+  /// H is singular where a Cholesky pivot is at most this share of its diagonal entry.
+  double rank_tolerance = 1e-13;
   double max_lost_fraction = 0.1;  ///< A trial that loses a larger share of the residuals is rejected.
 };
 
@@ -30814,13 +30813,13 @@ struct SolveSummary {
   /// Why it ended.
   Status status = Status::invalid_argument;
   double initial_cost = 0;  ///< At the initial state, on its own residuals.
-  double final_cost = 0;    ///< At the returned state, on its own residuals: comparable with initial_cost if the set
-                            ///< did not change.
-  double reduction = 0;     ///< Sum of the decreases of the accepted steps, each on the set of its linearisation; never
-                            ///< negative.
-  int iterations = 0;       ///< Trials made.
-  int accepted = 0;         ///< Trials accepted.
-  double last_step = 0;     ///< Norm of the last step computed.
+  /// At the returned state, on its own residuals: comparable with initial_cost if the set did not change.
+  double final_cost = 0;
+  /// Sum of the decreases of the accepted steps, each on the set of its linearisation; never negative.
+  double reduction = 0;
+  int iterations = 0;    ///< Trials made.
+  int accepted = 0;      ///< Trials accepted.
+  double last_step = 0;  ///< Norm of the last step computed.
 };
 
 namespace detail {
@@ -31024,8 +31023,8 @@ struct BasicPlaneTarget {
   /// Host to target.
   SE3d T_t_h;
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
-  /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to refine_plane(), whose
-  /// levels and numbers of pixels it must have: a target with another is not used.
+  /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to
+  /// refine_plane(), whose levels and numbers of pixels it must have: a target with another is not used.
   const TextPatch* patch = nullptr;
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;    ///< Of 8-bit images.
@@ -31035,8 +31034,8 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
 struct PlaneOptions {
   /// Of every pixel.
   PhotometricOptions photometric;
-  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
-                           ///< the latest.
+  /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  SolveOptions solve;
   int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
   /// Where it ends; 0 is the image itself.
   int finest_level = 0;
@@ -31208,8 +31207,8 @@ struct PlaneRefinement {
   /// share: the noise of the host pixels and errors of the poses.
   Matrix3<double> covariance = Matrix3<double>::Zero();
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
-  double residual_variance = 0;  ///< Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and
-                                 ///< norm costing two.
+  /// Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and norm costing two.
+  double residual_variance = 0;
   /// C(theta).
   double cost = 0;
   double zncc = 0;  ///< Mean over the targets used.
@@ -31366,7 +31365,8 @@ enum class Weighting {
              ///< chi-square.
 };
 
-/// Whether a standard deviation is finite and in [1e-50, 1e50], so that its square, its inverse and the ratio of two are numbers.
+/// Whether a standard deviation is finite and in [1e-50, 1e50], so that its square, its inverse and the ratio of two
+/// are numbers.
 inline bool valid_sigma(double sigma) noexcept { return is_finite(sigma) && sigma >= 1e-50 && sigma <= 1e50; }
 
 /// lambda_w of an observation with `visible` pixels. `sigma_rep`: standard deviation of a reprojection error whose own
@@ -31392,7 +31392,8 @@ struct PoseTextTerm {
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< On top of lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees it at another size.
-  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done without.
+  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done
+  /// without.
   const TemplatePatch* prepared = nullptr;
 };
 
@@ -31418,13 +31419,13 @@ struct PoseOptions {
   double sigma_rep = 1;
   /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
   Robust point_robust{RobustKind::huber, 2.4477};
-  SolveOptions solve;      ///< Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at
-                           ///< the latest.
+  /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  SolveOptions solve;
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
   /// Where it ends; 0 is the image itself.
   int finest_level = 0;
-  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take forward.
-  /// Whatever the policy, steps are judged by the cost.
+  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take
+  /// forward. Whatever the policy, steps are judged by the cost.
   LinearisePolicy policy = LinearisePolicy::forward;
 };
 
@@ -31685,10 +31686,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// for a NaN pose or camera; invalid_argument for null pointers, bad options, a camera that is not valid() or a
 /// workspace without room.
 struct PoseResult {
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  ///< Of xi = (v, omega), left: H /
-                                                                                  ///< sigma_rep^2. Its inverse is the
-                                                                                  ///< covariance under
-                                                                                  ///< Weighting::variance.
+  /// Of xi = (v, omega), left: H / sigma_rep^2. Its inverse is the covariance under Weighting::variance.
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   /// C(T_t_w) of the finest level.
   double cost = 0;
   double zncc = 0;           ///< Mean over the texts that took part.
@@ -31860,8 +31859,8 @@ TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_POSE_HPP
-// A coarse search before a pose is refined: ZNCC of one text object under shifts and turns of its image, where the guess may
-// be further off than the basin of refine_pose().
+// A coarse search before a pose is refined: ZNCC of one text object under shifts and turns of its image, where the
+// guess may be further off than the basin of refine_pose().
 #ifndef TEXTPLANE_SOLVER_SEARCH_HPP
 #define TEXTPLANE_SOLVER_SEARCH_HPP
 
@@ -31876,15 +31875,16 @@ struct SearchOptions {
   int level = 2;      ///< Pyramid level; lowered to the coarsest that patch and target have with enough pixels.
   int radius = 4;     ///< Shifts -radius .. radius along x and along y, at most 8.
   double step = 1.0;  ///< Between shifts.
-  double roll =
-      0.1;  ///< Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
+  /// Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
+  double roll = 0.1;
   /// Of every pixel.
   PhotometricOptions photometric;
 };
 
 namespace detail {
 
-// Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was there.
+// Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was
+// there.
 TEXTPLANE_DEFERRED
 class PoseSearch {
  public:
@@ -31944,8 +31944,8 @@ class PoseSearch {
 
 }  // namespace detail
 
-/// The level that search_pose() searches on in a target of `levels` levels: options.level, or the next finer one that is there and has
-/// twice the pixels that must be visible; 0 where none has, -1 where there is no level.
+/// The level that search_pose() searches on in a target of `levels` levels: options.level, or the next finer one that
+/// is there and has twice the pixels that must be visible; 0 where none has, -1 where there is no level.
 inline int search_level(const TextPatch& patch, int levels, const SearchOptions& options) noexcept {
   int level = std::min({options.level, patch.level_count() - 1, levels - 1});
   while (level > 0 &&
@@ -31954,10 +31954,11 @@ inline int search_level(const TextPatch& patch, int levels, const SearchOptions&
   return level;
 }
 
-/// The pose T_t_h, out of those that turn the target camera so that the patch's centre moves by the shifts of a grid, with the
-/// best ZNCC of the patch in the target, and then turned a little about that centre where this is better still; the guess itself
-/// where nothing is better or nothing can be compared. `zncc`, if given, receives the best value, -1 where none. `prepared`: one
-/// TemplatePatch a level, or null. No allocation; `workspace` must have room for the patch.
+/// The pose T_t_h, out of those that turn the target camera so that the patch's centre moves by the shifts of a grid,
+/// with the best ZNCC of the patch in the target, and then turned a little about that centre where this is better
+/// still; the guess itself where nothing is better or nothing can be compared. `zncc`, if given, receives the best
+/// value, -1 where none. `prepared`: one TemplatePatch a level, or null. No allocation; `workspace` must have room for
+/// the patch.
 TEXTPLANE_DEFERRED
 SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
                  const Pinhole<double>& camera, const SearchOptions& options, PhotometricWorkspace& workspace,
@@ -32007,13 +32008,13 @@ TEXTPLANE_END_NAMESPACE
 // the distance of two frames can be held; a gauge that is missing is counted from the graph of observations and
 // reported, never left to the damping.
 //
-// No decomposition of Eigen's is instantiated, and products are written out (core/numeric.hpp), but sums of fixed-size matrices
-// and std::vector members are, and the compiler may keep them as weak symbols outside of our ABI namespace: include this
-// header in translation units of one instruction set only.
+// No decomposition of Eigen's is instantiated, and products are written out (core/numeric.hpp), but sums of fixed-size
+// matrices and std::vector members are, and the compiler may keep them as weak symbols outside of our ABI namespace:
+// include this header in translation units of one instruction set only.
 //
-// A text term is judged on the visible set of its linearisation, lost pixels charged (docs/equations.md). An observation
-// that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted state drops
-// out with its status.
+// A text term is judged on the visible set of its linearisation, lost pixels charged (docs/equations.md). An
+// observation that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted
+// state drops out with its status.
 #ifndef TEXTPLANE_SOLVER_WINDOW_HPP
 #define TEXTPLANE_SOLVER_WINDOW_HPP
 
@@ -32069,8 +32070,8 @@ struct WindowPointObservation {
   /// Index into Window::points.
   int point = -1;
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
-  double sigma =
-      1;  ///< Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
+  /// Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
+  double sigma = 1;
 
   /// Out: |e|^2 / sigma^2 at the final state, without the robust function, for observations that were left out too.
   /// The largest double where there is no projection.
@@ -32142,14 +32143,15 @@ struct WindowOptions {
   Weighting weighting = Weighting::variance;
   double sigma_rep = 1;      ///< px.
   double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
-  int text_level =
-      0;  ///< Pyramid level of patches and images; for coarse to fine call solve_window() once a level, same workspace.
+  /// Pyramid level of patches and images; for coarse to fine call solve_window() once a level, same workspace.
+  int text_level = 0;
 
   int max_iterations = 10;  ///< Steps tried, rejected ones included.
-  double cost_tolerance =
-      1e-6;  ///< Converged where a step lowers (or is predicted to lower) the cost by no more than this fraction.
-  double step_tolerance = 1e-9;    ///< Converged where no parameter moves by more than this fraction of its scale
-                                   ///< (rotation: rad; others: relative to distances).
+  /// Converged where a step lowers (or is predicted to lower) the cost by no more than this fraction.
+  double cost_tolerance = 1e-6;
+  /// Converged where no parameter moves by more than this fraction of its scale (rotation: rad; others: relative to
+  /// distances).
+  double step_tolerance = 1e-9;
   double initial_lambda = 1e-5;    ///< Marquardt damping, relative to the diagonal.
   double max_lambda = 1e10;        ///< diverged beyond.
   double max_lost_fraction = 0.1;  ///< A step that loses more of the visible text pixels is rejected.
@@ -32178,18 +32180,18 @@ struct WindowSummary {
   /// Why it ended: see above.
   Status status = Status::too_few;
   double initial_cost = 0;  ///< E over what took part at the start.
-  double final_cost =
-      0;  ///< E at the final state. It can exceed the initial cost only where patches gained visible pixels meanwhile.
+  /// E at the final state. It can exceed the initial cost only where patches gained visible pixels meanwhile.
+  double final_cost = 0;
   int iterations = 0;  ///< Steps tried.
-  int accepted =
-      0;  ///< Steps taken; none raised the cost on the visible set of its linearisation, lost pixels charged.
+  /// Steps taken; none raised the cost on the visible set of its linearisation, lost pixels charged.
+  int accepted = 0;
   double last_step = 0;  ///< Scaled size of the last step taken, as step_tolerance measures it.
 
-  int gauge_freedom = 0;  ///< Degrees of freedom that no fixed frame or scale takes away: 7 a free-floating component,
-                          ///< 1 a missing scale.
-  int free_frames = 0;    ///< Frames adjusted.
-  int free_points = 0;    ///< Points solved for.
-  int free_texts = 0;     ///< Texts solved for.
+  /// Degrees of freedom that no fixed frame or scale takes away: 7 a free-floating component, 1 a missing scale.
+  int gauge_freedom = 0;
+  int free_frames = 0;         ///< Frames adjusted.
+  int free_points = 0;         ///< Points solved for.
+  int free_texts = 0;          ///< Texts solved for.
   int point_observations = 0;  ///< Took part.
   int text_observations = 0;   ///< Took part to the end.
   int undetermined = 0;        ///< Frames, points and texts with status rank_deficient.
@@ -32603,8 +32605,8 @@ class BasicWindowSchur {
   }
   void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
 
-  /// The same of two residuals e, whose derivatives are `rows`; `weighted` are derivatives times the weight, for a coupling those by
-  /// the camera.
+  /// The same of two residuals e, whose derivatives are `rows`; `weighted` are derivatives times the weight, for a
+  /// coupling those by the camera.
   void add_camera(int camera, const Matrix26& weighted, const Matrix26& rows, const Vector2<S>& e) noexcept {
     add_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
     add_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
@@ -32850,7 +32852,8 @@ struct WindowTrial {
 template <class S>
 class BasicWindowTerms {
  public:
-  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates where the window exceeds all earlier.
+  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates where the window exceeds all
+  /// earlier.
   void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
     path_ = Path::kernel;
     for (WindowFrame& f : w.frames) f.status = Status::ok;
