@@ -94,28 +94,28 @@ TEST(MotionHypothesesTest, FurtherViewsOfAPlaneLeaveTheRightMotion) {
     if (motions.size() < 2) continue;
     ++begun;
     wrong_at_first += angle_between(motions[0].t, drive.T_c_a.t) > 15 * kDegree;
-    MotionHypotheses rivals(parameters);
-    EXPECT_TRUE(rivals.empty());
-    rivals.begin(motions);
-    for (int views = 2; views < 30 && !rivals.won(); ++views) {
+    MotionHypotheses hypotheses(parameters);
+    EXPECT_TRUE(hypotheses.empty());
+    hypotheses.begin(motions);
+    for (int views = 2; views < 30 && !hypotheses.won(); ++views) {
       for (int i = 0; i < 3; ++i) drive.move();
       const bool full = views >= parameters.init_views;
       if (full) drive.forget_newest();
       drive.observe();
-      rivals.judge(drive.tracks, drive.camera, full);
+      hypotheses.judge(drive.tracks, drive.camera, full);
     }
-    decided += rivals.won();
-    EXPECT_LT(angle_between(rivals.T_newest_a().t, drive.T_c_a.t), 3 * kDegree);
-    EXPECT_LT(degrees(rivals.T_newest_a().R * drive.T_c_a.R.transpose()), 1);
-    EXPECT_LT(rivals.rms(), 0.5);
-    EXPECT_GT(std::count(rivals.inlier().begin(), rivals.inlier().end(), 1), 145);
+    decided += hypotheses.won();
+    EXPECT_LT(angle_between(hypotheses.T_newest_a().t, drive.T_c_a.t), 3 * kDegree);
+    EXPECT_LT(degrees(hypotheses.T_newest_a().R * drive.T_c_a.R.transpose()), 1);
+    EXPECT_LT(hypotheses.rms(), 0.5);
+    EXPECT_GT(std::count(hypotheses.inlier().begin(), hypotheses.inlier().end(), 1), 145);
   }
   EXPECT_GE(decided, begun - 1);
   EXPECT_GT(begun, 10) << "two views of a plane leave a doubt";
   EXPECT_GT(wrong_at_first, 2) << "and the cheaper motion is often the wrong one";
 }
 
-TEST(MotionHypothesesTest, RivalsThatBecomeTheSameAreOne) {
+TEST(MotionHypothesesTest, HypothesesThatBecomeTheSameAreOne) {
   Drive drive(3, false, 120, 0.2);
   for (int i = 0; i < 6; ++i) drive.move();
   drive.observe();
@@ -124,14 +124,14 @@ TEST(MotionHypothesesTest, RivalsThatBecomeTheSameAreOne) {
   SE3d beside = view.T_b_a;
   beside.R = textplane::so3_exp<double>(Vec3(0.002, -0.001, 0.001)) * beside.R;
   const Parameters parameters;
-  MotionHypotheses rivals(parameters);
-  rivals.begin({view.T_b_a, beside});
-  EXPECT_FALSE(rivals.won());
+  MotionHypotheses hypotheses(parameters);
+  hypotheses.begin({view.T_b_a, beside});
+  EXPECT_FALSE(hypotheses.won());
   drive.move();
   drive.observe();
-  rivals.judge(drive.tracks, drive.camera, false);
-  EXPECT_TRUE(rivals.won());
-  EXPECT_LT(angle_between(rivals.T_newest_a().t, drive.T_c_a.t), 3 * kDegree);
+  hypotheses.judge(drive.tracks, drive.camera, false);
+  EXPECT_TRUE(hypotheses.won());
+  EXPECT_LT(angle_between(hypotheses.T_newest_a().t, drive.T_c_a.t), 3 * kDegree);
 }
 
 TEST(MotionHypothesesTest, TooFewCornersGiveNoNumberThatCouldBeTrusted) {
@@ -139,15 +139,15 @@ TEST(MotionHypothesesTest, TooFewCornersGiveNoNumberThatCouldBeTrusted) {
   drive.move();
   drive.observe();
   const Parameters parameters;
-  MotionHypotheses rivals(parameters);
-  rivals.begin({drive.T_c_a, drive.T_c_a.inverse()});
+  MotionHypotheses hypotheses(parameters);
+  hypotheses.begin({drive.T_c_a, drive.T_c_a.inverse()});
   drive.move();
   drive.observe();
-  rivals.judge(drive.tracks, drive.camera, false);
-  EXPECT_GT(rivals.rms(), parameters.init_max_rms);
-  EXPECT_EQ(rivals.inlier(), std::vector<char>(2, 0));
-  rivals.clear();
-  EXPECT_TRUE(rivals.empty());
+  hypotheses.judge(drive.tracks, drive.camera, false);
+  EXPECT_GT(hypotheses.rms(), parameters.init_max_rms);
+  EXPECT_EQ(hypotheses.inlier(), std::vector<char>(2, 0));
+  hypotheses.clear();
+  EXPECT_TRUE(hypotheses.empty());
 }
 
 }  // namespace motion_hypotheses_test
