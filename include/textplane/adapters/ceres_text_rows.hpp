@@ -27,16 +27,12 @@ enum class TextRows { sums, pixels };
 
 /// Settings of a text observation. Its term of the cost is weight lambda_w c, lambda_w = text_weight() of its pixels.
 struct TextCostOptions {
-  /// Of every pixel; its robust cost acts inside.
-  PhotometricOptions photometric;
-  /// How an object weighs against points: lambda_w.
-  Weighting weighting = Weighting::variance;
-  double sigma_rep = 1;      ///< px.
-  double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
-  /// On top of lambda_w.
-  double weight = 1;
-  /// Sums of the kernel, or a residual a pixel.
-  TextRows rows = TextRows::sums;
+  PhotometricOptions photometric;             ///< Of every pixel; its robust cost acts inside.
+  Weighting weighting = Weighting::variance;  ///< How an object weighs against points: lambda_w.
+  double sigma_rep = 1;                       ///< px.
+  double sigma_photo = 0.3;                   ///< Per pixel, in units of 1/sqrt(N).
+  double weight = 1;                          ///< On top of lambda_w.
+  TextRows rows = TextRows::sums;             ///< Sums of the kernel, or a residual a pixel.
 };
 
 /// Scratch memory for cost functions that are evaluated on several threads: as many workspaces as were in use at one
@@ -45,9 +41,8 @@ class WorkspacePool {
  public:
   /// What one evaluation needs.
   struct Workspace {
-    /// Of the kernels.
-    PhotometricWorkspace photometric;
-    std::vector<double> rows;  ///< Of TextRows::pixels.
+    PhotometricWorkspace photometric;  ///< Of the kernels.
+    std::vector<double> rows;          ///< Of TextRows::pixels.
   };
 
   /// A workspace that nobody else has until it is given back. On any thread.

@@ -23,10 +23,8 @@ using Matrix2d = Eigen::Matrix<double, 2, 2>;  ///< A covariance, px^2.
 
 /// Covariances, px^2 of each image, of the Gaussian filters that bring host and target to one blur on the plane.
 struct BlurMatch {
-  /// Covariance of the host's filter, px^2 of the host.
-  Matrix2d host = Matrix2d::Zero();
-  /// Covariance of the target's filter, px^2 of the target.
-  Matrix2d target = Matrix2d::Zero();
+  Matrix2d host = Matrix2d::Zero();    ///< Covariance of the host's filter, px^2 of the host.
+  Matrix2d target = Matrix2d::Zero();  ///< Covariance of the target's filter, px^2 of the target.
 };
 
 /// What each view lacks. `A`: d target px / d host px on the plane. The variances (px^2 of each image) describe the

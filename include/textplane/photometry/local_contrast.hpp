@@ -35,7 +35,7 @@ struct LocalContrastOptions {
 };
 
 /// Replaces I by 128 + scale (I - mean) / sqrt(variance + floor^2), mean and variance being those of a square round the
-/// pixel; cut to [0, 255], rounded. The cost a pixel does not depend on the window. Keeps the memory that this takes:
+/// pixel; cut to [0, 255], rounded. The cost a pixel does not depend on the radius. Keeps the memory that this takes:
 /// use one a thread.
 class LocalContrast {
  public:

@@ -20,21 +20,14 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// gradient there, in intensity units a px, which template_jacobian and esm need (null: these policies are not
 /// possible).
 struct PatchView {
-  /// Columns, px of the level.
-  const float* x = nullptr;
-  /// Rows, px of the level.
-  const float* y = nullptr;
-  /// Grey levels of the host there.
-  const float* intensity = nullptr;
-  /// Zero: the pixel is left out; null: none is.
-  const std::uint8_t* mask = nullptr;
-  /// Number of pixels.
-  int n = 0;
-  /// Gradient along x, grey levels a px; null: not known.
-  const float* gx = nullptr;
-  /// Gradient along y, likewise.
-  const float* gy = nullptr;
-  simd::PointBounds bounds = {};  ///< Of x and y, where known: saves the kernels a look at them.
+  const float* x = nullptr;            ///< Columns, px of the level.
+  const float* y = nullptr;            ///< Rows, px of the level.
+  const float* intensity = nullptr;    ///< Grey levels of the host there.
+  const std::uint8_t* mask = nullptr;  ///< Zero: the pixel is left out; null: none is.
+  int n = 0;                           ///< Number of pixels.
+  const float* gx = nullptr;           ///< Gradient along x, grey levels a px; null: not known.
+  const float* gy = nullptr;           ///< Gradient along y, likewise.
+  simd::PointBounds bounds = {};       ///< Of x and y, where known: saves the kernels a look at them.
 };
 
 /// The host pixels of one pyramid level. x, y and intensity have one length, gx and gy that length too or none.

@@ -24,13 +24,11 @@ struct BasicPhotometricInput {
   static_assert(std::is_same<T, std::uint8_t>::value || std::is_same<T, float>::value,
                 "textplane: target images are 8-bit or float; T is the pixel's type without const");
 
-  /// Host pixels of one level.
-  PatchView patch;
+  PatchView patch;                ///< Host pixels of one level.
   Pinhole<double> host_camera;    ///< Of the level that `patch` is of.
   Pinhole<double> target_camera;  ///< Of the level that `target` is.
-  /// Image of one level.
-  ImageView<const T> target;
-  PairView pairs = {};  ///< Optional, for an 8-bit target: PreparedTarget of the same image.
+  ImageView<const T> target;      ///< Image of one level.
+  PairView pairs = {};            ///< Optional, for an 8-bit target: PreparedTarget of the same image.
 };
 using PhotometricInput = BasicPhotometricInput<std::uint8_t>;  ///< Of an 8-bit target.
 using PhotometricInputF = BasicPhotometricInput<float>;        ///< Of a float target.

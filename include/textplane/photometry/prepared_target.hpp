@@ -18,12 +18,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Pairs that somebody else owns; `stride` counts pairs. Empty where width is 0.
 struct PairView {
-  /// Rows of pairs.
-  const std::uint16_t* data = nullptr;
-  /// Pairs from a row to the next.
-  std::ptrdiff_t stride = 0;
-  int width = 0;   ///< px, of the image they were made of.
-  int height = 0;  ///< Likewise.
+  const std::uint16_t* data = nullptr;  ///< Rows of pairs.
+  std::ptrdiff_t stride = 0;            ///< Pairs from a row to the next.
+  int width = 0;                        ///< px, of the image they were made of.
+  int height = 0;                       ///< Likewise.
 };
 
 /// Owns the pairs of one image after the other.

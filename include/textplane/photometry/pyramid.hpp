@@ -21,10 +21,8 @@ constexpr int kMaxPyramidLevels = 8;  ///< Levels at most, the finest included.
 
 /// The levels of a pyramid that somebody else owns, finest first. Levels from `levels` on are empty views.
 struct PyramidView {
-  /// Finest first; each half the size of the one before.
-  std::array<ImageView8, kMaxPyramidLevels> level;
-  /// How many of them there are.
-  int levels = 0;
+  std::array<ImageView8, kMaxPyramidLevels> level;  ///< Finest first; each half the size of the one before.
+  int levels = 0;                                   ///< How many of them there are.
 };
 
 /// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). An odd

@@ -36,8 +36,7 @@ enum class Normalisation : std::uint8_t {
 
 /// Settings of the photometric residual.
 struct PhotometricOptions {
-  /// Of the derivatives.
-  Normalisation normalisation = Normalisation::exact;
+  Normalisation normalisation = Normalisation::exact;  ///< Of the derivatives.
   /// Acts on r sqrt(N), that is, delta is in units of 1/sqrt(N): on the difference of two patches of unit variance. The
   /// default 0.5 is 1.345 sigma (95 % efficiency) for the residuals of a match with ZNCC 0.93, since E = sigma^2 and
   /// ZNCC = 1 - E / 2.
@@ -83,8 +82,7 @@ struct PolicyRequest;
 /// aggregate: ResidualRequest{input, theta, T_t_h, options}. It refers to pixels and images, and owns the rest.
 template <class T>
 struct ResidualRequest {
-  /// Patch, target and cameras.
-  BasicPhotometricInput<T> input;
+  BasicPhotometricInput<T> input;                   ///< Patch, target and cameras.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_t_h = {};                                  ///< Host to target.
   PhotometricOptions options = {};

@@ -24,15 +24,14 @@ inline double range_error(double sum) noexcept { return sum < 0.0 ? 0.0 : sum > 
 
 /// What comes with normal equations. All zero unless is_ok(status).
 struct ResidualStats {
-  double cost = 0.0;   ///< Sum of rho(N r^2) / N.
-  double error = 0.0;  ///< E = sum of r^2, in [0, 4].
-  double zncc = 0.0;   ///< 1 - E / 2, in [-1, 1].
-  int visible = 0;     ///< N.
-  double mean = 0.0;   ///< Of the target intensities of the visible pixels.
-  double s = 0.0;      ///< ||I - mean|| of the same.
-  /// Whether the sums can be used.
-  Status status = Status::invalid_argument;
-  Path path = Path::kernel;  ///< What computed them.
+  double cost = 0.0;                         ///< Sum of rho(N r^2) / N.
+  double error = 0.0;                        ///< E = sum of r^2, in [0, 4].
+  double zncc = 0.0;                         ///< 1 - E / 2, in [-1, 1].
+  int visible = 0;                           ///< N.
+  double mean = 0.0;                         ///< Of the target intensities of the visible pixels.
+  double s = 0.0;                            ///< ||I - mean|| of the same.
+  Status status = Status::invalid_argument;  ///< Whether the sums can be used.
+  Path path = Path::kernel;                  ///< What computed them.
 };
 
 /// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P),
@@ -40,10 +39,8 @@ struct ResidualStats {
 /// is_ok(status).
 template <int P>
 struct NormalEquations : ResidualStats {
-  /// J^T W J.
-  Eigen::Matrix<double, P, P> H;
-  /// J^T W r.
-  Eigen::Matrix<double, P, 1> b;
+  Eigen::Matrix<double, P, P> H;  ///< J^T W J.
+  Eigen::Matrix<double, P, 1> b;  ///< J^T W r.
 
   NormalEquations() noexcept { clear(); }
   /// Leaves H and b as they are in memory, for callers that fill them at once: zeroing both takes as long as some
@@ -63,18 +60,16 @@ struct PhotometricCost {
   double zncc = 0.0;   ///< 1 - E / 2, in [-1, 1].
   int visible = 0;     ///< N.
   int lost = 0;        ///< Pixels of the given set that are not visible now.
-  /// Whether the cost can be used.
-  Status status = Status::invalid_argument;
-  Path path = Path::kernel;  ///< What computed it.
+  Status status = Status::invalid_argument;  ///< Whether the cost can be used.
+  Path path = Path::kernel;                  ///< What computed it.
 };
 
 /// What residuals() found out besides the residuals.
 struct ResidualSummary {
-  int visible = 0;    ///< N.
-  double mean = 0.0;  ///< Of the target intensities of the visible pixels.
-  double s = 0.0;     ///< ||I - mean|| of the same.
-  /// Whether the residuals can be used.
-  Status status = Status::invalid_argument;
+  int visible = 0;                           ///< N.
+  double mean = 0.0;                         ///< Of the target intensities of the visible pixels.
+  double s = 0.0;                            ///< ||I - mean|| of the same.
+  Status status = Status::invalid_argument;  ///< Whether the residuals can be used.
 };
 
 TEXTPLANE_END_NAMESPACE

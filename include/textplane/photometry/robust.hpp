@@ -21,10 +21,8 @@ enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
 ///   cauchy  rho = d^2 log(1 + r2 / d^2)                        weight = 1 / (1 + r2 / d^2)
 ///   tukey   rho = d^2 / 3 (1 - (1 - r2 / d^2)^3), else d^2/3   weight = (1 - r2 / d^2)^2, 0 for |r| > d
 struct Robust {
-  /// Which cost.
-  RobustKind kind = RobustKind::huber;
-  /// Where it leaves the quadratic, in the unit of |r|.
-  double delta = 1.0;
+  RobustKind kind = RobustKind::huber;  ///< Which cost.
+  double delta = 1.0;                   ///< Where it leaves the quadratic, in the unit of |r|.
 
   /// A known kind with a delta in [1e-100, 1e100], so that its square and ratios to it are numbers (l2 ignores it).
   bool valid() const noexcept {

@@ -23,12 +23,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// One object of a batch: host pixels of one level, the host's camera of that level, and the plane in the host frame.
 struct TextBatchItem {
-  /// Host pixels of one level.
-  PatchView patch;
-  /// Of the level that `patch` is of.
-  Pinhole<double> host_camera;
-  /// Plane in the host frame.
-  Vector3<double> theta = Vector3<double>::Zero();
+  PatchView patch;                                  ///< Host pixels of one level.
+  Pinhole<double> host_camera;                      ///< Of the level that `patch` is of.
+  Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
 };
 
 /// The host side of many objects, packed once. Thread-safe to read.

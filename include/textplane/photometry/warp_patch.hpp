@@ -28,9 +28,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// How a warp went.
 struct WarpSummary {
-  int inside = 0;  ///< Output pixels that lie inside the source.
-  /// Whether the warp was possible.
-  Status status = Status::invalid_argument;
+  int inside = 0;                            ///< Output pixels that lie inside the source.
+  Status status = Status::invalid_argument;  ///< Whether the warp was possible.
 };
 
 namespace detail {

@@ -13,14 +13,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// mean and s = ||I - mean|| = sigma sqrt(n), sigma the population standard deviation, of n intensities. The normalised
 /// intensity is (I - mean) / s: zero mean, unit norm.
 struct IntensityStats {
-  /// Of the intensities.
-  double mean = 0.0;
-  /// Norm of the intensities less their mean.
-  double s = 0.0;
-  /// How many intensities.
-  int n = 0;
-  /// Whether they have contrast enough.
-  Status status = Status::too_few;
+  double mean = 0.0;                ///< Of the intensities.
+  double s = 0.0;                   ///< Norm of the intensities less their mean.
+  int n = 0;                        ///< How many intensities.
+  Status status = Status::too_few;  ///< Whether they have contrast enough.
 };
 
 /// Statistics of those of the n values whose mask byte is not zero (a null mask: all of them).

@@ -50,8 +50,7 @@ struct SolveOptions {
 
 /// Cost of a trial state on the residuals of the last linearisation.
 struct Evaluation {
-  /// In the problem's own unit.
-  double cost = 0;
+  double cost = 0;             ///< In the problem's own unit.
   double lost_fraction = 0;    ///< In [0, 1].
   Status status = Status::ok;  ///< Anything but an ok status rejects the trial.
 };
@@ -62,9 +61,8 @@ struct Evaluation {
 /// `stall_tolerance`); rank_deficient (H of the initial state is singular); non_finite (NaN or infinity in H, b or the
 /// cost of the initial state); invalid_argument (options); or the status of the failed first linearisation.
 struct SolveSummary {
-  /// Why it ended.
-  Status status = Status::invalid_argument;
-  double initial_cost = 0;  ///< At the initial state, on its own residuals.
+  Status status = Status::invalid_argument;  ///< Why it ended.
+  double initial_cost = 0;                   ///< At the initial state, on its own residuals.
   /// At the returned state, on its own residuals: comparable with initial_cost if the set did not change.
   double final_cost = 0;
   /// Sum of the decreases of the accepted steps, each on the set of its linearisation; never negative.

@@ -12,10 +12,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// As PyramidView, for embedders that keep float images: level l + 1 is half as wide and high as level l.
 struct PyramidViewF {
-  /// Finest first; each half the size of the one before.
-  std::array<ImageViewF, kMaxPyramidLevels> level;
-  /// How many of them there are.
-  int levels = 0;
+  std::array<ImageViewF, kMaxPyramidLevels> level;  ///< Finest first; each half the size of the one before.
+  int levels = 0;                                   ///< How many of them there are.
 };
 
 namespace detail {

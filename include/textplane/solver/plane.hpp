@@ -22,16 +22,13 @@ struct PlaneRefinement {
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
   /// Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and norm costing two.
   double residual_variance = 0;
-  /// C(theta).
-  double cost = 0;
-  double zncc = 0;  ///< Mean over the targets used.
-  /// Targets that took part.
-  int targets_used = 0;
-  int visible_pixels = 0;    ///< Over the targets used.
-  int iterations = 0;        ///< Trials over all levels.
-  Path path = Path::kernel;  ///< Path::reference where any evaluation ran on the slow reference.
-  /// Why it ended: see above.
-  Status status = Status::invalid_argument;
+  double cost = 0;                           ///< C(theta).
+  double zncc = 0;                           ///< Mean over the targets used.
+  int targets_used = 0;                      ///< Targets that took part.
+  int visible_pixels = 0;                    ///< Over the targets used.
+  int iterations = 0;                        ///< Trials over all levels.
+  Path path = Path::kernel;                  ///< Path::reference where any evaluation ran on the slow reference.
+  Status status = Status::invalid_argument;  ///< Why it ended: see above.
 };
 
 namespace detail {

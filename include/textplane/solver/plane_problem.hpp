@@ -20,10 +20,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A target image and its pose relative to the host. View: PyramidView, or PyramidViewF for float images.
 template <class View>
 struct BasicPlaneTarget {
-  /// Pyramid of the undistorted image.
-  View image;
-  /// Host to target.
-  SE3d T_t_h;
+  View image;           ///< Pyramid of the undistorted image.
+  SE3d T_t_h;           ///< Host to target.
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
   /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to
   /// refine_plane(), whose levels and numbers of pixels it must have: a target with another is not used.
@@ -34,13 +32,11 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
 
 /// Settings of refine_plane() and align_plane().
 struct PlaneOptions {
-  /// Of every pixel.
-  PhotometricOptions photometric;
+  PhotometricOptions photometric;  ///< Of every pixel.
   /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
   SolveOptions solve;
   int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
-  /// Where it ends; 0 is the image itself.
-  int finest_level = 0;
+  int finest_level = 0;    ///< Where it ends; 0 is the image itself.
 };
 
 namespace detail {

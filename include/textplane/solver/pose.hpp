@@ -19,29 +19,25 @@ TEXTPLANE_BEGIN_NAMESPACE
 struct PoseResult {
   /// Of xi = (v, omega), left: H / sigma_rep^2. Its inverse is the covariance under Weighting::variance.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  /// C(T_t_w) of the finest level.
-  double cost = 0;
+  double cost = 0;           ///< C(T_t_w) of the finest level.
   double zncc = 0;           ///< Mean over the texts that took part.
   int texts = 0;             ///< Texts that took part.
   int visible_pixels = 0;    ///< Theirs.
   int inlier_points = 0;     ///< Points with |e|^2 <= 5.99 (sigma sigma_rep)^2.
   int iterations = 0;        ///< Trials over all levels.
   Path path = Path::kernel;  ///< Path::reference where any evaluation of a text ran on the slow reference.
-  /// Why it ended: see above.
-  Status status = Status::invalid_argument;
+  Status status = Status::invalid_argument;  ///< Why it ended: see above.
 };
 
 /// Result of refine_pose(). T_t_w is the best pose seen, the initial one if nothing could be improved; finite whenever
 /// the initial one is.
 struct PoseFit : PoseResult {
-  /// World to target camera.
-  SE3d T_t_w;
+  SE3d T_t_w;  ///< World to target camera.
 };
 
 /// Result of align_pose().
 struct PoseAlignment : PoseResult {
-  /// Host to target.
-  SE3d T_t_h;
+  SE3d T_t_h;  ///< Host to target.
 };
 
 namespace detail {

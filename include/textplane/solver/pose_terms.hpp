@@ -17,8 +17,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// A text object whose host pose and plane are held fixed. Its pixels come from `patch` (not owned).
 struct PoseTextTerm {
-  /// Its pixels in the host; not owned.
-  const TextPatch* patch = nullptr;
+  const TextPatch* patch = nullptr;                 ///< Its pixels in the host; not owned.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< On top of lambda_w.
@@ -30,31 +29,26 @@ struct PoseTextTerm {
 
 /// A known 3D point and where it was seen.
 struct PosePointTerm {
-  /// In the world.
-  Vector3<double> p_w = Vector3<double>::Zero();
-  Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
+  Vector3<double> p_w = Vector3<double>::Zero();  ///< In the world.
+  Vector2<double> px = Vector2<double>::Zero();   ///< Undistorted, level 0.
   double sigma = 1;  ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
 };
 
 /// Settings of refine_pose() and align_pose().
 struct PoseOptions {
-  /// Of every pixel of the texts.
-  PhotometricOptions photometric;
+  PhotometricOptions photometric;  ///< Of every pixel of the texts.
   /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's
   /// residual in units of 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the
   /// paper's E_text.
   Weighting weighting = Weighting::variance;
-  /// See `weighting`.
-  double sigma_photo = 0.3;
-  /// px, of a point with sigma 1.
-  double sigma_rep = 1;
+  double sigma_photo = 0.3;  ///< See `weighting`.
+  double sigma_rep = 1;      ///< px, of a point with sigma 1.
   /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
   Robust point_robust{RobustKind::huber, 2.4477};
   /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
   SolveOptions solve;
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
-  /// Where it ends; 0 is the image itself.
-  int finest_level = 0;
+  int finest_level = 0;    ///< Where it ends; 0 is the image itself.
   /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take
   /// forward. Whatever the policy, steps are judged by the cost.
   LinearisePolicy policy = LinearisePolicy::forward;

@@ -19,8 +19,7 @@ struct SearchOptions {
   double step = 1.0;  ///< Between shifts.
   /// Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
   double roll = 0.1;
-  /// Of every pixel.
-  PhotometricOptions photometric;
+  PhotometricOptions photometric;  ///< Of every pixel.
 };
 
 namespace detail {

@@ -31,14 +31,11 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Memory of solve_window(), to be reused from call to call: a call allocates only where its window exceeds every
 /// earlier one, and then in its set-up. Not to be shared by two threads at a time.
 struct WindowWorkspace {
-  detail::WindowState current;  ///< The estimate.
-  detail::WindowState trial;    ///< The one that a step leads to.
-  /// Which unknowns there are and how they meet.
-  detail::WindowStructure structure;
-  /// The linearised texts.
-  detail::WindowTerms terms;
-  /// The normal equations.
-  detail::WindowSchur system;
+  detail::WindowState current;        ///< The estimate.
+  detail::WindowState trial;          ///< The one that a step leads to.
+  detail::WindowStructure structure;  ///< Which unknowns there are and how they meet.
+  detail::WindowTerms terms;          ///< The linearised texts.
+  detail::WindowSchur system;         ///< The normal equations.
 };
 
 namespace detail {

@@ -51,10 +51,8 @@ struct WindowPoint {
 
 /// A point seen in a frame.
 struct WindowPointObservation {
-  /// Index into Window::frames: the one that sees it.
-  int frame = -1;
-  /// Index into Window::points.
-  int point = -1;
+  int frame = -1;                                ///< Index into Window::frames: the one that sees it.
+  int point = -1;                                ///< Index into Window::points.
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
   /// Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
   double sigma = 1;
@@ -89,8 +87,7 @@ struct WindowText {
 
 /// A text seen in a frame other than its host.
 struct WindowTextObservation {
-  /// Index into Window::texts.
-  int text = -1;
+  int text = -1;        ///< Index into Window::texts.
   int frame = -1;       ///< Target frame, other than the host.
   double weight = 1;    ///< Of this observation, on top of lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the text at another size than its host.
@@ -105,30 +102,22 @@ struct WindowTextObservation {
 
 /// The whole problem. One pinhole camera for all frames (level 0).
 struct Window {
-  /// Of all frames, level 0.
-  Pinhole<double> camera;
-  /// Poses, the unknown ones and those held.
-  std::vector<WindowFrame> frames;
-  /// Points in the world.
-  std::vector<WindowPoint> points;
-  /// Who sees which point where.
-  std::vector<WindowPointObservation> point_observations;
-  /// Text objects, by host and plane.
-  std::vector<WindowText> texts;
-  /// Who sees which text.
-  std::vector<WindowTextObservation> text_observations;
+  Pinhole<double> camera;                                  ///< Of all frames, level 0.
+  std::vector<WindowFrame> frames;                         ///< Poses, the unknown ones and those held.
+  std::vector<WindowPoint> points;                         ///< Points in the world.
+  std::vector<WindowPointObservation> point_observations;  ///< Who sees which point where.
+  std::vector<WindowText> texts;                           ///< Text objects, by host and plane.
+  std::vector<WindowTextObservation> text_observations;    ///< Who sees which text.
 };
 
 /// Settings of solve_window().
 struct WindowOptions {
-  /// Of every pixel of the texts.
-  PhotometricOptions photometric;
+  PhotometricOptions photometric;  ///< Of every pixel of the texts.
   Robust point_robust{RobustKind::huber,
                       std::sqrt(5.99)};  ///< On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom.
-  /// How texts weigh against points: lambda_w.
-  Weighting weighting = Weighting::variance;
-  double sigma_rep = 1;      ///< px.
-  double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
+  Weighting weighting = Weighting::variance;  ///< How texts weigh against points: lambda_w.
+  double sigma_rep = 1;                       ///< px.
+  double sigma_photo = 0.3;                   ///< Per pixel, in units of 1/sqrt(N).
   /// Pyramid level of patches and images; for coarse to fine call solve_window() once a level, same workspace.
   int text_level = 0;
 
@@ -147,8 +136,7 @@ struct WindowOptions {
   /// just one frame is fixed; allowed with more (a known baseline). Ignored where both frames are fixed; -1: no such
   /// constraint.
   int scale_frame_a = -1;
-  /// Index into Window::frames of the other frame of that distance; -1: none.
-  int scale_frame_b = -1;
+  int scale_frame_b = -1;  ///< Index into Window::frames of the other frame of that distance; -1: none.
 
   bool covariance = true;  ///< Compute WindowText::covariance and information, and the rank_deficient statuses.
 };
@@ -163,9 +151,8 @@ struct WindowOptions {
 /// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state (the start,
 /// perhaps).
 struct WindowSummary {
-  /// Why it ended: see above.
-  Status status = Status::too_few;
-  double initial_cost = 0;  ///< E over what took part at the start.
+  Status status = Status::too_few;  ///< Why it ended: see above.
+  double initial_cost = 0;          ///< E over what took part at the start.
   /// E at the final state. It can exceed the initial cost only where patches gained visible pixels meanwhile.
   double final_cost = 0;
   int iterations = 0;  ///< Steps tried.
