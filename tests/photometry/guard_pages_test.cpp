@@ -1,5 +1,5 @@
-// No photometric kernel reads beyond its image or its arrays of pixels: both end, and begin, at pages that may not be touched,
-// and the pixels fall on every border of the image and beyond it. A read too far ends the program.
+// No photometric kernel reads beyond its image or its arrays of pixels: both end, and begin, at pages that may not be
+// touched, and the pixels fall on every border of the image and beyond it. A read too far ends the program.
 #include <gtest/gtest.h>
 
 #include <cstdint>

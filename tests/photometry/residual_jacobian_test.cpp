@@ -54,8 +54,9 @@ std::vector<S> residuals_at(const Scene<T>& scene, const Relative<S>& at, const 
   return r;
 }
 
-// Jacobian of `step` (parameters -> Relative) by central differences of fourth order. A radian moves a pixel by hundreds of
-// pixels and the norm of the intensities bends on the scale of one: the second-order stencil is off by h^2 1e4 relatively.
+// Jacobian of `step` (parameters -> Relative) by central differences of fourth order. A radian moves a pixel by
+// hundreds of pixels and the norm of the intensities bends on the scale of one: the second-order stencil is off by h^2
+// 1e4 relatively.
 template <int P, class T, class Step>
 Rows<P> by_differences(const Scene<T>& scene, const Step& step, const std::uint8_t* visible,
                        const tp::IntensityStats* frozen) {

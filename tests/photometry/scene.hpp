@@ -28,8 +28,8 @@ tp::Image<T> texture(int width, int height, unsigned seed) {
   return image;
 }
 
-/// Cameras, plane, poses and host pixels such that every warped pixel lies inside a 200 x 160 target, at least 0.02 px from
-/// the pixel lines: a small step of any parameter leaves it in its cell.
+/// Cameras, plane, poses and host pixels such that every warped pixel lies inside a 200 x 160 target, at least 0.02 px
+/// from the pixel lines: a small step of any parameter leaves it in its cell.
 template <class T>
 struct Scene {
   static constexpr int kWidth = 200, kHeight = 160;

@@ -1,5 +1,5 @@
-// Laws of minimise() and refine_pose() at drawn problems: accepted steps lower the cost, the best state seen is returned, and the
-// unit of length does not matter.
+// Laws of minimise() and refine_pose() at drawn problems: accepted steps lower the cost, the best state seen is
+// returned, and the unit of length does not matter.
 #include <cmath>
 #include <memory>
 #include <vector>

@@ -1,5 +1,5 @@
-// Laws of solve_window() at drawn windows: steps lower the cost, the unit of length does not matter, and the reduced system is
-// the full one.
+// Laws of solve_window() at drawn windows: steps lower the cost, the unit of length does not matter, and the reduced
+// system is the full one.
 #include "textplane/solver/window.hpp"
 
 #include <cmath>

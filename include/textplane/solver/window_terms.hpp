@@ -25,8 +25,7 @@ struct WindowTrial {
 template <class S>
 class BasicWindowTerms {
  public:
-  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates where the window exceeds all
-  /// earlier.
+  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates for the largest window so far.
   void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
     path_ = Path::kernel;
     for (WindowFrame& f : w.frames) f.status = Status::ok;
