@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -13,6 +15,28 @@ namespace pose_test {
 using textplane::Status;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// Float images run on the reference, 8-bit ones on the kernels, and points on neither.
+TEST(RefinePose, SaysWhatComputedItsTexts) {
+  Input input;
+  EXPECT_EQ(input.solve(input.truth).path, textplane::Path::reference);
+  EXPECT_EQ(input.solve(input.truth, {}, false).path, textplane::Path::kernel);
+
+  const textplane::ImageViewF grey = input.target.view().level[0];
+  textplane::Image<std::uint8_t> image(grey.width(), grey.height());
+  for (int y = 0; y < grey.height(); ++y)
+    for (int x = 0; x < grey.width(); ++x)
+      image(x, y) = static_cast<std::uint8_t>(std::min(std::max(grey(x, y), 0.0F), 255.0F));
+  const textplane::Pyramid pyramid(image.view());
+  PoseOptions options;
+  for (const bool precise : {false, true}) {
+    options.photometric.precise = precise;
+    const PoseFit fit = textplane::refine_pose(input.texts.data(), 1, nullptr, 0, pyramid, input.scene.camera,
+                                               input.truth, options, input.workspace);
+    EXPECT_EQ(fit.texts, 1);
+    EXPECT_EQ(fit.path, precise ? textplane::Path::reference : textplane::Path::kernel);
+  }
+}
 
 TEST(RefinePose, UnusableTermsAreSkipped) {
   Input input;
