@@ -11,6 +11,7 @@
 #include "textplane/features/klt.hpp"
 #include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/prepared_target.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 #include "textplane/photometry/text_batch.hpp"
 #include "textplane/photometry/warp_patch.hpp"
 

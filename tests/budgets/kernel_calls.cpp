@@ -12,6 +12,7 @@
 #include "textplane/features/fast.hpp"
 #include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/residual.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 #include "textplane/photometry/text_batch.hpp"
 #include "textplane/photometry/warp_patch.hpp"
 #include "textplane/simd/sample.hpp"

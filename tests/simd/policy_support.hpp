@@ -11,7 +11,7 @@
 
 #include "photometry/scene.hpp"
 #include "support/targets.hpp"
-#include "textplane/photometry/template_patch.hpp"
+#include "textplane/photometry/residual_policy.hpp"
 
 namespace textplane_test {
 

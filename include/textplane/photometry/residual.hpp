@@ -45,6 +45,10 @@ NormalEquations<dof(Unknowns)> linearise(const ResidualRequest<T>& request, Phot
   return out;
 }
 
+/// The same by a policy, ResidualRequest::by(): residual_policy.hpp defines it.
+template <Parameters Unknowns, class T>
+NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept;
+
 /// The cost alone: see reference::evaluate().
 template <class T>
 PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace& workspace,
