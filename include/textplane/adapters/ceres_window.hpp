@@ -170,8 +170,8 @@ class WindowProblem {
       if (t.patch && t.host != o.frame && o.weight > 0 && is_finite(o.weight)) {
         term.input = photometric_input(*t.patch, options_.text_level, target.image, window_.camera, o.scale_shift);
         workspace.reserve(term.input.patch.n);
-        status =
-            evaluate(term.input, t.theta, target.T_w_c.inverse() * host.T_w_c, options_.photometric, workspace).status;
+        const SE3d T_t_h = target.T_w_c.inverse() * host.T_w_c;
+        status = evaluate(ResidualRequest{term.input, t.theta, T_t_h, options_.photometric}, workspace).status;
       }
       if (is_ok(status))
         of[static_cast<std::size_t>(o.text)].push_back(term);
