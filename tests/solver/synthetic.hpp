@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "textplane/core/se3.hpp"
 #include "textplane/photometry/patch.hpp"
 #include "textplane/photometry/sample.hpp"
 #include "textplane/solver/levels.hpp"
