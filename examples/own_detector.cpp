@@ -2,9 +2,10 @@
 // blurs first. Replace it with any code that makes quads of an image: docs/detectors.md.
 #include <cstdio>
 
+#include "detectors/classical_detector.hpp"
 #include "io/input_error.hpp"
+#include "plugins/plugins.hpp"
 #include "textplane/geometry/quad.hpp"
-#include "textslam/detect/classical_detector.hpp"
 #include "textslam/run.hpp"
 
 using namespace textslam;
@@ -28,6 +29,7 @@ class LargeTextDetector final : public TextDetector {
 
 int main(int argc, char** argv) try {
   if (argc != 3) return std::fprintf(stderr, "usage: own_detector SEQUENCE OUTPUT\n"), 2;
+  register_plugins();  // of them, here, the reader of video files
   RunOptions options;
   options.sequence = argv[1];
   options.output = argv[2];

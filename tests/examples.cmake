@@ -26,8 +26,10 @@ textplane_add_tests(renderer LIBRARIES textplane_renderer TIERS first_look sanit
   sanitizers "RendererGeometry\\.EveryPixelShowsTheNearestSurfaceOnItsRay|RendererTruth\\.SignsPosesAndCamera"
   sanitizers "Kinds/EveryKind\\.RendersFramesThatATrackerCanUse/(lights|notext|rapid|room_still|sparse)")
 textplane_add_tests(planar LIBRARIES textplane_textslam TIERS first_look sanitizers)
+textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS first_look sanitizers EXCEPT
+  sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms")
 textplane_add_tests(textslam LIBRARIES textplane_plugins TIERS first_look sanitizers EXCEPT
-  sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms|LateDetections\\." first_look "LateDetections\\.")
+  sanitizers "LateDetections\\." first_look "LateDetections\\.")
 
 add_test(NAME examples.rooms COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/examples/textslam
   -P ${CMAKE_CURRENT_SOURCE_DIR}/textslam/rooms.cmake)

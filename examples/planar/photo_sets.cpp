@@ -7,11 +7,11 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "detectors/classical_detector.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "planar/peers.hpp"
 #include "planar/registration.hpp"
-#include "textslam/detect/classical_detector.hpp"
 
 namespace planar {
 

@@ -1,4 +1,4 @@
-# Plug-ins need libraries of their own. Each has an option, off by default; a program names the option of what it lacks.
+# A plug-in that needs a library has an option, off by default; a program names the option of what it lacks.
 option(TEXTSLAM_DNN "Build the detector and reader `dnn`: networks through OpenCV (Debian: libopencv-dev)" OFF)
 option(TEXTSLAM_TESSERACT "Build the detector and reader `tesseract` (Debian: libtesseract-dev tesseract-ocr-eng)" OFF)
 option(TEXTSLAM_VIDEO "Read video files (Debian: libavformat-dev libavcodec-dev libswscale-dev)" OFF)

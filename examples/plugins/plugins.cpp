@@ -1,6 +1,6 @@
 #include "plugins/plugins.hpp"
 
-#include "textslam/detect/text_detector.hpp"
+#include "detectors/classical_detector.hpp"
 
 #ifdef TEXTSLAM_WITH_DNN
 #include "detectors/dnn_detector.hpp"
@@ -16,6 +16,7 @@
 namespace textslam {
 
 void register_plugins() {
+  register_plugin({"classical", [](auto&...) { return std::make_unique<ClassicalDetector>(); }, nullptr});
 #ifdef TEXTSLAM_WITH_DNN
   register_plugin({"dnn", make_dnn_detector, make_dnn_reader, is_dnn_reader_ready, {"dnn", "tesseract"}});
 #else

@@ -1,4 +1,4 @@
-// The plug-ins: detectors, readers and video files that need libraries of their own.
+// The plug-ins: detectors, readers and video files.
 #ifndef TEXTSLAM_PLUGINS_PLUGINS_HPP
 #define TEXTSLAM_PLUGINS_PLUGINS_HPP
 

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "io/input_error.hpp"
-#include "textslam/detect/classical_detector.hpp"
 
 namespace textslam {
 namespace {
@@ -44,8 +43,7 @@ class ReadingDetector final : public TextDetector {
 
 std::vector<TextPlugin>& plugins() {
   static std::vector<TextPlugin> all = {
-      {"files", [](auto&, const Sequence& s) { return std::make_unique<FileDetector>(s); }, nullptr},
-      {"classical", [](auto&...) { return std::make_unique<ClassicalDetector>(); }, nullptr}};
+      {"files", [](auto&, const Sequence& s) { return std::make_unique<FileDetector>(s); }, nullptr}};
   return all;
 }
 

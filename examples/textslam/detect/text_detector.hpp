@@ -40,7 +40,7 @@ struct DetectorOptions {
 };
 
 /// What detects or reads text, by its name for --detector and --words. "files" (the sequence's own detections, by any
-/// external detector) and "classical" (built in, no model) are always there; main() registers others: examples/plugins.
+/// external detector) is always there; main() registers the others: examples/plugins.
 struct TextPlugin {
   std::string name;
   std::function<std::unique_ptr<TextDetector>(const DetectorOptions&, const Sequence&)> detector;

@@ -1,4 +1,4 @@
-#include "textslam/detect/text_quads.hpp"
+#include "detectors/text_quads.hpp"
 
 #include <algorithm>
 #include <array>

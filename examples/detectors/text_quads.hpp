@@ -1,11 +1,11 @@
 // Quads: the outline of a line of letters, and whether it is text; the fourth step of the classical text detector.
-#ifndef TEXTSLAM_DETECT_TEXT_QUADS_HPP
-#define TEXTSLAM_DETECT_TEXT_QUADS_HPP
+#ifndef TEXTSLAM_DETECTORS_TEXT_QUADS_HPP
+#define TEXTSLAM_DETECTORS_TEXT_QUADS_HPP
 
 #include <vector>
 
-#include "textslam/detect/classical_parameters.hpp"
-#include "textslam/detect/text_letters.hpp"
+#include "detectors/classical_parameters.hpp"
+#include "detectors/text_letters.hpp"
 
 namespace textslam {
 
@@ -25,4 +25,4 @@ void suppress_overlaps(std::vector<TextQuad>& quads, const ClassicalParameters& 
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_DETECT_TEXT_QUADS_HPP
+#endif  // TEXTSLAM_DETECTORS_TEXT_QUADS_HPP

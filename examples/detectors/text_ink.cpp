@@ -1,4 +1,4 @@
-#include "textslam/detect/text_ink.hpp"
+#include "detectors/text_ink.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,8 +3,8 @@
 // Lengths without a unit are shares of the letters' or the line's height; "level px" are pixels of the searched pyramid
 // level. ink_sigmas, min_variety, min_score and the limits of ink, cover, lean and quad height were tuned on a rendered
 // room (seed 1), kitchen video and street photographs: results on those flatter the detector.
-#ifndef TEXTSLAM_DETECT_CLASSICAL_PARAMETERS_HPP
-#define TEXTSLAM_DETECT_CLASSICAL_PARAMETERS_HPP
+#ifndef TEXTSLAM_DETECTORS_CLASSICAL_PARAMETERS_HPP
+#define TEXTSLAM_DETECTORS_CLASSICAL_PARAMETERS_HPP
 
 namespace textslam {
 
@@ -77,4 +77,4 @@ struct ClassicalParameters {
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_DETECT_CLASSICAL_PARAMETERS_HPP
+#endif  // TEXTSLAM_DETECTORS_CLASSICAL_PARAMETERS_HPP

@@ -3,18 +3,18 @@
 // On each level of a pyramid: ink (text_ink), letters by connected pieces of ink (text_letters), lines by letters side
 // by side (text_lines), quads around lines (text_quads); then the best of those that overlap. It finds printed lines of
 // three letters or more, at most 60 degrees from the horizontal, and reads nothing.
-#ifndef TEXTSLAM_DETECT_CLASSICAL_DETECTOR_HPP
-#define TEXTSLAM_DETECT_CLASSICAL_DETECTOR_HPP
+#ifndef TEXTSLAM_DETECTORS_CLASSICAL_DETECTOR_HPP
+#define TEXTSLAM_DETECTORS_CLASSICAL_DETECTOR_HPP
 
 #include <vector>
 
+#include "detectors/classical_parameters.hpp"
+#include "detectors/text_ink.hpp"
+#include "detectors/text_letters.hpp"
+#include "detectors/text_lines.hpp"
+#include "detectors/text_quads.hpp"
 #include "textplane/photometry/pyramid.hpp"
-#include "textslam/detect/classical_parameters.hpp"
 #include "textslam/detect/text_detector.hpp"
-#include "textslam/detect/text_ink.hpp"
-#include "textslam/detect/text_letters.hpp"
-#include "textslam/detect/text_lines.hpp"
-#include "textslam/detect/text_quads.hpp"
 
 namespace textslam {
 
@@ -40,4 +40,4 @@ class ClassicalDetector final : public TextDetector {
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_DETECT_CLASSICAL_DETECTOR_HPP
+#endif  // TEXTSLAM_DETECTORS_CLASSICAL_DETECTOR_HPP

@@ -1,5 +1,5 @@
 // Pieces of the classical detector: ink, letters, quads.
-#include "textslam/detect/text_letters.hpp"
+#include "detectors/text_letters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "textslam/detect/classical_detector.hpp"
+#include "detectors/classical_detector.hpp"
 
 namespace textslam {
 namespace text_letters_test {

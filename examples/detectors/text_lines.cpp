@@ -1,4 +1,4 @@
-#include "textslam/detect/text_lines.hpp"
+#include "detectors/text_lines.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // Lines: letters of one kind side by side, the third step of the classical text detector.
-#ifndef TEXTSLAM_DETECT_TEXT_LINES_HPP
-#define TEXTSLAM_DETECT_TEXT_LINES_HPP
+#ifndef TEXTSLAM_DETECTORS_TEXT_LINES_HPP
+#define TEXTSLAM_DETECTORS_TEXT_LINES_HPP
 
 #include <vector>
 
-#include "textslam/detect/classical_parameters.hpp"
-#include "textslam/detect/text_letters.hpp"
+#include "detectors/classical_parameters.hpp"
+#include "detectors/text_letters.hpp"
 
 namespace textslam {
 
@@ -33,4 +33,4 @@ void find_lines(const std::vector<Letter>& letters, const ClassicalParameters& p
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_DETECT_TEXT_LINES_HPP
+#endif  // TEXTSLAM_DETECTORS_TEXT_LINES_HPP

@@ -1,4 +1,4 @@
-#include "textslam/detect/classical_detector.hpp"
+#include "detectors/classical_detector.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "textslam/detect/text_letters.hpp"
+#include "detectors/text_letters.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "textslam/detect/text_ink.hpp"
+#include "detectors/text_ink.hpp"
 
 namespace textslam {
 namespace {

@@ -1,13 +1,13 @@
 // Letters: connected pieces of ink that look like a letter, the second step of the classical text detector.
-#ifndef TEXTSLAM_DETECT_TEXT_LETTERS_HPP
-#define TEXTSLAM_DETECT_TEXT_LETTERS_HPP
+#ifndef TEXTSLAM_DETECTORS_TEXT_LETTERS_HPP
+#define TEXTSLAM_DETECTORS_TEXT_LETTERS_HPP
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "detectors/classical_parameters.hpp"
 #include "io/names.hpp"
-#include "textslam/detect/classical_parameters.hpp"
 
 namespace textslam {
 
@@ -54,4 +54,4 @@ void find_letters(const ImageView8& image, const Image<std::uint8_t>& ink, const
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_DETECT_TEXT_LETTERS_HPP
+#endif  // TEXTSLAM_DETECTORS_TEXT_LETTERS_HPP

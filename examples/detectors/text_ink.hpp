@@ -1,12 +1,12 @@
 // Ink: which pixels are darker or lighter than their surroundings, the first step of the classical text detector.
-#ifndef TEXTSLAM_DETECT_TEXT_INK_HPP
-#define TEXTSLAM_DETECT_TEXT_INK_HPP
+#ifndef TEXTSLAM_DETECTORS_TEXT_INK_HPP
+#define TEXTSLAM_DETECTORS_TEXT_INK_HPP
 
 #include <cstdint>
 #include <vector>
 
+#include "detectors/classical_parameters.hpp"
 #include "io/names.hpp"
-#include "textslam/detect/classical_parameters.hpp"
 
 namespace textslam {
 
@@ -26,4 +26,4 @@ void mark_ink(const ImageView8& image, const ClassicalParameters& parameters, In
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_DETECT_TEXT_INK_HPP
+#endif  // TEXTSLAM_DETECTORS_TEXT_INK_HPP

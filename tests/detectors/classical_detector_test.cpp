@@ -1,5 +1,5 @@
 // The classical detector: its pieces on drawn images, and the whole on rendered rooms with exact truth.
-#include "textslam/detect/classical_detector.hpp"
+#include "detectors/classical_detector.hpp"
 
 #include <gtest/gtest.h>
 
