@@ -15,8 +15,9 @@ constexpr int kKltSide = 21;       ///< Largest columns and rows of a patch.
 constexpr int kKltStride = 32;     ///< int16 from a row of samples to the next.
 constexpr int kKltSubpixels = 64;  ///< Positions a px.
 constexpr int kKltScale = 32;      ///< Units of a sample a grey level.
+constexpr int kKltSlack = 32;      ///< int16 past the last row that vectors read.
 /// Elements of a patch with a border of one sample on all sides.
-constexpr int kKltPadded = (kKltSide + 2) * kKltStride + 16;
+constexpr int kKltPadded = (kKltSide + 2) * kKltStride + kKltSlack;
 
 /// columns x rows samples v = kKltScale (I - 128), rounded down, of the bilinear interpolant; the first one (fx, fy) /
 /// 64 px from the pixel at `data`. The columns + 1 pixels of rows + 1 rows from there on exist.

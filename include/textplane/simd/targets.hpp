@@ -155,6 +155,7 @@
 #define TEXTPLANE_SIMD_ENTRY inline __attribute__((noinline))
 #define TEXTPLANE_SIMD_RESTRICT __restrict__
 #define TEXTPLANE_SIMD_PREFETCH(p) __builtin_prefetch(p)
+#define TEXTPLANE_SIMD_UNROLL _Pragma("GCC unroll 8")  // g++ keeps such loops at -O2, and their arrays in memory
 #define TEXTPLANE_SIMD_SQRT __builtin_sqrtf
 #define TEXTPLANE_SIMD_FLOOR __builtin_floorf
 #define TEXTPLANE_SIMD_ABS __builtin_fabsf
@@ -169,6 +170,7 @@
 #endif
 #define TEXTPLANE_SIMD_ENTRY inline
 #define TEXTPLANE_SIMD_PREFETCH(p) static_cast<void>(p)
+#define TEXTPLANE_SIMD_UNROLL
 #define TEXTPLANE_SIMD_SQRT ::std::sqrt
 #define TEXTPLANE_SIMD_FLOOR ::std::floor
 #define TEXTPLANE_SIMD_ABS ::std::fabs

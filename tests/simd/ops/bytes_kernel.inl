@@ -12,7 +12,6 @@ TEXTPLANE_SIMD_ENTRY void run_bytes(const textplane_test::ByteArrays& t) noexcep
     storeb(t.result->most + i, maxb(a, b));
     storeb(t.result->both + i, andb(a, b));
     storeb(t.result->either + i, orb(a, b));
-    storeb(t.result->one + i, xorb(a, b));
     storeb(t.result->not_less + i, geb(a, b));
     storeb(t.result->constant + i, setb(t.a[0]));
     storeb(t.result->mean + i,
@@ -38,19 +37,19 @@ TEXTPLANE_SIMD_ENTRY void copy_parts(const std::uint8_t* from, int n, std::uint8
 
 TEXTPLANE_SIMD_ENTRY void run_shorts(const textplane_test::ShortArrays& t) noexcept {
   t.result->dot = t.result->dot_twice = 0;
-  for (int i = 0; i < 16; i += kShorts) {
-    const vh a = loadh(t.a + i), b = loadh(t.b + i);
-    storeh(t.result->sum + i, addh(a, b));
-    storeh(t.result->difference + i, subh(a, b));
-    storeh(t.result->both + i, andh(a, b));
-    storeh(t.result->half + i, halfh(a));
-    storeh(t.result->product + i, mulhrsh(a, b));
-    storeh(t.result->first + i, firsth(t.n - i));
-    storeh(t.result->constant + i, seth(t.n));
-    storeh(t.result->mixed + i, mix_pairs(t.pixels + i, andh(pair_weights(64 - t.n, t.n), firsth(15 - i))));
-    storeh(t.result->grey + i, grey_to_fixed(t.grey + i));
-    const vw once = dotw(zerow(), a, b);
+  for (int i = 0; i < 32; i += k16Lanes) {
+    const v16 a = load16(t.a + i), b = load16(t.b + i);
+    store16(t.result->sum + i, add16(a, b));
+    store16(t.result->difference + i, sub16(a, b));
+    store16(t.result->both + i, and16(a, b));
+    store16(t.result->half + i, half16(a));
+    store16(t.result->product + i, mul15(a, b));
+    store16(t.result->first + i, first16(t.n - i));
+    store16(t.result->constant + i, set16(t.n));
+    store16(t.result->mixed + i, mix_pairs(t.pixels + i, and16(pair_weights(64 - t.n, t.n), first16(31 - i))));
+    store16(t.result->grey + i, grey_to_fixed(t.grey + i));
+    const vw once = add_dot16(vw{}, a, b);
     t.result->dot += sumw(once);
-    t.result->dot_twice += sumw(dotw(once, b, b));
+    t.result->dot_twice += sumw(add_dot16(once, b, b));
   }
 }

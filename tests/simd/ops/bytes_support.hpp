@@ -7,8 +7,7 @@
 namespace textplane_test {
 
 struct ByteResults {
-  std::uint8_t sum[64], difference[64], least[64], most[64], both[64], either[64], one[64], not_less[64], constant[64],
-      mean[64];
+  std::uint8_t sum[64], difference[64], least[64], most[64], both[64], either[64], not_less[64], constant[64], mean[64];
   std::uint64_t bits;
   bool any;
   int lowest;
@@ -22,11 +21,11 @@ struct ByteArrays {
 };
 
 struct ShortResults {
-  std::int16_t sum[16], difference[16], both[16], half[16], product[16], first[16], constant[16], mixed[16], grey[16];
+  std::int16_t sum[32], difference[32], both[32], half[32], product[32], first[32], constant[32], mixed[32], grey[32];
   double dot, dot_twice;
 };
 
-/// 16 int16 and floats; 40 pixels; n in [0, 64].
+/// 32 int16 and floats; 48 pixels; n in [0, 64].
 struct ShortArrays {
   const std::int16_t* a;
   const std::int16_t* b;

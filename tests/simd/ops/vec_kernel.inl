@@ -39,9 +39,7 @@ TEXTPLANE_SIMD_ENTRY void int_operations(const int* pa, const int* pb, int shift
   storei(out + kLanes * k++, shr(a, shift));
   storei(out + kLanes * k++, shl(a, 3));
   storei(out + kLanes * k++, shr(a, 3));
-  storei(out + kLanes * k++, selecti(lti(a, b), a, b));
   storei(out + kLanes * k++, seti(pa[0]));
-  storei(out + kLanes * k++, ioti());
 }
 
 TEXTPLANE_SIMD_ENTRY void conversions(const float* pa, const int* pb, int* ints, float* floats) noexcept {
@@ -53,27 +51,22 @@ TEXTPLANE_SIMD_ENTRY void inverse_roots(const float* p, float* out) noexcept {
   store(out, inverse_root(hold(load(p))));
 }
 
-// Masks as bits; the last entries are counts and truth values.
+// Masks as bits; the last entries are a count and a truth value.
 TEXTPLANE_SIMD_ENTRY void mask_operations(const float* pa, const float* pb, const int* pi, const int* pj,
                                           unsigned* out) noexcept {
   const vf a = load(pa), b = load(pb);
   const vi i = loadi(pi), j = loadi(pj);
-  const vm m = lt(a, b), n = lti(i, j);
+  const vm m = lt(a, b), n = eqi(i, j);
   int k = 0;
   out[k++] = bits_from_mask(lt(a, b));
   out[k++] = bits_from_mask(le(a, b));
   out[k++] = bits_from_mask(gt(a, b));
   out[k++] = bits_from_mask(ge(a, b));
   out[k++] = bits_from_mask(eq(a, b));
-  out[k++] = bits_from_mask(lti(i, j));
-  out[k++] = bits_from_mask(gti(i, j));
   out[k++] = bits_from_mask(eqi(i, j));
   out[k++] = bits_from_mask(and_(m, n));
-  out[k++] = bits_from_mask(or_(m, n));
   out[k++] = bits_from_mask(andnot_(m, n));
-  out[k++] = bits_from_mask(not_(m));
   out[k++] = static_cast<unsigned>(count_true(m));
-  out[k++] = any_true(m) ? 1u : 0u;
   out[k++] = all_true(m) ? 1u : 0u;
 }
 
@@ -101,24 +94,10 @@ TEXTPLANE_SIMD_ENTRY void taps(const std::uint32_t* words, float* out) noexcept 
   store(out + 3 * kLanes, tap_dxy(t));
 }
 
-// Loads of n elements, each stored whole; and of a full vector of bytes.
-TEXTPLANE_SIMD_ENTRY void partial_load_floats(const float* p, int n, float* out) noexcept { store(out, load_n(p, n)); }
-TEXTPLANE_SIMD_ENTRY void partial_load_ints(const int* p, int n, int* out) noexcept { storei(out, loadi_n(p, n)); }
-TEXTPLANE_SIMD_ENTRY void partial_load_bytes(const std::uint8_t* p, int n, float* floats, int* ints) noexcept {
-  store(floats, load_u8_n(p, n));
-  storei(ints, load_u8i_n(p, n));
-}
-TEXTPLANE_SIMD_ENTRY void load_bytes(const std::uint8_t* p, float* floats, int* ints) noexcept {
-  store(floats, load_u8(p));
-  storei(ints, load_u8i(p));
-}
-TEXTPLANE_SIMD_ENTRY void partial_store_floats(float* p, const float* from, int n) noexcept {
-  store_n(p, load(from), n);
-}
-TEXTPLANE_SIMD_ENTRY void partial_store_ints(int* p, const int* from, int n) noexcept { storei_n(p, loadi(from), n); }
+// A load of n elements, stored whole.
+TEXTPLANE_SIMD_ENTRY void partial_load(const float* p, int n, float* out) noexcept { store(out, load_n(p, n)); }
+TEXTPLANE_SIMD_ENTRY void partial_store(float* p, const float* from, int n) noexcept { store_n(p, load(from), n); }
 TEXTPLANE_SIMD_ENTRY unsigned first_lanes(int n) noexcept { return bits_from_mask(first_n(n)); }
 
 TEXTPLANE_SIMD_ENTRY unsigned read_u16(const std::uint8_t* p) noexcept { return load_u16(p); }
-TEXTPLANE_SIMD_ENTRY unsigned read_u32(const std::uint8_t* p) noexcept { return load_u32(p); }
-TEXTPLANE_SIMD_ENTRY unsigned read_u32_n(const std::uint8_t* p, int n) noexcept { return load_u32_n(p, n); }
 TEXTPLANE_SIMD_ENTRY void copy(void* to, const void* from, int n) noexcept { copy_bytes(to, from, n); }

@@ -25,22 +25,10 @@ inline void inverse_roots(const float* p, float* out) { TEXTPLANE_SIMD_DISPATCH(
 inline void reductions(const float* a, double* out) { TEXTPLANE_SIMD_DISPATCH(reductions(a, out)) }
 inline void eight_sums(const float* p, double* out) { TEXTPLANE_SIMD_DISPATCH(eight_sums(p, out)) }
 inline void taps(const std::uint32_t* words, float* out) { TEXTPLANE_SIMD_DISPATCH(taps(words, out)) }
-inline void partial_load(const float* p, int n, float* out) { TEXTPLANE_SIMD_DISPATCH(partial_load_floats(p, n, out)) }
-inline void partial_load(const int* p, int n, int* out) { TEXTPLANE_SIMD_DISPATCH(partial_load_ints(p, n, out)) }
-inline void partial_load(const std::uint8_t* p, int n, float* floats, int* ints) {
-  TEXTPLANE_SIMD_DISPATCH(partial_load_bytes(p, n, floats, ints))
-}
-inline void load_bytes(const std::uint8_t* p, float* floats, int* ints) {
-  TEXTPLANE_SIMD_DISPATCH(load_bytes(p, floats, ints))
-}
-inline void partial_store(float* p, const float* from, int n) {
-  TEXTPLANE_SIMD_DISPATCH(partial_store_floats(p, from, n))
-}
-inline void partial_store(int* p, const int* from, int n) { TEXTPLANE_SIMD_DISPATCH(partial_store_ints(p, from, n)) }
+inline void partial_load(const float* p, int n, float* out) { TEXTPLANE_SIMD_DISPATCH(partial_load(p, n, out)) }
+inline void partial_store(float* p, const float* from, int n) { TEXTPLANE_SIMD_DISPATCH(partial_store(p, from, n)) }
 inline unsigned first_lanes(int n) { TEXTPLANE_SIMD_DISPATCH(first_lanes(n)) }
 inline unsigned read_u16(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_u16(p)) }
-inline unsigned read_u32(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_u32(p)) }
-inline unsigned read_u32_n(const std::uint8_t* p, int n) { TEXTPLANE_SIMD_DISPATCH(read_u32_n(p, n)) }
 inline void copy_bytes(void* to, const void* from, int n) { TEXTPLANE_SIMD_DISPATCH(copy(to, from, n)) }
 
 }  // namespace textplane_test

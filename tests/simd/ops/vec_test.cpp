@@ -64,25 +64,26 @@ void expect_float_operations(Target target, const float* a, const float* b, cons
   float_operations(a, b, c, out);
   for (int i = 0; i < lanes; ++i) {
     const float x = a[i], y = b[i], z = c[i];
-    const float expected[19] = {x + y,
-                                x - y,
-                                x * y,
-                                x / y,
-                                fused ? std::fma(x, y, z) : rounded_product(x, y) + z,
-                                fused ? std::fma(-x, y, z) : z - rounded_product(x, y),
-                                rounded_product(x, y) + z,
-                                z - rounded_product(x, y),
-                                x < y ? x : y,
-                                x > y ? x : y,
-                                std::sqrt(x),
-                                std::fabs(x),
-                                -x,
-                                std::floor(x),
-                                x < y ? x : z,
-                                x < y ? x : 0.0f,
-                                a[0],
-                                0.0f,
-                                static_cast<float>(i)};
+    const float product = rounded_product(x, y);
+    const float expected[] = {x + y,
+                              x - y,
+                              x * y,
+                              x / y,  //
+                              fused ? std::fma(x, y, z) : product + z,
+                              fused ? std::fma(-x, y, z) : z - product,
+                              product + z,
+                              z - product,  //
+                              x < y ? x : y,
+                              x > y ? x : y,
+                              std::sqrt(x),
+                              std::fabs(x),
+                              -x,
+                              std::floor(x),  //
+                              x < y ? x : z,
+                              x < y ? x : 0.0f,
+                              a[0],
+                              0.0f,
+                              static_cast<float>(i)};
     for (int k = 0; k < 19; ++k) {
       EXPECT_TRUE(same(out[lanes * k + i], expected[k])) << "operation " << k << " of " << x << ", " << y << ", " << z
                                                          << ": " << out[lanes * k + i] << ", not " << expected[k];
@@ -117,13 +118,13 @@ TEST(Vec, IntOperationsWrap) {
   on_each_target([](Target, int lanes) {
     const std::size_t n = kInts.size();
     for (std::size_t first = 0; first < n * n; first += 3) {
-      int a[kMost], b[kMost], out[14 * kMost];
+      int a[kMost], b[kMost], out[12 * kMost];
       for (std::size_t i = 0; i < kMost; ++i) a[i] = kInts[(first + i) % (n * n) / n], b[i] = kInts[(first + i) % n];
       const int shift = static_cast<int>(first % 32);
       int_operations(a, b, shift, out);
       for (int i = 0; i < lanes; ++i) {
         const std::int64_t x = a[i], y = b[i];
-        const int expected[14] = {
+        const int expected[12] = {
             wrap(x + y),
             wrap(x - y),
             wrap(static_cast<std::int64_t>(static_cast<std::uint64_t>(x) * static_cast<std::uint64_t>(y))),
@@ -135,10 +136,8 @@ TEST(Vec, IntOperationsWrap) {
             a[i] >> shift,
             wrap(x * 8),
             a[i] >> 3,
-            std::min(a[i], b[i]),
-            a[0],
-            i};
-        for (int k = 0; k < 14; ++k)
+            a[0]};
+        for (int k = 0; k < 12; ++k)
           EXPECT_EQ(out[lanes * k + i], expected[k]) << "operation " << k << " of " << x << ", " << y;
       }
     }
@@ -185,18 +184,18 @@ TEST(Vec, MasksAndTheirBits) {
       }
       if (first % 4 == 1) std::fill(a, a + kMost, -kInf), std::fill(b, b + kMost, 1.0f);  // all
       if (first % 4 == 2) std::fill(a, a + kMost, 2.0f), std::fill(b, b + kMost, 1.0f);   // none
-      unsigned e[15] = {}, out[15];
+      unsigned e[10] = {}, out[10];
       for (int i = 0; i < lanes; ++i) {
         const unsigned bit = 1u << i;
         const auto set = [&](int k, bool value) { e[k] |= value ? bit : 0u; };
         set(0, a[i] < b[i]), set(1, a[i] <= b[i]), set(2, a[i] > b[i]), set(3, a[i] >= b[i]), set(4, a[i] == b[i]);
-        set(5, p[i] < q[i]), set(6, p[i] > q[i]), set(7, p[i] == q[i]);
+        set(5, p[i] == q[i]);
       }
-      e[8] = e[0] & e[5], e[9] = e[0] | e[5], e[10] = ~e[0] & e[5], e[11] = ~e[0] & every;
-      for (int i = 0; i < lanes; ++i) e[12] += (e[0] >> i) & 1u;
-      e[13] = e[0] != 0, e[14] = e[0] == every;
+      e[6] = e[0] & e[5], e[7] = ~e[0] & e[5];
+      for (int i = 0; i < lanes; ++i) e[8] += (e[0] >> i) & 1u;
+      e[9] = e[0] == every;
       mask_operations(a, b, p, q, out);
-      for (int k = 0; k < 15; ++k) EXPECT_EQ(out[k], e[k]) << "operation " << k << ", pairs from " << first;
+      for (int k = 0; k < 10; ++k) EXPECT_EQ(out[k], e[k]) << "operation " << k << ", pairs from " << first;
     }
     for (int k = -3; k <= lanes + 3; ++k) {
       const unsigned expected = (1u << std::clamp(k, 0, lanes)) - 1u;
@@ -287,77 +286,42 @@ TEST(Vec, TapsAreExactDifferencesOfBytes) {
 
 TEST(Vec, PartialLoadsTouchNoMoreThanTheyLoad) {
   const Guarded<float> floats(kMost);
-  const Guarded<int> ints(kMost);
-  const Guarded<std::uint8_t> bytes(kMost);
-  for (int i = 0; i < kMost; ++i) {
-    floats.data()[i] = static_cast<float>(i) + 0.5f;
-    ints.data()[i] = kMin + i;
-    bytes.data()[i] = static_cast<std::uint8_t>(255 - i);
-  }
+  for (int i = 0; i < kMost; ++i) floats.data()[i] = static_cast<float>(i) + 0.5f;
   on_each_target([&](Target, int lanes) {
     for (int n = 0; n <= lanes; ++n) {
       SCOPED_TRACE(n);
-      float f[kMost], u[kMost];
-      int k[kMost], v[kMost];
+      float f[kMost];
       partial_load(floats.end() - n, n, f);
-      partial_load(ints.end() - n, n, k);
-      partial_load(bytes.end() - n, n, u, v);
-      for (int i = 0; i < lanes; ++i) {
-        const int source = kMost - n + i;
-        EXPECT_TRUE(same(f[i], i < n ? static_cast<float>(source) + 0.5f : 0.0f)) << i;
-        EXPECT_EQ(k[i], i < n ? kMin + source : 0) << i;
-        EXPECT_EQ(v[i], i < n ? 255 - source : 0) << i;
-        EXPECT_TRUE(same(u[i], i < n ? static_cast<float>(255 - source) : 0.0f)) << i;
-      }
-    }
-    float u[kMost];
-    int v[kMost];
-    load_bytes(bytes.end() - lanes, u, v);
-    for (int i = 0; i < lanes; ++i) {
-      EXPECT_EQ(v[i], 255 - (kMost - lanes + i));
-      EXPECT_EQ(u[i], static_cast<float>(v[i]));
+      for (int i = 0; i < lanes; ++i)
+        EXPECT_TRUE(same(f[i], i < n ? static_cast<float>(kMost - n + i) + 0.5f : 0.0f)) << i;
     }
   });
 }
 
 TEST(Vec, PartialStoresWriteNoMoreThanTheyStore) {
   const Guarded<float> floats(3 * kMost);
-  const Guarded<int> ints(3 * kMost);
   float f[kMost];
-  int k[kMost];
-  for (int i = 0; i < kMost; ++i) f[i] = static_cast<float>(i) + 1.0f, k[i] = i + 1;
+  for (int i = 0; i < kMost; ++i) f[i] = static_cast<float>(i) + 1.0f;
   on_each_target([&](Target, int lanes) {
     for (int n = 0; n <= lanes; ++n) {
       SCOPED_TRACE(n);
       for (const int behind : {0, kMost}) {  // at the forbidden page, and with room for a canary
         std::fill(floats.data(), floats.end(), -7.0f);
-        std::fill(ints.data(), ints.end(), -7);
         const int first = 3 * kMost - behind - n;
         partial_store(floats.data() + first, f, n);
-        partial_store(ints.data() + first, k, n);
-        for (int i = 0; i < 3 * kMost; ++i) {
-          const int expected = i >= first && i < first + n ? i - first + 1 : -7;
-          EXPECT_EQ(floats.data()[i], static_cast<float>(expected)) << i;
-          EXPECT_EQ(ints.data()[i], expected) << i;
-        }
+        for (int i = 0; i < 3 * kMost; ++i)
+          EXPECT_EQ(floats.data()[i], i >= first && i < first + n ? static_cast<float>(i - first + 1) : -7.0f) << i;
       }
     }
   });
 }
 
 TEST(Vec, BytesAsNumbersAndCopies) {
-  const Guarded<std::uint8_t> bytes(4), target(70), source(70);
-  const std::uint8_t values[4] = {0x81, 0xf2, 0x03, 0xc4};
-  std::copy(values, values + 4, bytes.data());
+  const Guarded<std::uint8_t> bytes(2), target(70), source(70);
+  bytes.data()[0] = 0x03, bytes.data()[1] = 0xc4;
   for (int i = 0; i < 70; ++i) source.data()[i] = static_cast<std::uint8_t>(i * 3 + 1);
   on_each_target([&](Target, int) {
-    EXPECT_EQ(read_u16(bytes.end() - 2), 0xc403u);
-    EXPECT_EQ(read_u32(bytes.data()), 0xc403f281u);
-    EXPECT_EQ(read_u32_n(bytes.end(), 0), 0u);
-    EXPECT_EQ(read_u32_n(bytes.end() - 1, 1), 0xc4u);
-    EXPECT_EQ(read_u32_n(bytes.end() - 2, 2), 0xc403u);
-    EXPECT_EQ(read_u32_n(bytes.end() - 3, 3), 0xc403f2u);
-    EXPECT_EQ(read_u32_n(bytes.end() - 4, 4), 0xc403f281u);
+    EXPECT_EQ(read_u16(bytes.data()), 0xc403u);
     for (int n = 0; n <= 70; ++n) {
       std::fill(target.data(), target.end(), std::uint8_t{0});
       copy_bytes(target.end() - n, source.end() - n, n);

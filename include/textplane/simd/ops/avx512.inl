@@ -4,7 +4,6 @@
 // The zero-masking forms stand where the plain ones start from an undefined register in the compiler's header, about
 // which g++ 11 and 12 warn. With all lanes kept they are the same instructions.
 #include "textplane/simd/ops/x86.inl"
-#include "textplane/simd/ops/x86_wide.inl"
 
 // --- floats ---
 constexpr int kLanes = 16;
@@ -14,10 +13,11 @@ using vi = __m512i;
 using vm = __mmask16;
 constexpr vm kAllLanes = 0xffff;
 
+#include "textplane/simd/ops/x86_wide.inl"
+
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm512_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm512_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return _mm512_setzero_ps(); }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept {
   return _mm512_set_ps(15.0f, 14.0f, 13.0f, 12.0f, 11.0f, 10.0f, 9.0f, 8.0f, 7.0f, 6.0f, 5.0f, 4.0f, 3.0f, 2.0f, 1.0f,
                        0.0f);
@@ -40,54 +40,31 @@ TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return _mm512_loadu_si51
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm512_storeu_si512(p, v); }
 TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept { return _mm512_maskz_loadu_ps(first_n(n), p); }
 TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept { _mm512_mask_storeu_ps(p, first_n(n), v); }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return _mm512_maskz_loadu_epi32(first_n(n), p); }
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept { _mm512_mask_storeu_epi32(p, first_n(n), v); }
+TEXTPLANE_SIMD_INLINE __m256i lower_half(__m512i a) noexcept { return _mm512_maskz_extracti64x4_epi64(0xf, a, 0); }
+TEXTPLANE_SIMD_INLINE __m256i upper_half(__m512i a) noexcept { return _mm512_maskz_extracti64x4_epi64(0xf, a, 1); }
+TEXTPLANE_SIMD_INLINE __m512i join256(__m256i low, __m256i high) noexcept {
+  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(low), high, 1);
+}
 // Sooner than the instruction.
 TEXTPLANE_SIMD_INLINE __m256i gather_eight(const float* p, const int* at) noexcept {
   return _mm256_castps_si256(
       _mm256_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]], p[at[4]], p[at[5]], p[at[6]], p[at[7]]));
 }
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
-  const __m512i low = _mm512_castsi256_si512(gather_eight(p, at));
-  return _mm512_castsi512_ps(_mm512_maskz_inserti64x4(0xff, low, gather_eight(p, at + 8), 1));
+  return _mm512_castsi512_ps(join256(gather_eight(p, at), gather_eight(p, at + 8)));
 }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kAllLanes, a); }
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
-  return _mm512_maskz_cvtepu8_epi32(kAllLanes, _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return to_float(load_u8i(p)); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept {
-  return _mm512_maskz_cvtepu8_epi32(kAllLanes, _mm_maskz_loadu_epi8(first_n(n), p));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { return to_float(load_u8i_n(p, n)); }
 
 // --- float arithmetic ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return _mm512_add_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return _mm512_sub_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm512_mul_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm512_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
-#if TEXTPLANE_SIMD_HIDE_MINIMA
-TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
-  __asm__("vminps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
-  return a;
-}
-TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
-  __asm__("vmaxps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
-  return a;
-}
-#else
+#if !TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kAllLanes, a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAllLanes, a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAllLanes, a); }
-TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
-  const vf y = _mm512_maskz_rsqrt14_ps(kAllLanes, a);
-  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
-}
+TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm512_maskz_rsqrt14_ps(kAllLanes, a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm512_maskz_xor_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept {
   return _mm512_maskz_roundscale_ps(kAllLanes, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
@@ -119,49 +96,30 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return _mm512_cmp_ps_mask(a, 
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ); }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return _mm512_cmplt_epi32_mask(a, b); }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return _mm512_cmpgt_epi32_mask(a, b); }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return _mm512_cmpeq_epi32_mask(a, b); }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return static_cast<vm>(a & b); }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return static_cast<vm>(a | b); }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return static_cast<vm>(~a & b); }
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return static_cast<vm>(~a); }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm512_mask_blend_ps(m, b, a); }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return _mm512_mask_blend_epi32(m, b, a); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm512_maskz_mov_ps(m, a); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return _mm_popcnt_u32(m); }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return m != 0; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kAllLanes; }
 
 // --- reductions ---
 TEXTPLANE_SIMD_INLINE __m256 lower_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 0); }
 TEXTPLANE_SIMD_INLINE __m256 upper_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 1); }
-TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
-  const __m256 eight = _mm256_add_ps(lower_half(a), upper_half(a));
-  const __m128 four = _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
-  const __m128 two = _mm_add_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
+TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept { return _mm256_add_ps(lower_half(a), upper_half(a)); }
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return sum_of_eight(half_sum(a)); }
 TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
-  const __m512d eight =
-      _mm512_add_pd(_mm512_maskz_cvtps_pd(0xff, lower_half(a)), _mm512_maskz_cvtps_pd(0xff, upper_half(a)));
-  const __m256d four =
-      _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xf, eight, 0), _mm512_maskz_extractf64x4_pd(0xf, eight, 1));
-  const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-  return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
+  const __m512d eight = _mm512_maskz_cvtps_pd(0xff, lower_half(a)) + _mm512_maskz_cvtps_pd(0xff, upper_half(a));
+  return sum_of_four(
+      _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xf, eight, 0), _mm512_maskz_extractf64x4_pd(0xf, eight, 1)));
 }
 TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
-  const __m256 eight = _mm256_min_ps(lower_half(a), upper_half(a));
-  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
-  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+  return min_of_eight(_mm256_min_ps(lower_half(a), upper_half(a)));
 }
 TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
-  const __m256 eight = _mm256_max_ps(lower_half(a), upper_half(a));
-  const __m128 four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
-  const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+  return max_of_eight(_mm256_max_ps(lower_half(a), upper_half(a)));
 }
 
 // --- bilinear taps ---
@@ -173,38 +131,10 @@ TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return
 TEXTPLANE_SIMD_INLINE vf tap_dot(taps_t t, int weights) noexcept {
   return to_float(_mm512_dpbusd_epi32(_mm512_setzero_si512(), t.cells, _mm512_set1_epi32(weights)));
 }
-TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept {
-  return to_float(_mm512_and_si512(t.cells, _mm512_set1_epi32(255)));
-}
-TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return tap_dot(t, 0x000001ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return tap_dot(t, 0x000100ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff01); }
 
-// --- 8 doubles ---
-struct vd {
-  __m512d all;
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept { return vd{_mm512_loadu_pd(p)}; }
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept { _mm512_storeu_pd(p, a.all); }
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept { return vd{_mm512_set1_pd(value)}; }
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept { return vd{_mm512_mul_pd(a.all, b.all)}; }
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept { return vd{_mm512_fmadd_pd(a.all, b.all, c.all)}; }
-
-TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept { return _mm256_add_ps(lower_half(a), upper_half(a)); }
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
-}
-TEXTPLANE_SIMD_INLINE __m256 half_sum_at(const float* p) noexcept {
-  return _mm256_add_ps(_mm256_loadu_ps(p), _mm256_loadu_ps(p + 8));
-}
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  const __m256 a = join_lanes(half_sum_at(p), half_sum_at(p + 16)),
-               b = join_lanes(half_sum_at(p + 32), half_sum_at(p + 48));
-  const __m256 c = join_lanes(half_sum_at(p + 64), half_sum_at(p + 80)),
-               d = join_lanes(half_sum_at(p + 96), half_sum_at(p + 112));
-  const __m256 q = join_pairs(a, b), r = join_pairs(c, d);
-  return vd{_mm512_maskz_cvtps_pd(0xff, join_halves(q, r))};
 }
 
 // --- bytes, and their int16 ---
@@ -225,37 +155,41 @@ TEXTPLANE_SIMD_INLINE vb subsb(vb a, vb b) noexcept { return _mm512_subs_epu8(a,
 TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return _mm512_min_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return _mm512_max_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return _mm512_and_si512(a, b); }
-TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm512_or_si512(a, b); }
 TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return _mm512_xor_si512(a, b); }
-TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
-  const __m512i one = _mm512_set1_epi8(1), two = _mm512_set1_epi16(2);
-  const __m512i sum0 = _mm512_add_epi16(_mm512_maddubs_epi16(upper0, one), _mm512_maddubs_epi16(lower0, one));
-  const __m512i sum1 = _mm512_add_epi16(_mm512_maddubs_epi16(upper1, one), _mm512_maddubs_epi16(lower1, one));
-  // Packing works within the quarters of a register.
-  const __m512i packed = _mm512_packus_epi16(_mm512_srli_epi16(_mm512_add_epi16(sum0, two), 2),
-                                             _mm512_srli_epi16(_mm512_add_epi16(sum1, two), 2));
-  return _mm512_maskz_permutexvar_epi64(255, _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7), packed);
-}
+TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm512_or_si512(a, b); }
 
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return _mm512_movm_epi8(_mm512_cmpge_epu8_mask(a, b)); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return _mm512_test_epi8_mask(a, a) != 0; }
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept { return _mm512_movepi8_mask(mask); }
 
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept { return _mm256_dpwssd_epi32(sum, a, b); }
-
 // --- int16 ---
 enum : int { k16Lanes = 32 };
 using v16 = __m512i;
+using vw = __m512i;
+constexpr int kPairsReach = 40;
 
 TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm512_set1_epi16(static_cast<short>(value)); }
 TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return _mm512_loadu_si512(p); }
 TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { _mm512_storeu_si512(p, v); }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm512_add_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm512_sub_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm512_mulhrs_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return _mm512_maddubs_epi16(t, _mm512_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return _mm512_and_si512(x, y); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return _mm512_srai_epi16(x, 1); }
+TEXTPLANE_SIMD_INLINE v16 quarter16(v16 x) noexcept { return _mm512_srai_epi16(x, 2); }
+// Unsigned bytes of a times signed ones of b, neighbouring products added.
+TEXTPLANE_SIMD_INLINE v16 dot_bytes(v16 a, v16 b) noexcept { return _mm512_maddubs_epi16(a, b); }
+TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept {
+  const __m512i order = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);
+  return _mm512_maskz_permutexvar_epi64(0xff, order, _mm512_packus_epi16(a, b));
 }
+TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept {
+  return join256(join128(p[0], p[1]), join128(p[2], p[3]));
+}
+TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm512_maskz_broadcast_i32x4(kAllLanes, p); }
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
+  return _mm512_movm_epi16(n >= 32 ? ~0u : (1u << (n < 0 ? 0 : n)) - 1u);
+}
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm512_mulhrs_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return _mm512_dpwssd_epi32(sum, x, y); }
 // Numbers of int16, two a lane: (first, second) in lane 0 and (step, step) more in each lane after it.
 TEXTPLANE_SIMD_INLINE __m512i int16_order(int first, int second, int step) noexcept {
@@ -265,44 +199,21 @@ TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return _mm512_permutex2va
 TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return _mm512_permutex2var_epi16(a, int16_order(1, 3, 4), b); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return low16(low, high); }
 TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
-  const __m256i q =
-      _mm256_add_epi32(_mm512_maskz_extracti64x4_epi64(0xf, v, 0), _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
-  const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(q), _mm256_extracti128_si256(q, 1));
-  const __m128i a = _mm_add_epi32(h, _mm_shuffle_epi32(h, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+  return sum_of_eight(_mm256_add_epi32(lower_half(v), upper_half(v)));
 }
-TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept {
-  const __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(p[0]), p[1], 1);
-  const __m256i b = _mm256_inserti128_si256(_mm256_castsi128_si256(p[2]), p[3], 1);
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
-}
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  __m128i u[4], l[4];
-  gather_pairs8(upper, lower, offset, u, l);
-  gather_pairs8(upper, lower, offset + 8, u + 1, l + 1);
-  gather_pairs8(upper, lower, offset + 16, u + 2, l + 2);
-  gather_pairs8(upper, lower, offset + 24, u + 3, l + 3);
-  *first = join_groups(u);
-  *second = join_groups(l);
-}
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return wide_sum(lower_half(a)) + wide_sum(upper_half(a)); }
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  const __m256i a =
-      _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
-  const __m256i b =
-      _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset + 8)), gather_pairs4(p, offset + 12), 1);
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
+  return join256(gather_pairs8(p, offset), gather_pairs8(p, offset + 8));
 }
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept {
-  return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 0));
-}
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept {
-  return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
-}
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAllLanes, lower_half(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAllLanes, upper_half(v)); }
 
 // --- doubles ---
 enum : int { kDoubles = 8 };
 using vp = __m512d;
+struct vd {
+  vp part[1];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return _mm512_set1_pd(value); }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return _mm512_loadu_pd(p); }
@@ -310,10 +221,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return _mm512_setr_pd(p[0][at], p[1][at], p[2][at], p[3][at], p[4][at], p[5][at], p[6][at], p[7][at]);
 }
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { _mm512_storeu_pd(p, v); }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return _mm512_add_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return _mm512_sub_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return _mm512_mul_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return _mm512_div_pd(a, b); }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return _mm512_fmadd_pd(a, b, c); }
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return _mm512_maskz_min_pd(0xff, a, b); }
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return _mm512_maskz_max_pd(0xff, a, b); }
@@ -329,18 +236,24 @@ TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept {
   _mm256_storeu_ps(p, _mm512_maskz_cvtpd_ps(0xff, v));
 }
 
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  __m256 s[8];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < 8; ++i) s[i] = _mm256_loadu_ps(p + 16 * i) + _mm256_loadu_ps(p + 16 * i + 8);
+  const __m256 q = join_pairs(join_lanes(s[0], s[1]), join_lanes(s[2], s[3]));
+  const __m256 r = join_pairs(join_lanes(s[4], s[5]), join_lanes(s[6], s[7]));
+  return vd{{_mm512_maskz_cvtps_pd(0xff, join_halves(q, r))}};
+}
+
 // --- tiles ---
 enum : int { kTileLanes = 8 };
 TEXTPLANE_SIMD_INLINE vi per_tile(const int* b) noexcept {
   return _mm512_mask_blend_epi32(0xFF00, _mm512_set1_epi32(b[0]), _mm512_set1_epi32(b[8]));
 }
 TEXTPLANE_SIMD_INLINE bool in_two_rows(vi y) noexcept { return _mm512_test_epi32_mask(y, _mm512_set1_epi32(~1)) == 0; }
-TEXTPLANE_SIMD_INLINE __m128i load_row(const std::uint8_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
 TEXTPLANE_SIMD_INLINE vi tile_rows(const std::uint8_t* const* corner, std::ptrdiff_t offset) noexcept {
-  const __m512i a = _mm512_maskz_broadcast_i32x4(0xFFFF, load_row(corner[0] + offset));
-  return _mm512_mask_broadcast_i32x4(a, 0xFF00, load_row(corner[1] + offset));
+  const __m512i a = repeat_group(load128(corner[0] + offset));
+  return _mm512_mask_broadcast_i32x4(a, 0xFF00, load128(corner[1] + offset));
 }
 TEXTPLANE_SIMD_INLINE vi pick_bytes(vi rows, vi picks) noexcept { return _mm512_shuffle_epi8(rows, picks); }
 TEXTPLANE_SIMD_INLINE vi tile_picks(vi x) noexcept {
@@ -359,7 +272,7 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
   *b = _mm512_permutex2var_ps(lo, odd, hi);
 }
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm512_maskz_cvtepi32_epi8(0xFFFF, v));
+  store128(p, _mm512_maskz_cvtepi32_epi8(kAllLanes, v));
 }
 
 // --- tiles of int16 cells ---
@@ -371,46 +284,23 @@ TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept {
 #endif
   return v;
 }
-TEXTPLANE_SIMD_INLINE v16 group_ends(bool last) noexcept { return set16(last ? 0x0f0e : 0x0100); }
 TEXTPLANE_SIMD_INLINE v16 saturated_sub16(v16 v, int n) noexcept { return _mm512_subs_epu16(v, set16(n)); }
 TEXTPLANE_SIMD_INLINE v16 pair_picks(v16 x) noexcept {
   return _mm512_add_epi16(_mm512_mullo_epi16(x, set16(0x0101)), set16(0x0100));
-}
-struct TilePlaces {
-  std::ptrdiff_t a, b, c, d;
-};
-TEXTPLANE_SIMD_INLINE TilePlaces find_tiles(const std::int16_t* x, const std::int16_t* y,
-                                            std::ptrdiff_t stride) noexcept {
-  return TilePlaces{y[0] * stride + x[0], y[8] * stride + x[8], y[16] * stride + x[16], y[24] * stride + x[24]};
-}
-TEXTPLANE_SIMD_INLINE v16 load_tile_rows(const std::uint8_t* p, const TilePlaces& at) noexcept {
-  const __m256i ab = _mm256_inserti128_si256(_mm256_castsi128_si256(load_row(p + at.a)), load_row(p + at.b), 1);
-  const __m256i cd = _mm256_inserti128_si256(_mm256_castsi128_si256(load_row(p + at.c)), load_row(p + at.d), 1);
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(ab), cd, 1);
 }
 TEXTPLANE_SIMD_INLINE v16 choose16(v16 y, v16 a, v16 b) noexcept {
   return _mm512_mask_blend_epi16(_mm512_test_epi16_mask(y, y), a, b);
 }
 TEXTPLANE_SIMD_INLINE v16 min_unsigned16(v16 v, v16 high) noexcept { return _mm512_min_epu16(v, high); }
+TEXTPLANE_SIMD_INLINE v16 from_group(__m128i p) noexcept { return _mm512_castsi128_si512(p); }
+TEXTPLANE_SIMD_INLINE __m128i first_group(v16 v) noexcept { return _mm256_castsi256_si128(lower_half(v)); }
 TEXTPLANE_SIMD_INLINE v16 or16(v16 a, v16 b) noexcept { return _mm512_or_si512(a, b); }
 TEXTPLANE_SIMD_INLINE unsigned any_of_four(v16 v) noexcept { return _mm512_test_epi64_mask(v, v); }
-TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept {
-  return _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
-}
-TEXTPLANE_SIMD_INLINE void store_group(std::int16_t* p, v16 v) noexcept {
-  const __m256i low = _mm512_maskz_extracti64x4_epi64(0xf, v, 0);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(low));
-}
-TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* a,
-                                       v16* b) noexcept {
-  __m128i u, l;
-  gather_pairs8(upper, lower, offset, &u, &l);
-  *a = _mm512_castsi128_si512(u);
-  *b = _mm512_castsi128_si512(l);
-}
 TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t* p, v16 a, v16 b) noexcept {
   _mm512_storeu_si512(p, _mm512_permutex2var_epi16(a, int16_order(0, 32, 1), b));
   _mm512_storeu_si512(p + 16, _mm512_permutex2var_epi16(a, int16_order(16, 48, 1), b));
 }
+
+#include "textplane/simd/ops/x86_vectors.inl"
 
 #include "textplane/simd/ops/x86_tiles.inl"

@@ -11,7 +11,6 @@ using vm = uint32x4_t;  // all bits of a lane
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return vdupq_n_f32(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return vdupq_n_s32(value); }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return vdupq_n_f32(0.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return vi{0, 1, 2, 3}; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return vf{0.0f, 1.0f, 2.0f, 3.0f}; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return vld1q_f32(p); }
@@ -36,41 +35,11 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   if (n >= 2) vst1q_lane_f32(p + 1, v, 1);
   if (n >= 3) vst1q_lane_f32(p + 2, v, 2);
 }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept {
-  if (n >= 4) return vld1q_s32(p);
-  vi v = seti(0);
-  if (n >= 1) v = vld1q_lane_s32(p, v, 0);
-  if (n >= 2) v = vld1q_lane_s32(p + 1, v, 1);
-  if (n >= 3) v = vld1q_lane_s32(p + 2, v, 2);
-  return v;
-}
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
-  if (n >= 4) {
-    vst1q_s32(p, v);
-    return;
-  }
-  if (n >= 1) vst1q_lane_s32(p, v, 0);
-  if (n >= 2) vst1q_lane_s32(p + 1, v, 1);
-  if (n >= 3) vst1q_lane_s32(p + 2, v, 2);
-}
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return vf{p[at[0]], p[at[1]], p[at[2]], p[at[3]]};
 }
-// The four bytes of `word`, the lowest in lane 0.
-TEXTPLANE_SIMD_INLINE vi widen_u32(unsigned word) noexcept {
-  const uint16x8_t halves = vmovl_u8(vcreate_u8(word));
-  return vreinterpretq_s32_u32(vmovl_u16(vget_low_u16(halves)));
-}
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept { return widen_u32(load_u32(p)); }
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return vcvtq_f32_s32(load_u8i(p)); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept { return widen_u32(load_u32_n(p, n)); }
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { return vcvtq_f32_s32(load_u8i_n(p, n)); }
 
 // --- float arithmetic ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return vaddq_f32(a, b); }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return vsubq_f32(a, b); }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return vmulq_f32(a, b); }
-TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return vdivq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return vfmaq_f32(c, a, b); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return vfmsq_f32(c, a, b); }
 // NEON's own minimum gives NaN for either operand and orders the zeros.
@@ -92,11 +61,10 @@ TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return vbslq_f32(vcgtq_f32(
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return vsqrtq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
   vf y = vrsqrteq_f32(a);
-  y = mul(y, vrsqrtsq_f32(mul(a, y), y));
-  return mul(y, vrsqrtsq_f32(mul(a, y), y));
+  y = y * vrsqrtsq_f32(a * y, y);
+  return y * vrsqrtsq_f32(a * y, y);
 }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return vabsq_f32(a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return vnegq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return vrndmq_f32(a); }
 
 // --- conversions ---
@@ -123,22 +91,16 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return vcleq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return vcgtq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return vcgeq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return vceqq_f32(a, b); }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return vcltq_s32(a, b); }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return vcgtq_s32(a, b); }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return vceqq_s32(a, b); }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return vandq_u32(a, b); }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return vorrq_u32(a, b); }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return vbicq_u32(b, a); }
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return vmvnq_u32(a); }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return vbslq_f32(m, a, b); }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return vbslq_s32(m, a, b); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept {
   return vreinterpretq_f32_u32(vandq_u32(m, vreinterpretq_u32_f32(a)));
 }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return vcltq_s32(ioti(), seti(n)); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return vaddvq_u32(vandq_u32(m, vm{1u, 2u, 4u, 8u})); }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return static_cast<int>(vaddvq_u32(vshrq_n_u32(m, 31))); }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return vmaxvq_u32(m) != 0; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return vminvq_u32(m) != 0; }
 
 // --- reductions ---
@@ -181,46 +143,11 @@ TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __bui
 
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
-  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
-  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
-  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
-}
-
-// --- 8 doubles ---
-struct vd {
-  float64x2_t part[4];
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
-  return vd{{vld1q_f64(p), vld1q_f64(p + 2), vld1q_f64(p + 4), vld1q_f64(p + 6)}};
-}
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
-  vst1q_f64(p, a.part[0]);
-  vst1q_f64(p + 2, a.part[1]);
-  vst1q_f64(p + 4, a.part[2]);
-  vst1q_f64(p + 6, a.part[3]);
-}
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
-  const float64x2_t v = vdupq_n_f64(value);
-  return vd{{v, v, v, v}};
-}
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
-  return vd{{vmulq_f64(a.part[0], b.part[0]), vmulq_f64(a.part[1], b.part[1]), vmulq_f64(a.part[2], b.part[2]),
-             vmulq_f64(a.part[3], b.part[3])}};
-}
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
-  return vd{{vfmaq_f64(c.part[0], a.part[0], b.part[0]), vfmaq_f64(c.part[1], a.part[1], b.part[1]),
-             vfmaq_f64(c.part[2], a.part[2], b.part[2]), vfmaq_f64(c.part[3], a.part[3], b.part[3])}};
+  fetch_four_words(upper, lower, offset, taps);
 }
 
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   vst1q_f32(out, vpaddq_f32(vpaddq_f32(a, b), vpaddq_f32(c, d)));
-}
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  const float32x4_t q = vpaddq_f32(vpaddq_f32(load(p), load(p + 4)), vpaddq_f32(load(p + 8), load(p + 12)));
-  const float32x4_t r = vpaddq_f32(vpaddq_f32(load(p + 16), load(p + 20)), vpaddq_f32(load(p + 24), load(p + 28)));
-  return vd{{vcvt_f64_f32(vget_low_f32(q)), vcvt_high_f64_f32(q), vcvt_f64_f32(vget_low_f32(r)), vcvt_high_f64_f32(r)}};
 }
 
 // --- bytes, and their int16 ---
@@ -230,16 +157,6 @@ using vb = uint8x16_t;
 TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return vdupq_n_u8(static_cast<std::uint8_t>(value)); }
 TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept { return vld1q_u8(p); }
 TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { vst1q_u8(p, a); }
-TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
-  std::uint8_t bytes[16] = {0};
-  for (int i = 0; i < n; ++i) bytes[i] = p[i];
-  return loadb(bytes);
-}
-TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
-  std::uint8_t bytes[16];
-  storeb(bytes, a);
-  for (int i = 0; i < n; ++i) p[i] = bytes[i];
-}
 
 TEXTPLANE_SIMD_INLINE vb addsb(vb a, vb b) noexcept { return vqaddq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb subsb(vb a, vb b) noexcept { return vqsubq_u8(a, b); }
@@ -247,7 +164,6 @@ TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return vminq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return vmaxq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return vandq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return vorrq_u8(a, b); }
-TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return veorq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
   const uint16x8_t sum0 = vpadalq_u8(vpaddlq_u8(upper0), lower0), sum1 = vpadalq_u8(vpaddlq_u8(upper1), lower1);
   return vcombine_u8(vrshrn_n_u16(sum0, 2), vrshrn_n_u16(sum1, 2));
@@ -262,57 +178,31 @@ TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
          static_cast<std::uint64_t>(vaddv_u8(vget_high_u8(bit))) << 8;
 }
 
-constexpr int kShorts = 8;
-constexpr int kPairsReach = 9;
-using vh = int16x8_t;
-
-TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return vdupq_n_s16(static_cast<std::int16_t>(value)); }
-TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept { return vld1q_s16(p); }
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept { vst1q_s16(p, a); }
-TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return vaddq_s16(a, b); }
-TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return vsubq_s16(a, b); }
-TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return vandq_s16(a, b); }
-TEXTPLANE_SIMD_INLINE vh halfh(vh a) noexcept { return vshrq_n_s16(a, 1); }
-TEXTPLANE_SIMD_INLINE vh mulhrsh(vh a, vh b) noexcept { return vqrdmulhq_s16(a, b); }
-TEXTPLANE_SIMD_INLINE vh firsth(int n) noexcept {
-  const std::int16_t lane[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-  const int limit = n < 0 ? 0 : (n < kShorts ? n : kShorts);
-  return vreinterpretq_s16_u16(vcltq_s16(vld1q_s16(lane), seth(limit)));
-}
-TEXTPLANE_SIMD_INLINE vh pair_weights(int w0, int w1) noexcept { return seth(w0 | (w1 << 8)); }
-TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
-  const int8x8_t w0 = vmovn_s16(weights), w1 = vshrn_n_s16(weights, 8);
-  const uint8x8_t middle = vdup_n_u8(128);
-  const int8x8_t left = vreinterpret_s8_u8(veor_u8(vld1_u8(p), middle));
-  const int8x8_t right = vreinterpret_s8_u8(veor_u8(vld1_u8(p + 1), middle));
-  return vmlal_s8(vmull_s8(left, w0), right, w1);
-}
-
-TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
-  const float32x4_t scale = vdupq_n_f32(32.0f), half = vdupq_n_f32(0.5f);
-  const int32x4_t low = vcvtq_s32_f32(vaddq_f32(vmulq_f32(vld1q_f32(p), scale), half));
-  const int32x4_t high = vcvtq_s32_f32(vaddq_f32(vmulq_f32(vld1q_f32(p + 4), scale), half));
-  return vsubq_s16(vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)), seth(4096));
-}
-
-using vw = int32x4_t;
-
-TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return vdupq_n_s32(0); }
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept {
-  const int32x4_t low = vmull_s16(vget_low_s16(a), vget_low_s16(b)), high = vmull_high_s16(a, b);
-  return vaddq_s32(sum, vpaddq_s32(low, high));
-}
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(vaddlvq_s32(a)); }
-
 // --- int16 ---
 enum : int { k16Lanes = 8 };
 using v16 = int16x8_t;
+using vw = int32x4_t;
+constexpr int kPairsReach = 9;
 
 TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return vdupq_n_s16(static_cast<std::int16_t>(value)); }
 TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return vld1q_s16(p); }
 TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { vst1q_s16(p, v); }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return vaddq_s16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return vsubq_s16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return vandq_s16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return vshrq_n_s16(x, 1); }
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
+  const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
+  return vreinterpretq_s16_u16(vcltq_s16(v16{0, 1, 2, 3, 4, 5, 6, 7}, set16(limit)));
+}
+TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
+  const int8x8_t w0 = vmovn_s16(weights), w1 = vshrn_n_s16(weights, 8);
+  const uint8x8_t middle = vdup_n_u8(128);
+  const int8x8_t left = vreinterpret_s8_u8(veor_u8(vld1_u8(p), middle));
+  const int8x8_t right = vreinterpret_s8_u8(veor_u8(vld1_u8(p + 1), middle));
+  return vmlal_s8(vmull_s8(left, w0), right, w1);
+}
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(vaddlvq_s32(a)); }
 TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return vqrdmulhq_s16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   const uint16x8_t u = vreinterpretq_u16_s16(t);
@@ -352,6 +242,9 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return vmovl_high_s16(v)
 // --- doubles ---
 enum : int { kDoubles = 2 };
 using vp = float64x2_t;
+struct vd {
+  vp part[4];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return vdupq_n_f64(value); }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return vld1q_f64(p); }
@@ -359,10 +252,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return vld1q_lane_f64(p[1] + at, vld1q_dup_f64(p[0] + at), 1);
 }
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { vst1q_f64(p, v); }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return vaddq_f64(a, b); }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return vsubq_f64(a, b); }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return vmulq_f64(a, b); }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return vdivq_f64(a, b); }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return vfmaq_f64(c, a, b); }
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return vbslq_f64(vcltq_f64(a, b), a, b); }
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return vbslq_f64(vcgtq_f64(a, b), a, b); }
@@ -370,6 +259,12 @@ TEXTPLANE_SIMD_INLINE vp abs_p(vp a) noexcept { return vabsq_f64(a); }
 TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return vrndq_f64(a); }
 TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept { return vbslq_f64(vcgtq_f64(m, vdupq_n_f64(0)), a, b); }
 TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept { vst1_f32(p, vcvt_f32_f64(v)); }
+
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  const float32x4_t q = vpaddq_f32(vpaddq_f32(load(p), load(p + 4)), vpaddq_f32(load(p + 8), load(p + 12)));
+  const float32x4_t r = vpaddq_f32(vpaddq_f32(load(p + 16), load(p + 20)), vpaddq_f32(load(p + 24), load(p + 28)));
+  return vd{{vcvt_f64_f32(vget_low_f32(q)), vcvt_high_f64_f32(q), vcvt_f64_f32(vget_low_f32(r)), vcvt_high_f64_f32(r)}};
+}
 
 // --- tiles ---
 enum : int { kTileLanes = 4 };
@@ -404,4 +299,5 @@ TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
   __builtin_memcpy(p, &word, 4);
 }
 
+#include "textplane/simd/ops/few_bytes.inl"
 #include "textplane/simd/ops/no_tiles.inl"

@@ -4,4 +4,5 @@
 // clang-format on
 #include "textplane/simd/ops/common.inl"
 #include TEXTPLANE_SIMD_OPS
+#include "textplane/simd/ops/derived.inl"
 #undef TEXTPLANE_SIMD_OPS

@@ -14,7 +14,6 @@ using vm = bool;   // kLanes truth values
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return value; }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return value; }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return 0.0f; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
@@ -27,31 +26,9 @@ TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept { return n > 0 ?
 TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   if (n > 0) *p = v;
 }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return n > 0 ? *p : 0; }
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
-  if (n > 0) *p = v;
-}
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return p[*at]; }  // p[at[i]]
-// kLanes bytes, as int32 and as float.
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept { return *p; }
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return static_cast<float>(*p); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept { return n > 0 ? *p : 0; }
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept {
-  return n > 0 ? static_cast<float>(*p) : 0.0f;
-}
 
 // --- float arithmetic: IEEE, each operation rounded once ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
-// A division by zero is allowed, as IEEE defines it: unused lanes of the vectors do it.
-#if defined(__clang__)
-__attribute__((no_sanitize("float-divide-by-zero")))
-#endif
-TEXTPLANE_SIMD_INLINE vf
-div(vf a, vf b) noexcept {
-  return a / b;
-}
 // a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
@@ -72,7 +49,6 @@ TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return TEXTPLANE_SIMD_SQRT(a); }
 // 1 / sqrt(a) within 3e-7 of itself, for positive numbers that are not subnormal.
 TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept { return 1.0f / sqrt_(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return TEXTPLANE_SIMD_ABS(a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return TEXTPLANE_SIMD_FLOOR(a); }
 
 // --- conversions: to_int truncates; its result for NaN and beyond int32 is unspecified (no undefined behaviour) ---
@@ -116,20 +92,14 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return a <= b; }
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return a > b; }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return a >= b; }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return a == b; }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return a < b; }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return a > b; }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return a == b; }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return a && b; }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return a || b; }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return !a && b; }  // not a, and b
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return !a; }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return m ? a : b; }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return m ? a : b; }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return m ? a : 0.0f; }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return n > 0; }                    // lanes below n; any n
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m ? 1u : 0u; }  // bit i is lane i
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return m ? 1 : 0; }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m; }
 
 // --- reductions: the upper half of the lanes joins the lower half until one is left; _double: in double ---
@@ -165,38 +135,10 @@ TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept {
 // Four cells of taps, each of two bytes of the upper row and, above them, two of the lower.
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
-  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
-  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
-  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
+  fetch_four_words(upper, lower, offset, taps);
 }
 
 // --- 8 doubles, on every target ---
-struct vd {
-  double lane[8];
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
-  vd r;
-  for (int i = 0; i < 8; ++i) r.lane[i] = p[i];
-  return r;
-}
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
-  for (int i = 0; i < 8; ++i) p[i] = a.lane[i];
-}
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
-  vd r;
-  for (int i = 0; i < 8; ++i) r.lane[i] = value;
-  return r;
-}
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
-  for (int i = 0; i < 8; ++i) a.lane[i] *= b.lane[i];
-  return a;
-}
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {  // as madd
-  for (int i = 0; i < 8; ++i) c.lane[i] += a.lane[i] * b.lane[i];
-  return c;
-}
 
 // reduce_sum of four vectors to out[0 .. 3]: neighbouring lanes join first.
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
@@ -204,12 +146,6 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   out[1] = b;
   out[2] = c;
   out[3] = d;
-}
-// The sums of eight vectors that lie one after the other, each as of reduce_sum4.
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  vd r;
-  for (int i = 0; i < 8; ++i) r.lane[i] = static_cast<double>(p[i]);
-  return r;
 }
 
 // --- bytes, and their int16 ---
@@ -220,10 +156,6 @@ using vb = int;  // kBytes uint8; here one in [0, 255]
 TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return value & 255; }  // value in [0, 255] in all lanes
 TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept { return *p; }
 TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { *p = static_cast<std::uint8_t>(a); }
-TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept { return n > 0 ? *p : 0; }
-TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
-  if (n > 0) *p = static_cast<std::uint8_t>(a);
-}
 
 // --- arithmetic, unsigned: addsb and subsb end at 255 and 0 ---
 TEXTPLANE_SIMD_INLINE vb addsb(vb a, vb b) noexcept { return a + b < 255 ? a + b : 255; }
@@ -232,7 +164,6 @@ TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return a < b ? a : b; }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return a > b ? a : b; }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return a & b; }
 TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return a | b; }
-TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return a ^ b; }
 // Means (a + b + c + d + 2) / 4, rounded down, of 2 x 2 blocks: `upper0` and `upper1` hold 2 kBytes neighbours of one
 // row, `lower0` and `lower1` those below.
 TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
@@ -243,45 +174,10 @@ TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noex
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return a >= b ? 255 : 0; }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return a != 0; }  // any byte that is not 0; a need not be a mask
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept { return mask != 0 ? 1u : 0u; }  // bit i is lane i
-// --- int16 beside bytes ---
-constexpr int kShorts = 1;
-constexpr int kPairsReach = 2;  // bytes from p on that mix_pairs() may read; it needs kShorts + 1
-using vh = int;                 // kShorts int16; here one in [-2^15, 2^15)
-
-TEXTPLANE_SIMD_INLINE vh wraph(int value) noexcept { return static_cast<std::int16_t>(value); }
-TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return wraph(value); }
-TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept { return *p; }
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept { *p = static_cast<std::int16_t>(a); }
-// Wraps.
-TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return wraph(a + b); }
-TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return wraph(a - b); }
-TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return a & b; }
-// a / 2, rounded down.
-TEXTPLANE_SIMD_INLINE vh halfh(vh a) noexcept { return a >> 1; }
-// a b / 2^15, rounded to the nearest and half up; not both -2^15.
-TEXTPLANE_SIMD_INLINE vh mulhrsh(vh a, vh b) noexcept { return (a * b + (1 << 14)) >> 15; }
-// -1 in the lanes below n, 0 in the others; any n.
-TEXTPLANE_SIMD_INLINE vh firsth(int n) noexcept { return n > 0 ? -1 : 0; }
-// Weights w0, w1 in [0, 127], w0 + w1 <= 127, for mix_pairs(); andh() with firsth() leaves the other lanes without.
-TEXTPLANE_SIMD_INLINE vh pair_weights(int w0, int w1) noexcept { return w0 | (w1 << 8); }
-// w0 (p[i] - 128) + w1 (p[i + 1] - 128) in lane i.
-TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
-  return (weights & 255) * (p[0] - 128) + (weights >> 8) * (p[1] - 128);
-}
-// 32 x - 4096, rounded half up, of kShorts floats in [0, 255]: grey levels as samples of a KLT patch (simd/klt.hpp).
-TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept { return static_cast<int>(*p * 32.0f + 0.5f) - 4096; }
-
-// --- int32 sums of products of int16 ---
-using vw = std::int64_t;  // int32 in the vectors, each for two neighbouring products
-
-TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return 0; }
-// sum + a b, neighbouring products added to one lane. The caller keeps the lanes below 2^31.
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept { return sum + a * b; }
-// Sum of all lanes: exact, as every partial sum is an integer below 2^53.
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(a); }
-
-// --- int16 ---
+// --- int16; sums and differences wrap ---
 enum : int { k16Lanes = 2 };
+constexpr int kPairsReach = 3;  // bytes from p on that mix_pairs() may read; it needs k16Lanes + 1
+using vw = std::int64_t;        // sums of products: int32 in the vectors
 struct v16 {
   std::int16_t a, b;
 };
@@ -297,6 +193,17 @@ TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
 }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return make16(x.a + y.a, x.b + y.b); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return make16(x.a - y.a, x.b - y.b); }
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return make16(x.a & y.a, x.b & y.b); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return make16(x.a >> 1, x.b >> 1); }  // rounded down
+// -1 in the lanes below n, 0 in the others; any n.
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept { return make16(n > 0 ? -1 : 0, n > 1 ? -1 : 0); }
+// w0 (p[i] - 128) + w1 (p[i + 1] - 128) in lane i, of pair_weights(w0, w1).
+TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
+  return make16((weights.a & 255) * (p[0] - 128) + (weights.a >> 8) * (p[1] - 128),
+                (weights.b & 255) * (p[1] - 128) + (weights.b >> 8) * (p[2] - 128));
+}
+// Sum of all lanes: exact, as every partial sum is an integer below 2^53.
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(a); }
 // x y / 2^15, rounded to the nearest, halves up; not both -2^15.
 TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept {
   return make16((x.a * y.a + 16384) >> 15, (x.b * y.b + 16384) >> 15);
@@ -307,6 +214,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
 }
 // int32 lane i: sum[i] + x[2i] y[2i] + x[2i+1] y[2i+1].
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return sum + (x.a * y.a + x.b * y.b); }
+TEXTPLANE_SIMD_INLINE vw add_dot16(vw sum, v16 x, v16 y) noexcept { return sum + x.a * y.a + x.b * y.b; }
 // 2 kLanes int32 that fit int16, in order.
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
 // Sum of the lanes; it wraps.
@@ -331,6 +239,9 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return v.b; }
 // --- doubles ---
 enum : int { kDoubles = 1 };
 using vp = double;
+struct vd {
+  vp part[8];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return value; }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return *p; }
@@ -338,10 +249,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return p[0][at];
 }  // each lane from its own array
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { *p = v; }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return a * b; }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return a / b; }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return a * b + c; }  // fused where madd() is
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return a < b ? a : b; }     // b where either is NaN
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return a > b ? a : b; }
@@ -351,6 +258,13 @@ TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return __builtin_trunc(a); }
 TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept { return m > 0 ? a : b; }
 // Rounded to float.
 TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept { *p = static_cast<float>(v); }
+
+// The sums of eight vectors that lie one after the other, each as of reduce_sum4.
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  vd r;
+  for (int i = 0; i < 8; ++i) r.part[i] = static_cast<double>(p[i]);
+  return r;
+}
 
 // --- tiles ---
 // Parts of tile_taps() (kernels/tiles.inl). kTileLanes consecutive pixels share a tile; 0 on a target without byte
@@ -376,4 +290,5 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
 // The low bytes of the lanes, 0 <= v <= 255.
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept { *p = static_cast<std::uint8_t>(v); }
 
+#include "textplane/simd/ops/few_bytes.inl"
 #include "textplane/simd/ops/no_tiles.inl"

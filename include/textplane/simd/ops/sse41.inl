@@ -12,7 +12,6 @@ using vm = __m128;  // all bits of a lane
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return _mm_setzero_ps(); }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm_setr_ps(0.0f, 1.0f, 2.0f, 3.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm_setr_epi32(0, 1, 2, 3); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm_loadu_ps(p); }
@@ -21,8 +20,8 @@ TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm_storeu_ps(p, v); }
-TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
-TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }
+TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return load128(p); }
+TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { store128(p, v); }
 TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept {
   if (n >= 4) return _mm_loadu_ps(p);
   if (n == 3) return _mm_setr_ps(p[0], p[1], p[2], 0.0f);
@@ -38,38 +37,11 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   if (n >= 2) _mm_store_ss(p + 1, _mm_shuffle_ps(v, v, 1));
   if (n >= 3) _mm_store_ss(p + 2, _mm_movehl_ps(v, v));
 }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept {
-  if (n >= 4) return loadi(p);
-  if (n == 3) return _mm_setr_epi32(p[0], p[1], p[2], 0);
-  if (n == 2) return _mm_setr_epi32(p[0], p[1], 0, 0);
-  return n == 1 ? _mm_cvtsi32_si128(p[0]) : _mm_setzero_si128();
-}
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
-  if (n >= 4) {
-    storei(p, v);
-    return;
-  }
-  if (n >= 1) p[0] = _mm_cvtsi128_si32(v);
-  if (n >= 2) p[1] = _mm_extract_epi32(v, 1);
-  if (n >= 3) p[2] = _mm_extract_epi32(v, 2);
-}
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
 }
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
-  return _mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(load_u32(p))));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return _mm_cvtepi32_ps(load_u8i(p)); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept {
-  return _mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(load_u32_n(p, n))));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { return _mm_cvtepi32_ps(load_u8i_n(p, n)); }
 
 // --- float arithmetic ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return _mm_add_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return _mm_sub_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm_mul_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm_add_ps(_mm_mul_ps(a, b), c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm_sub_ps(c, _mm_mul_ps(a, b)); }
 #if TEXTPLANE_SIMD_HIDE_MINIMA
@@ -86,12 +58,8 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm_max_ps(a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm_sqrt_ps(a); }
-TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
-  const vf y = _mm_rsqrt_ps(a);
-  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
-}
+TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm_rsqrt_ps(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm_xor_ps(_mm_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm_floor_ps(a); }
 
 // --- conversions ---
@@ -118,96 +86,40 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return _mm_cmple_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return _mm_cmplt_ps(b, a); }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return _mm_cmple_ps(b, a); }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return _mm_cmpeq_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return _mm_castsi128_ps(_mm_cmpgt_epi32(b, a)); }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return _mm_castsi128_ps(_mm_cmpgt_epi32(a, b)); }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return _mm_castsi128_ps(_mm_cmpeq_epi32(a, b)); }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return _mm_and_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return _mm_or_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return _mm_andnot_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return _mm_xor_ps(a, _mm_castsi128_ps(_mm_set1_epi32(-1))); }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm_blendv_ps(b, a, m); }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return _mm_blendv_epi8(b, a, _mm_castps_si128(m)); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm_and_ps(m, a); }
-TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return lti(ioti(), seti(n)); }
+TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return _mm_castsi128_ps(_mm_cmpgt_epi32(seti(n), ioti())); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return static_cast<unsigned>(_mm_movemask_ps(m)); }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept {
   // The number of ones in four bits, from a table in a word: SSE4.1 has no popcnt.
   return static_cast<int>((0x4332322132212110ull >> (4 * bits_from_mask(m))) & 15u);
 }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return bits_from_mask(m) != 0; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return bits_from_mask(m) == 15u; }
 
 // --- reductions ---
-TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
-  const __m128 two = _mm_add_ps(a, _mm_movehl_ps(a, a));
-  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return sum_of_four(a); }
 TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
-  const __m128d two = _mm_add_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(_mm_movehl_ps(a, a)));
-  return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
+  return sum_of_two(_mm_add_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(_mm_movehl_ps(a, a))));
 }
-TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
-  const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
-TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
-  const __m128 two = _mm_max_ps(a, _mm_movehl_ps(a, a));
-  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept { return min_of_four(a); }
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept { return max_of_four(a); }
 
 // --- bilinear taps ---
 struct taps_t {
   __m128i cells;
 };
-TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept {
-  return taps_t{_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))};
-}
+TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return taps_t{load128(p)}; }
 // The sum of the four bytes of each cell times the four signed bytes of `weights`: products of a pair fit 16 bits.
 TEXTPLANE_SIMD_INLINE vf tap_dot(taps_t t, int weights) noexcept {
   const __m128i pairs = _mm_maddubs_epi16(t.cells, _mm_set1_epi32(weights));
   return _mm_cvtepi32_ps(_mm_madd_epi16(pairs, _mm_set1_epi16(1)));
 }
-TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept {
-  return _mm_cvtepi32_ps(_mm_and_si128(t.cells, _mm_set1_epi32(255)));
-}
-TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return tap_dot(t, 0x000001ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return tap_dot(t, 0x000100ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff01); }
-
-// --- 8 doubles ---
-struct vd {
-  __m128d part[4];
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
-  return vd{{_mm_loadu_pd(p), _mm_loadu_pd(p + 2), _mm_loadu_pd(p + 4), _mm_loadu_pd(p + 6)}};
-}
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
-  _mm_storeu_pd(p, a.part[0]);
-  _mm_storeu_pd(p + 2, a.part[1]);
-  _mm_storeu_pd(p + 4, a.part[2]);
-  _mm_storeu_pd(p + 6, a.part[3]);
-}
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
-  const __m128d v = _mm_set1_pd(value);
-  return vd{{v, v, v, v}};
-}
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
-  return vd{{_mm_mul_pd(a.part[0], b.part[0]), _mm_mul_pd(a.part[1], b.part[1]), _mm_mul_pd(a.part[2], b.part[2]),
-             _mm_mul_pd(a.part[3], b.part[3])}};
-}
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
-  const vd p = muld(a, b);
-  return vd{{_mm_add_pd(p.part[0], c.part[0]), _mm_add_pd(p.part[1], c.part[1]), _mm_add_pd(p.part[2], c.part[2]),
-             _mm_add_pd(p.part[3], c.part[3])}};
-}
 
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   _mm_storeu_ps(out, _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, d)));
-}
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  const __m128 q = _mm_hadd_ps(_mm_hadd_ps(load(p), load(p + 4)), _mm_hadd_ps(load(p + 8), load(p + 12)));
-  const __m128 r = _mm_hadd_ps(_mm_hadd_ps(load(p + 16), load(p + 20)), _mm_hadd_ps(load(p + 24), load(p + 28)));
-  return vd{{_mm_cvtps_pd(q), _mm_cvtps_pd(_mm_movehl_ps(q, q)), _mm_cvtps_pd(r), _mm_cvtps_pd(_mm_movehl_ps(r, r))}};
 }
 
 // --- bytes, and their int16 ---
@@ -215,36 +127,16 @@ constexpr int kBytes = 16;
 using vb = __m128i;
 
 TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return _mm_set1_epi8(static_cast<char>(value)); }
-TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a);
-}
-TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
-  std::uint8_t bytes[16] = {0};
-  for (int i = 0; i < n; ++i) bytes[i] = p[i];
-  return loadb(bytes);
-}
-TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
-  std::uint8_t bytes[16];
-  storeb(bytes, a);
-  for (int i = 0; i < n; ++i) p[i] = bytes[i];
-}
+TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept { return load128(p); }
+TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { store128(p, a); }
 
 TEXTPLANE_SIMD_INLINE vb addsb(vb a, vb b) noexcept { return _mm_adds_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb subsb(vb a, vb b) noexcept { return _mm_subs_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return _mm_min_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return _mm_max_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return _mm_and_si128(a, b); }
-TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm_or_si128(a, b); }
 TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return _mm_xor_si128(a, b); }
-TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
-  const __m128i one = _mm_set1_epi8(1), two = _mm_set1_epi16(2);
-  const __m128i sum0 = _mm_add_epi16(_mm_maddubs_epi16(upper0, one), _mm_maddubs_epi16(lower0, one));
-  const __m128i sum1 = _mm_add_epi16(_mm_maddubs_epi16(upper1, one), _mm_maddubs_epi16(lower1, one));
-  return _mm_packus_epi16(_mm_srli_epi16(_mm_add_epi16(sum0, two), 2), _mm_srli_epi16(_mm_add_epi16(sum1, two), 2));
-}
+TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm_or_si128(a, b); }
 
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return _mm_cmpeq_epi8(_mm_max_epu8(a, b), a); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return _mm_testz_si128(a, a) == 0; }
@@ -252,76 +144,36 @@ TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
   return static_cast<std::uint32_t>(_mm_movemask_epi8(mask));
 }
 
-constexpr int kShorts = 8;
-constexpr int kPairsReach = 16;
-using vh = __m128i;
-
-TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return _mm_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a);
-}
-TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return _mm_add_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return _mm_sub_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return _mm_and_si128(a, b); }
-TEXTPLANE_SIMD_INLINE vh halfh(vh a) noexcept { return _mm_srai_epi16(a, 1); }
-TEXTPLANE_SIMD_INLINE vh mulhrsh(vh a, vh b) noexcept { return _mm_mulhrs_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh firsth(int n) noexcept {
-  const int limit = n < 0 ? 0 : (n < kShorts ? n : kShorts);
-  return _mm_cmplt_epi16(_mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7), seth(limit));
-}
-TEXTPLANE_SIMD_INLINE vh pair_weights(int w0, int w1) noexcept { return seth(w0 | (w1 << 8)); }
-TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
-  const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
-  const __m128i centred = _mm_xor_si128(loadb(p), _mm_set1_epi8(-128));
-  return _mm_maddubs_epi16(weights, _mm_shuffle_epi8(centred, neighbours));
-}
-
-TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
-  const __m128 scale = _mm_set1_ps(32.0f), half = _mm_set1_ps(0.5f);
-  const __m128i low = _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(_mm_loadu_ps(p), scale), half));
-  const __m128i high = _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(_mm_loadu_ps(p + 4), scale), half));
-  return _mm_sub_epi16(_mm_packs_epi32(low, high), seth(4096));
-}
-
-using vw = __m128i;
-
-TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return _mm_setzero_si128(); }
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept { return _mm_add_epi32(sum, _mm_madd_epi16(a, b)); }
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
-  const __m128d pairs = _mm_add_pd(_mm_cvtepi32_pd(a), _mm_cvtepi32_pd(_mm_unpackhi_epi64(a, a)));
-  return _mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs)));
-}
-
 // --- int16 ---
 enum : int { k16Lanes = 8 };
 using v16 = __m128i;
+using vw = __m128i;
+constexpr int kPairsReach = 16;
 
 TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v);
-}
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return load128(p); }
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { store128(p, v); }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm_add_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm_sub_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return _mm_maddubs_epi16(t, _mm_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return _mm_and_si128(x, y); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return _mm_srai_epi16(x, 1); }
+TEXTPLANE_SIMD_INLINE v16 quarter16(v16 x) noexcept { return _mm_srai_epi16(x, 2); }
+// Unsigned bytes of a times signed ones of b, neighbouring products added.
+TEXTPLANE_SIMD_INLINE v16 dot_bytes(v16 a, v16 b) noexcept { return _mm_maddubs_epi16(a, b); }
+TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept { return _mm_packus_epi16(a, b); }
+TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept { return p[0]; }
+TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return p; }
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
+  const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
+  return _mm_cmplt_epi16(_mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7), set16(limit));
 }
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
+  return sum_of_two(_mm_add_pd(_mm_cvtepi32_pd(a), _mm_cvtepi32_pd(_mm_unpackhi_epi64(a, a))));
+}
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
-TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
-  const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
-}
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  gather_pairs8(upper, lower, offset, first, second);
-}
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept { return sum_of_four(v); }
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
   return gather_pairs4(p, offset);
 }
@@ -337,6 +189,9 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm_cvtepi16_epi3
 // --- doubles ---
 enum : int { kDoubles = 2 };
 using vp = __m128d;
+struct vd {
+  vp part[4];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return _mm_set1_pd(value); }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return _mm_loadu_pd(p); }
@@ -344,10 +199,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return _mm_loadh_pd(_mm_load_sd(p[0] + at), p[1] + at);
 }
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { _mm_storeu_pd(p, v); }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return _mm_add_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return _mm_sub_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return _mm_mul_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return _mm_div_pd(a, b); }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return _mm_add_pd(_mm_mul_pd(a, b), c); }
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return _mm_min_pd(a, b); }
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return _mm_max_pd(a, b); }
@@ -360,12 +211,18 @@ TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept {
   _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_castps_si128(_mm_cvtpd_ps(v)));
 }
 
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  const __m128 q = _mm_hadd_ps(_mm_hadd_ps(load(p), load(p + 4)), _mm_hadd_ps(load(p + 8), load(p + 12)));
+  const __m128 r = _mm_hadd_ps(_mm_hadd_ps(load(p + 16), load(p + 20)), _mm_hadd_ps(load(p + 24), load(p + 28)));
+  return vd{{_mm_cvtps_pd(q), _mm_cvtps_pd(_mm_movehl_ps(q, q)), _mm_cvtps_pd(r), _mm_cvtps_pd(_mm_movehl_ps(r, r))}};
+}
+
 // --- tiles ---
 enum : int { kTileLanes = 4 };
 TEXTPLANE_SIMD_INLINE vi per_tile(const int* b) noexcept { return seti(b[0]); }
 TEXTPLANE_SIMD_INLINE bool in_two_rows(vi y) noexcept { return _mm_testz_si128(y, _mm_set1_epi32(~1)) != 0; }
 TEXTPLANE_SIMD_INLINE vi tile_rows(const std::uint8_t* const* corner, std::ptrdiff_t offset) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(corner[0] + offset));
+  return load128(corner[0] + offset);
 }
 TEXTPLANE_SIMD_INLINE vi pick_bytes(vi rows, vi picks) noexcept { return _mm_shuffle_epi8(rows, picks); }
 TEXTPLANE_SIMD_INLINE vi tile_picks(vi x) noexcept {
@@ -387,4 +244,6 @@ TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
   __builtin_memcpy(p, &word, 4);
 }
 
+#include "textplane/simd/ops/few_bytes.inl"
 #include "textplane/simd/ops/no_tiles.inl"
+#include "textplane/simd/ops/x86_vectors.inl"

@@ -1,11 +1,40 @@
 // Tiles of int16 cells, out of the operations of avx2 or avx512. Include before: these.
 
 TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16_t* y, int stride, int* out) noexcept {
-  const __m128i cx = _mm_loadu_si128(reinterpret_cast<const __m128i*>(x));
-  const __m128i cy = _mm_loadu_si128(reinterpret_cast<const __m128i*>(y)), by = _mm_set1_epi32(stride * 65536 + 1);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + 4), _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
+  const __m128i cx = load128(x);
+  const __m128i cy = load128(y), by = _mm_set1_epi32(stride * 65536 + 1);
+  store128(out, _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
+  store128(out + 4, _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
 }
+
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return from_group(load128(p)); }
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t* p, v16 v) noexcept { store128(p, first_group(v)); }
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* a,
+                                       v16* b) noexcept {
+  __m128i u, l;
+  gather_pairs8(upper, lower, offset, &u, &l);
+  *a = from_group(u);
+  *b = from_group(l);
+}
+
+struct TilePlaces {
+  std::ptrdiff_t of_group[kGroups];
+};
+TEXTPLANE_SIMD_INLINE TilePlaces find_tiles(const std::int16_t* x, const std::int16_t* y,
+                                            std::ptrdiff_t stride) noexcept {
+  TilePlaces at;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) at.of_group[i] = y[8 * i] * stride + x[8 * i];
+  return at;
+}
+TEXTPLANE_SIMD_INLINE v16 load_tile_rows(const std::uint8_t* p, const TilePlaces& at) noexcept {
+  __m128i rows[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) rows[i] = load128(p + at.of_group[i]);
+  return join_groups(rows);
+}
+// The two bytes of the first, or the last, cell of each group, for pick_bytes().
+TEXTPLANE_SIMD_INLINE v16 group_ends(bool last) noexcept { return set16(last ? 0x0f0e : 0x0100); }
 
 // Constants of a loop over tiles. `left` and `top` are the guessed numbers of a group's left-most and top-most cell.
 struct TileVectors {
