@@ -167,7 +167,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
     if (a.robust == simd::RobustKind::huber)
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
     else if (simd::weighs_all(a.robust))
-      batch_weigh_all(a, n, parameters, scales, e, c, &cost, &error);
+      batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
+                      &error);
     else
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
