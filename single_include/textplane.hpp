@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 117 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: b635f279ab74ecd7
+// textplane 0.1.0 in one header, made of 120 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: 977b58cea640db72
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 b635f279ab74ecd7"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 977b58cea640db72"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -2344,6 +2344,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_ENTRY inline __attribute__((noinline))
 #define TEXTPLANE_SIMD_RESTRICT __restrict__
 #define TEXTPLANE_SIMD_PREFETCH(p) __builtin_prefetch(p)
+#define TEXTPLANE_SIMD_UNROLL _Pragma("GCC unroll 8")  // g++ keeps such loops at -O2, and their arrays in memory
 #define TEXTPLANE_SIMD_SQRT __builtin_sqrtf
 #define TEXTPLANE_SIMD_FLOOR __builtin_floorf
 #define TEXTPLANE_SIMD_ABS __builtin_fabsf
@@ -2358,6 +2359,7 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #define TEXTPLANE_SIMD_ENTRY inline
 #define TEXTPLANE_SIMD_PREFETCH(p) static_cast<void>(p)
+#define TEXTPLANE_SIMD_UNROLL
 #define TEXTPLANE_SIMD_SQRT ::std::sqrt
 #define TEXTPLANE_SIMD_FLOOR ::std::floor
 #define TEXTPLANE_SIMD_ABS ::std::fabs
@@ -2708,22 +2710,9 @@ namespace TEXTPLANE_SIMD_REGION {
 // clang-format on
 // What the operations of all targets share. The first file of a region.
 
-// Two and four bytes as a number, the first byte lowest. Compilers make one load of it.
+// Two bytes as a number, the first one low. Compilers make one load of it.
 TEXTPLANE_SIMD_INLINE unsigned load_u16(const std::uint8_t* p) noexcept {
   return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8;
-}
-TEXTPLANE_SIMD_INLINE unsigned load_u32(const std::uint8_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8 | static_cast<unsigned>(p[2]) << 16 |
-         static_cast<unsigned>(p[3]) << 24;
-}
-// The first n of four bytes, zeros above; 0 <= n <= 4. Bytes from n on are not touched.
-TEXTPLANE_SIMD_INLINE unsigned load_u32_n(const std::uint8_t* p, int n) noexcept {
-  unsigned word = 0;
-  if (n >= 1) word = p[0];
-  if (n >= 2) word |= static_cast<unsigned>(p[1]) << 8;
-  if (n >= 3) word |= static_cast<unsigned>(p[2]) << 16;
-  if (n >= 4) word |= static_cast<unsigned>(p[3]) << 24;
-  return word;
 }
 // Copies n >= 0 bytes that do not overlap.
 TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcept {
@@ -2741,6 +2730,16 @@ TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
   volatile std::int16_t* out = p;  // compilers would call memset, of whose instruction set nothing is known
   for (int i = from; i < to; ++i) out[i] = 0;
 }
+
+// fetch_four() word by word.
+TEXTPLANE_SIMD_INLINE void fetch_four_words(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                            std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
+  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
+  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
+  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
+}
 // Operations of the scalar target, in plain C++: the definition of every operation. The other files say the same in
 // intrinsics. Include before: ops/common.inl.
 //
@@ -2757,7 +2756,6 @@ using vm = bool;   // kLanes truth values
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return value; }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return value; }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return 0.0f; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
@@ -2770,31 +2768,9 @@ TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept { return n > 0 ?
 TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   if (n > 0) *p = v;
 }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return n > 0 ? *p : 0; }
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
-  if (n > 0) *p = v;
-}
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return p[*at]; }  // p[at[i]]
-// kLanes bytes, as int32 and as float.
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept { return *p; }
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return static_cast<float>(*p); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept { return n > 0 ? *p : 0; }
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept {
-  return n > 0 ? static_cast<float>(*p) : 0.0f;
-}
 
 // --- float arithmetic: IEEE, each operation rounded once ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
-// A division by zero is allowed, as IEEE defines it: unused lanes of the vectors do it.
-#if defined(__clang__)
-__attribute__((no_sanitize("float-divide-by-zero")))
-#endif
-TEXTPLANE_SIMD_INLINE vf
-div(vf a, vf b) noexcept {
-  return a / b;
-}
 // a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
@@ -2815,7 +2791,6 @@ TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return TEXTPLANE_SIMD_SQRT(a); }
 // 1 / sqrt(a) within 3e-7 of itself, for positive numbers that are not subnormal.
 TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept { return 1.0f / sqrt_(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return TEXTPLANE_SIMD_ABS(a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return TEXTPLANE_SIMD_FLOOR(a); }
 
 // --- conversions: to_int truncates; its result for NaN and beyond int32 is unspecified (no undefined behaviour) ---
@@ -2859,20 +2834,14 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return a <= b; }
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return a > b; }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return a >= b; }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return a == b; }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return a < b; }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return a > b; }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return a == b; }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return a && b; }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return a || b; }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return !a && b; }  // not a, and b
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return !a; }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return m ? a : b; }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return m ? a : b; }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return m ? a : 0.0f; }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return n > 0; }                    // lanes below n; any n
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m ? 1u : 0u; }  // bit i is lane i
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return m ? 1 : 0; }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m; }
 
 // --- reductions: the upper half of the lanes joins the lower half until one is left; _double: in double ---
@@ -2908,38 +2877,10 @@ TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept {
 // Four cells of taps, each of two bytes of the upper row and, above them, two of the lower.
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
-  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
-  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
-  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
+  fetch_four_words(upper, lower, offset, taps);
 }
 
 // --- 8 doubles, on every target ---
-struct vd {
-  double lane[8];
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
-  vd r;
-  for (int i = 0; i < 8; ++i) r.lane[i] = p[i];
-  return r;
-}
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
-  for (int i = 0; i < 8; ++i) p[i] = a.lane[i];
-}
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
-  vd r;
-  for (int i = 0; i < 8; ++i) r.lane[i] = value;
-  return r;
-}
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
-  for (int i = 0; i < 8; ++i) a.lane[i] *= b.lane[i];
-  return a;
-}
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {  // as madd
-  for (int i = 0; i < 8; ++i) c.lane[i] += a.lane[i] * b.lane[i];
-  return c;
-}
 
 // reduce_sum of four vectors to out[0 .. 3]: neighbouring lanes join first.
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
@@ -2947,12 +2888,6 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   out[1] = b;
   out[2] = c;
   out[3] = d;
-}
-// The sums of eight vectors that lie one after the other, each as of reduce_sum4.
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  vd r;
-  for (int i = 0; i < 8; ++i) r.lane[i] = static_cast<double>(p[i]);
-  return r;
 }
 
 // --- bytes, and their int16 ---
@@ -2963,10 +2898,6 @@ using vb = int;  // kBytes uint8; here one in [0, 255]
 TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return value & 255; }  // value in [0, 255] in all lanes
 TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept { return *p; }
 TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { *p = static_cast<std::uint8_t>(a); }
-TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept { return n > 0 ? *p : 0; }
-TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
-  if (n > 0) *p = static_cast<std::uint8_t>(a);
-}
 
 // --- arithmetic, unsigned: addsb and subsb end at 255 and 0 ---
 TEXTPLANE_SIMD_INLINE vb addsb(vb a, vb b) noexcept { return a + b < 255 ? a + b : 255; }
@@ -2975,7 +2906,6 @@ TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return a < b ? a : b; }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return a > b ? a : b; }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return a & b; }
 TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return a | b; }
-TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return a ^ b; }
 // Means (a + b + c + d + 2) / 4, rounded down, of 2 x 2 blocks: `upper0` and `upper1` hold 2 kBytes neighbours of one
 // row, `lower0` and `lower1` those below.
 TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
@@ -2986,45 +2916,10 @@ TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noex
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return a >= b ? 255 : 0; }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return a != 0; }  // any byte that is not 0; a need not be a mask
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept { return mask != 0 ? 1u : 0u; }  // bit i is lane i
-// --- int16 beside bytes ---
-constexpr int kShorts = 1;
-constexpr int kPairsReach = 2;  // bytes from p on that mix_pairs() may read; it needs kShorts + 1
-using vh = int;                 // kShorts int16; here one in [-2^15, 2^15)
-
-TEXTPLANE_SIMD_INLINE vh wraph(int value) noexcept { return static_cast<std::int16_t>(value); }
-TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return wraph(value); }
-TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept { return *p; }
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept { *p = static_cast<std::int16_t>(a); }
-// Wraps.
-TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return wraph(a + b); }
-TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return wraph(a - b); }
-TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return a & b; }
-// a / 2, rounded down.
-TEXTPLANE_SIMD_INLINE vh halfh(vh a) noexcept { return a >> 1; }
-// a b / 2^15, rounded to the nearest and half up; not both -2^15.
-TEXTPLANE_SIMD_INLINE vh mulhrsh(vh a, vh b) noexcept { return (a * b + (1 << 14)) >> 15; }
-// -1 in the lanes below n, 0 in the others; any n.
-TEXTPLANE_SIMD_INLINE vh firsth(int n) noexcept { return n > 0 ? -1 : 0; }
-// Weights w0, w1 in [0, 127], w0 + w1 <= 127, for mix_pairs(); andh() with firsth() leaves the other lanes without.
-TEXTPLANE_SIMD_INLINE vh pair_weights(int w0, int w1) noexcept { return w0 | (w1 << 8); }
-// w0 (p[i] - 128) + w1 (p[i + 1] - 128) in lane i.
-TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
-  return (weights & 255) * (p[0] - 128) + (weights >> 8) * (p[1] - 128);
-}
-// 32 x - 4096, rounded half up, of kShorts floats in [0, 255]: grey levels as samples of a KLT patch (simd/klt.hpp).
-TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept { return static_cast<int>(*p * 32.0f + 0.5f) - 4096; }
-
-// --- int32 sums of products of int16 ---
-using vw = std::int64_t;  // int32 in the vectors, each for two neighbouring products
-
-TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return 0; }
-// sum + a b, neighbouring products added to one lane. The caller keeps the lanes below 2^31.
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept { return sum + a * b; }
-// Sum of all lanes: exact, as every partial sum is an integer below 2^53.
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(a); }
-
-// --- int16 ---
+// --- int16; sums and differences wrap ---
 enum : int { k16Lanes = 2 };
+constexpr int kPairsReach = 3;  // bytes from p on that mix_pairs() may read; it needs k16Lanes + 1
+using vw = std::int64_t;        // sums of products: int32 in the vectors
 struct v16 {
   std::int16_t a, b;
 };
@@ -3040,6 +2935,17 @@ TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
 }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return make16(x.a + y.a, x.b + y.b); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return make16(x.a - y.a, x.b - y.b); }
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return make16(x.a & y.a, x.b & y.b); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return make16(x.a >> 1, x.b >> 1); }  // rounded down
+// -1 in the lanes below n, 0 in the others; any n.
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept { return make16(n > 0 ? -1 : 0, n > 1 ? -1 : 0); }
+// w0 (p[i] - 128) + w1 (p[i + 1] - 128) in lane i, of pair_weights(w0, w1).
+TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
+  return make16((weights.a & 255) * (p[0] - 128) + (weights.a >> 8) * (p[1] - 128),
+                (weights.b & 255) * (p[1] - 128) + (weights.b >> 8) * (p[2] - 128));
+}
+// Sum of all lanes: exact, as every partial sum is an integer below 2^53.
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(a); }
 // x y / 2^15, rounded to the nearest, halves up; not both -2^15.
 TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept {
   return make16((x.a * y.a + 16384) >> 15, (x.b * y.b + 16384) >> 15);
@@ -3050,6 +2956,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
 }
 // int32 lane i: sum[i] + x[2i] y[2i] + x[2i+1] y[2i+1].
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return sum + (x.a * y.a + x.b * y.b); }
+TEXTPLANE_SIMD_INLINE vw add_dot16(vw sum, v16 x, v16 y) noexcept { return sum + x.a * y.a + x.b * y.b; }
 // 2 kLanes int32 that fit int16, in order.
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return make16(low, high); }
 // Sum of the lanes; it wraps.
@@ -3074,6 +2981,9 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return v.b; }
 // --- doubles ---
 enum : int { kDoubles = 1 };
 using vp = double;
+struct vd {
+  vp part[8];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return value; }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return *p; }
@@ -3081,10 +2991,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return p[0][at];
 }  // each lane from its own array
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { *p = v; }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return a * b; }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return a / b; }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return a * b + c; }  // fused where madd() is
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return a < b ? a : b; }     // b where either is NaN
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return a > b ? a : b; }
@@ -3094,6 +3000,13 @@ TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return __builtin_trunc(a); }
 TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept { return m > 0 ? a : b; }
 // Rounded to float.
 TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept { *p = static_cast<float>(v); }
+
+// The sums of eight vectors that lie one after the other, each as of reduce_sum4.
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  vd r;
+  for (int i = 0; i < 8; ++i) r.part[i] = static_cast<double>(p[i]);
+  return r;
+}
 
 // --- tiles ---
 // Parts of tile_taps() (kernels/tiles.inl). kTileLanes consecutive pixels share a tile; 0 on a target without byte
@@ -3119,6 +3032,18 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
 // The low bytes of the lanes, 0 <= v <= 255.
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept { *p = static_cast<std::uint8_t>(v); }
 
+// Partial bytes through a buffer, for targets without masked stores of bytes. Include before: loadb(), storeb().
+
+TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
+  std::uint8_t bytes[kBytes] = {0};
+  for (int i = 0; i < n; ++i) bytes[i] = p[i];
+  return loadb(bytes);
+}
+TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
+  std::uint8_t bytes[kBytes];
+  storeb(bytes, a);
+  for (int i = 0; i < n; ++i) p[i] = bytes[i];
+}
 // For targets without tiles of int16 cells: what the bodies of kernels name, and never call. Include before: the int16
 // operations of the target.
 
@@ -3142,6 +3067,67 @@ TEXTPLANE_SIMD_INLINE unsigned tile_pairs(const TileVectors&, const std::int16_t
   *first = *second = set16(0);
   return 0;
 }
+// Operations that read the same on every target. The last file of a region's operations.
+
+TEXTPLANE_SIMD_INLINE vf zero() noexcept { return set1(0.0f); }
+
+// --- float arithmetic: IEEE, each operation rounded once ---
+TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
+// A division by zero is allowed, as IEEE defines it: unused lanes of the vectors do it.
+#if defined(__clang__)
+__attribute__((no_sanitize("float-divide-by-zero")))
+#endif
+TEXTPLANE_SIMD_INLINE vf
+div(vf a, vf b) noexcept {
+  return a / b;
+}
+TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
+
+// --- doubles ---
+TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return a * b; }
+TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return a / b; }
+
+// --- 8 doubles ---
+constexpr int kParts = 8 / kDoubles;
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = load_p(p + i * kDoubles);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) store_p(p + i * kDoubles, a.part[i]);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = set_p(value);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) a.part[i] = a.part[i] * b.part[i];
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) c.part[i] = madd_p(a.part[i], b.part[i], c.part[i]);
+  return c;
+}
+
+// --- fixed point ---
+// Weights w0, w1 in [0, 127], w0 + w1 <= 127, for mix_pairs(); and16() with first16() leaves the other lanes without.
+TEXTPLANE_SIMD_INLINE v16 pair_weights(int w0, int w1) noexcept { return set16(w0 | (w1 << 8)); }
+// 32 x - 4096, rounded half up, of k16Lanes floats in [0, 255]: grey levels as samples of a KLT patch (simd/klt.hpp).
+TEXTPLANE_SIMD_INLINE v16 grey_to_fixed(const float* p) noexcept {
+  const vf scale = set1(32.0f), half = set1(0.5f);
+  return sub16(pack16(to_int(load(p) * scale + half), to_int(load(p + kLanes) * scale + half)), set16(4096));
+}
 #undef TEXTPLANE_SIMD_OPS
 }  // namespace TEXTPLANE_SIMD_REGION
 }  // namespace detail
@@ -3163,18 +3149,6 @@ namespace TEXTPLANE_SIMD_REGION {
 TEXTPLANE_SIMD_INLINE unsigned load_u16(const std::uint8_t* p) noexcept {
   return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8;
 }
-TEXTPLANE_SIMD_INLINE unsigned load_u32(const std::uint8_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8 | static_cast<unsigned>(p[2]) << 16 |
-         static_cast<unsigned>(p[3]) << 24;
-}
-TEXTPLANE_SIMD_INLINE unsigned load_u32_n(const std::uint8_t* p, int n) noexcept {
-  unsigned word = 0;
-  if (n >= 1) word = p[0];
-  if (n >= 2) word |= static_cast<unsigned>(p[1]) << 8;
-  if (n >= 3) word |= static_cast<unsigned>(p[2]) << 16;
-  if (n >= 4) word |= static_cast<unsigned>(p[3]) << 24;
-  return word;
-}
 TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcept {
   std::uint8_t* TEXTPLANE_SIMD_RESTRICT target = static_cast<std::uint8_t*>(to);
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
@@ -3187,10 +3161,45 @@ TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
   volatile std::int16_t* out = p;
   for (int i = from; i < to; ++i) out[i] = 0;
 }
+TEXTPLANE_SIMD_INLINE void fetch_four_words(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                            std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
+  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
+  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
+  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
+}
 // Operations of the sse41 target: vectors of 128 bits. ops/scalar.inl defines them.
 // Include before: ops/common.inl.
 // What the x86 targets share, in 128 bits. Include before: ops/common.inl.
 
+TEXTPLANE_SIMD_INLINE __m128i load128(const void* p) noexcept {
+  return _mm_loadu_si128(static_cast<const __m128i*>(p));
+}
+TEXTPLANE_SIMD_INLINE void store128(void* p, __m128i v) noexcept { _mm_storeu_si128(static_cast<__m128i*>(p), v); }
+
+// --- the last steps of reductions ---
+TEXTPLANE_SIMD_INLINE float sum_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_add_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE double sum_of_two(__m128d a) noexcept {
+  return _mm_cvtsd_f64(_mm_add_sd(a, _mm_unpackhi_pd(a, a)));
+}
+TEXTPLANE_SIMD_INLINE float min_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE float max_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_max_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE int sum_of_four(__m128i v) noexcept {
+  const __m128i a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+}
+
+// --- gathers: inserts beat the instructions and the way through general registers ---
 TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   std::uint64_t pair;
   __builtin_memcpy(&pair, offset, 8);
@@ -3224,7 +3233,6 @@ TEXTPLANE_SIMD_INLINE __m128i gather_pairs4(const std::uint16_t* p, const int* o
   v = _mm_insert_epi32(v, static_cast<int>(int16_pair(p + first_offset(b))), 2);
   return _mm_insert_epi32(v, static_cast<int>(int16_pair(p + second_offset(b))), 3);
 }
-// Inserts beat gathers and the way through general registers.
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
   const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
@@ -3236,7 +3244,7 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(lower + o2)), 5);
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(upper + o3)), 6);
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(lower + o3)), 7);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+  store128(taps, v);
 }
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
@@ -3251,7 +3259,6 @@ using vm = __m128;  // all bits of a lane
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return _mm_setzero_ps(); }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm_setr_ps(0.0f, 1.0f, 2.0f, 3.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm_setr_epi32(0, 1, 2, 3); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm_loadu_ps(p); }
@@ -3260,8 +3267,8 @@ TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm_storeu_ps(p, v); }
-TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
-TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }
+TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return load128(p); }
+TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { store128(p, v); }
 TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept {
   if (n >= 4) return _mm_loadu_ps(p);
   if (n == 3) return _mm_setr_ps(p[0], p[1], p[2], 0.0f);
@@ -3277,38 +3284,11 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   if (n >= 2) _mm_store_ss(p + 1, _mm_shuffle_ps(v, v, 1));
   if (n >= 3) _mm_store_ss(p + 2, _mm_movehl_ps(v, v));
 }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept {
-  if (n >= 4) return loadi(p);
-  if (n == 3) return _mm_setr_epi32(p[0], p[1], p[2], 0);
-  if (n == 2) return _mm_setr_epi32(p[0], p[1], 0, 0);
-  return n == 1 ? _mm_cvtsi32_si128(p[0]) : _mm_setzero_si128();
-}
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
-  if (n >= 4) {
-    storei(p, v);
-    return;
-  }
-  if (n >= 1) p[0] = _mm_cvtsi128_si32(v);
-  if (n >= 2) p[1] = _mm_extract_epi32(v, 1);
-  if (n >= 3) p[2] = _mm_extract_epi32(v, 2);
-}
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
 }
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
-  return _mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(load_u32(p))));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return _mm_cvtepi32_ps(load_u8i(p)); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept {
-  return _mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(load_u32_n(p, n))));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { return _mm_cvtepi32_ps(load_u8i_n(p, n)); }
 
 // --- float arithmetic ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return _mm_add_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return _mm_sub_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm_mul_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm_add_ps(_mm_mul_ps(a, b), c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm_sub_ps(c, _mm_mul_ps(a, b)); }
 #if TEXTPLANE_SIMD_HIDE_MINIMA
@@ -3325,12 +3305,8 @@ TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm_max_ps(a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm_sqrt_ps(a); }
-TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
-  const vf y = _mm_rsqrt_ps(a);
-  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
-}
+TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm_rsqrt_ps(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm_xor_ps(_mm_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm_floor_ps(a); }
 
 // --- conversions ---
@@ -3357,96 +3333,40 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return _mm_cmple_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return _mm_cmplt_ps(b, a); }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return _mm_cmple_ps(b, a); }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return _mm_cmpeq_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return _mm_castsi128_ps(_mm_cmpgt_epi32(b, a)); }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return _mm_castsi128_ps(_mm_cmpgt_epi32(a, b)); }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return _mm_castsi128_ps(_mm_cmpeq_epi32(a, b)); }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return _mm_and_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return _mm_or_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return _mm_andnot_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return _mm_xor_ps(a, _mm_castsi128_ps(_mm_set1_epi32(-1))); }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm_blendv_ps(b, a, m); }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return _mm_blendv_epi8(b, a, _mm_castps_si128(m)); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm_and_ps(m, a); }
-TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return lti(ioti(), seti(n)); }
+TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return _mm_castsi128_ps(_mm_cmpgt_epi32(seti(n), ioti())); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return static_cast<unsigned>(_mm_movemask_ps(m)); }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept {
   // The number of ones in four bits, from a table in a word: SSE4.1 has no popcnt.
   return static_cast<int>((0x4332322132212110ull >> (4 * bits_from_mask(m))) & 15u);
 }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return bits_from_mask(m) != 0; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return bits_from_mask(m) == 15u; }
 
 // --- reductions ---
-TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
-  const __m128 two = _mm_add_ps(a, _mm_movehl_ps(a, a));
-  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return sum_of_four(a); }
 TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
-  const __m128d two = _mm_add_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(_mm_movehl_ps(a, a)));
-  return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
+  return sum_of_two(_mm_add_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(_mm_movehl_ps(a, a))));
 }
-TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
-  const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
-TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
-  const __m128 two = _mm_max_ps(a, _mm_movehl_ps(a, a));
-  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept { return min_of_four(a); }
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept { return max_of_four(a); }
 
 // --- bilinear taps ---
 struct taps_t {
   __m128i cells;
 };
-TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept {
-  return taps_t{_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))};
-}
+TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return taps_t{load128(p)}; }
 // The sum of the four bytes of each cell times the four signed bytes of `weights`: products of a pair fit 16 bits.
 TEXTPLANE_SIMD_INLINE vf tap_dot(taps_t t, int weights) noexcept {
   const __m128i pairs = _mm_maddubs_epi16(t.cells, _mm_set1_epi32(weights));
   return _mm_cvtepi32_ps(_mm_madd_epi16(pairs, _mm_set1_epi16(1)));
 }
-TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept {
-  return _mm_cvtepi32_ps(_mm_and_si128(t.cells, _mm_set1_epi32(255)));
-}
-TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return tap_dot(t, 0x000001ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return tap_dot(t, 0x000100ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff01); }
-
-// --- 8 doubles ---
-struct vd {
-  __m128d part[4];
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
-  return vd{{_mm_loadu_pd(p), _mm_loadu_pd(p + 2), _mm_loadu_pd(p + 4), _mm_loadu_pd(p + 6)}};
-}
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
-  _mm_storeu_pd(p, a.part[0]);
-  _mm_storeu_pd(p + 2, a.part[1]);
-  _mm_storeu_pd(p + 4, a.part[2]);
-  _mm_storeu_pd(p + 6, a.part[3]);
-}
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
-  const __m128d v = _mm_set1_pd(value);
-  return vd{{v, v, v, v}};
-}
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
-  return vd{{_mm_mul_pd(a.part[0], b.part[0]), _mm_mul_pd(a.part[1], b.part[1]), _mm_mul_pd(a.part[2], b.part[2]),
-             _mm_mul_pd(a.part[3], b.part[3])}};
-}
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
-  const vd p = muld(a, b);
-  return vd{{_mm_add_pd(p.part[0], c.part[0]), _mm_add_pd(p.part[1], c.part[1]), _mm_add_pd(p.part[2], c.part[2]),
-             _mm_add_pd(p.part[3], c.part[3])}};
-}
 
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   _mm_storeu_ps(out, _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, d)));
-}
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  const __m128 q = _mm_hadd_ps(_mm_hadd_ps(load(p), load(p + 4)), _mm_hadd_ps(load(p + 8), load(p + 12)));
-  const __m128 r = _mm_hadd_ps(_mm_hadd_ps(load(p + 16), load(p + 20)), _mm_hadd_ps(load(p + 24), load(p + 28)));
-  return vd{{_mm_cvtps_pd(q), _mm_cvtps_pd(_mm_movehl_ps(q, q)), _mm_cvtps_pd(r), _mm_cvtps_pd(_mm_movehl_ps(r, r))}};
 }
 
 // --- bytes, and their int16 ---
@@ -3454,36 +3374,16 @@ constexpr int kBytes = 16;
 using vb = __m128i;
 
 TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return _mm_set1_epi8(static_cast<char>(value)); }
-TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a);
-}
-TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
-  std::uint8_t bytes[16] = {0};
-  for (int i = 0; i < n; ++i) bytes[i] = p[i];
-  return loadb(bytes);
-}
-TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
-  std::uint8_t bytes[16];
-  storeb(bytes, a);
-  for (int i = 0; i < n; ++i) p[i] = bytes[i];
-}
+TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept { return load128(p); }
+TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { store128(p, a); }
 
 TEXTPLANE_SIMD_INLINE vb addsb(vb a, vb b) noexcept { return _mm_adds_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb subsb(vb a, vb b) noexcept { return _mm_subs_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return _mm_min_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return _mm_max_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return _mm_and_si128(a, b); }
-TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm_or_si128(a, b); }
 TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return _mm_xor_si128(a, b); }
-TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
-  const __m128i one = _mm_set1_epi8(1), two = _mm_set1_epi16(2);
-  const __m128i sum0 = _mm_add_epi16(_mm_maddubs_epi16(upper0, one), _mm_maddubs_epi16(lower0, one));
-  const __m128i sum1 = _mm_add_epi16(_mm_maddubs_epi16(upper1, one), _mm_maddubs_epi16(lower1, one));
-  return _mm_packus_epi16(_mm_srli_epi16(_mm_add_epi16(sum0, two), 2), _mm_srli_epi16(_mm_add_epi16(sum1, two), 2));
-}
+TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm_or_si128(a, b); }
 
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return _mm_cmpeq_epi8(_mm_max_epu8(a, b), a); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return _mm_testz_si128(a, a) == 0; }
@@ -3491,76 +3391,36 @@ TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
   return static_cast<std::uint32_t>(_mm_movemask_epi8(mask));
 }
 
-constexpr int kShorts = 8;
-constexpr int kPairsReach = 16;
-using vh = __m128i;
-
-TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return _mm_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a);
-}
-TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return _mm_add_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return _mm_sub_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return _mm_and_si128(a, b); }
-TEXTPLANE_SIMD_INLINE vh halfh(vh a) noexcept { return _mm_srai_epi16(a, 1); }
-TEXTPLANE_SIMD_INLINE vh mulhrsh(vh a, vh b) noexcept { return _mm_mulhrs_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh firsth(int n) noexcept {
-  const int limit = n < 0 ? 0 : (n < kShorts ? n : kShorts);
-  return _mm_cmplt_epi16(_mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7), seth(limit));
-}
-TEXTPLANE_SIMD_INLINE vh pair_weights(int w0, int w1) noexcept { return seth(w0 | (w1 << 8)); }
-TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
-  const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
-  const __m128i centred = _mm_xor_si128(loadb(p), _mm_set1_epi8(-128));
-  return _mm_maddubs_epi16(weights, _mm_shuffle_epi8(centred, neighbours));
-}
-
-TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
-  const __m128 scale = _mm_set1_ps(32.0f), half = _mm_set1_ps(0.5f);
-  const __m128i low = _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(_mm_loadu_ps(p), scale), half));
-  const __m128i high = _mm_cvttps_epi32(_mm_add_ps(_mm_mul_ps(_mm_loadu_ps(p + 4), scale), half));
-  return _mm_sub_epi16(_mm_packs_epi32(low, high), seth(4096));
-}
-
-using vw = __m128i;
-
-TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return _mm_setzero_si128(); }
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept { return _mm_add_epi32(sum, _mm_madd_epi16(a, b)); }
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
-  const __m128d pairs = _mm_add_pd(_mm_cvtepi32_pd(a), _mm_cvtepi32_pd(_mm_unpackhi_epi64(a, a)));
-  return _mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs)));
-}
-
 // --- int16 ---
 enum : int { k16Lanes = 8 };
 using v16 = __m128i;
+using vw = __m128i;
+constexpr int kPairsReach = 16;
 
 TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v);
-}
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return load128(p); }
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { store128(p, v); }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm_add_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm_sub_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return _mm_maddubs_epi16(t, _mm_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return _mm_and_si128(x, y); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return _mm_srai_epi16(x, 1); }
+TEXTPLANE_SIMD_INLINE v16 quarter16(v16 x) noexcept { return _mm_srai_epi16(x, 2); }
+// Unsigned bytes of a times signed ones of b, neighbouring products added.
+TEXTPLANE_SIMD_INLINE v16 dot_bytes(v16 a, v16 b) noexcept { return _mm_maddubs_epi16(a, b); }
+TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept { return _mm_packus_epi16(a, b); }
+TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept { return p[0]; }
+TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return p; }
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
+  const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
+  return _mm_cmplt_epi16(_mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7), set16(limit));
 }
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
+  return sum_of_two(_mm_add_pd(_mm_cvtepi32_pd(a), _mm_cvtepi32_pd(_mm_unpackhi_epi64(a, a))));
+}
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm_mulhrs_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return _mm_packs_epi32(low, high); }
-TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
-  const vi a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
-}
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  gather_pairs8(upper, lower, offset, first, second);
-}
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept { return sum_of_four(v); }
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
   return gather_pairs4(p, offset);
 }
@@ -3576,6 +3436,9 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm_cvtepi16_epi3
 // --- doubles ---
 enum : int { kDoubles = 2 };
 using vp = __m128d;
+struct vd {
+  vp part[4];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return _mm_set1_pd(value); }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return _mm_loadu_pd(p); }
@@ -3583,10 +3446,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return _mm_loadh_pd(_mm_load_sd(p[0] + at), p[1] + at);
 }
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { _mm_storeu_pd(p, v); }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return _mm_add_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return _mm_sub_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return _mm_mul_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return _mm_div_pd(a, b); }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return _mm_add_pd(_mm_mul_pd(a, b), c); }
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return _mm_min_pd(a, b); }
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return _mm_max_pd(a, b); }
@@ -3599,12 +3458,18 @@ TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept {
   _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_castps_si128(_mm_cvtpd_ps(v)));
 }
 
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  const __m128 q = _mm_hadd_ps(_mm_hadd_ps(load(p), load(p + 4)), _mm_hadd_ps(load(p + 8), load(p + 12)));
+  const __m128 r = _mm_hadd_ps(_mm_hadd_ps(load(p + 16), load(p + 20)), _mm_hadd_ps(load(p + 24), load(p + 28)));
+  return vd{{_mm_cvtps_pd(q), _mm_cvtps_pd(_mm_movehl_ps(q, q)), _mm_cvtps_pd(r), _mm_cvtps_pd(_mm_movehl_ps(r, r))}};
+}
+
 // --- tiles ---
 enum : int { kTileLanes = 4 };
 TEXTPLANE_SIMD_INLINE vi per_tile(const int* b) noexcept { return seti(b[0]); }
 TEXTPLANE_SIMD_INLINE bool in_two_rows(vi y) noexcept { return _mm_testz_si128(y, _mm_set1_epi32(~1)) != 0; }
 TEXTPLANE_SIMD_INLINE vi tile_rows(const std::uint8_t* const* corner, std::ptrdiff_t offset) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(corner[0] + offset));
+  return load128(corner[0] + offset);
 }
 TEXTPLANE_SIMD_INLINE vi pick_bytes(vi rows, vi picks) noexcept { return _mm_shuffle_epi8(rows, picks); }
 TEXTPLANE_SIMD_INLINE vi tile_picks(vi x) noexcept {
@@ -3626,6 +3491,16 @@ TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
   __builtin_memcpy(p, &word, 4);
 }
 
+TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
+  std::uint8_t bytes[kBytes] = {0};
+  for (int i = 0; i < n; ++i) bytes[i] = p[i];
+  return loadb(bytes);
+}
+TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
+  std::uint8_t bytes[kBytes];
+  storeb(bytes, a);
+  for (int i = 0; i < n; ++i) p[i] = bytes[i];
+}
 enum : int { kInt16Tiles = 0 };
 TEXTPLANE_SIMD_INLINE v16 min_unsigned16(v16 v, v16) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return load16(p); }
@@ -3645,6 +3520,91 @@ TEXTPLANE_SIMD_INLINE unsigned tile_pairs(const TileVectors&, const std::int16_t
                                           v16* second) noexcept {
   *first = *second = set16(0);
   return 0;
+}
+// Operations that read the same on every x86 target. Include before: those of the target.
+
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  const vf y = rough_inverse_root(a);
+  return y * nmadd(set1(0.5f) * a * y, y, set1(1.5f));
+}
+TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept { return to_float(andi(t.cells, seti(255))); }
+TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return tap_dot(t, 0x000001ff); }
+TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return tap_dot(t, 0x000100ff); }
+TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff01); }
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  return dot_bytes(t, set16((w0 & 255) | (w1 * 256)));
+}
+TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
+  const vb one = setb(1);
+  const v16 sum0 = add16(dot_bytes(upper0, one), dot_bytes(lower0, one));
+  const v16 sum1 = add16(dot_bytes(upper1, one), dot_bytes(lower1, one));
+  return pack_bytes(quarter16(add16(sum0, set16(2))), quarter16(add16(sum1, set16(2))));
+}
+
+// --- groups: 128 bits of a vector, each for eight int16 ---
+constexpr int kGroups = k16Lanes / 8;
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  __m128i u[kGroups], l[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) gather_pairs8(upper, lower, offset + 8 * i, u + i, l + i);
+  *first = join_groups(u);
+  *second = join_groups(l);
+}
+TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
+  const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
+  __m128i bytes[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) bytes[i] = load128(p + 8 * i);
+  return dot_bytes(weights, pick_bytes(xorb(join_groups(bytes), setb(-128)), repeat_group(neighbours)));
+}
+TEXTPLANE_SIMD_INLINE vf zero() noexcept { return set1(0.0f); }
+TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
+#if defined(__clang__)
+__attribute__((no_sanitize("float-divide-by-zero")))
+#endif
+TEXTPLANE_SIMD_INLINE vf
+div(vf a, vf b) noexcept {
+  return a / b;
+}
+TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
+TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return a * b; }
+TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return a / b; }
+constexpr int kParts = 8 / kDoubles;
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = load_p(p + i * kDoubles);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) store_p(p + i * kDoubles, a.part[i]);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = set_p(value);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) a.part[i] = a.part[i] * b.part[i];
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) c.part[i] = madd_p(a.part[i], b.part[i], c.part[i]);
+  return c;
+}
+TEXTPLANE_SIMD_INLINE v16 pair_weights(int w0, int w1) noexcept { return set16(w0 | (w1 << 8)); }
+TEXTPLANE_SIMD_INLINE v16 grey_to_fixed(const float* p) noexcept {
+  const vf scale = set1(32.0f), half = set1(0.5f);
+  return sub16(pack16(to_int(load(p) * scale + half), to_int(load(p + kLanes) * scale + half)), set16(4096));
 }
 #undef TEXTPLANE_SIMD_OPS
 }
@@ -3667,18 +3627,6 @@ namespace TEXTPLANE_SIMD_REGION {
 TEXTPLANE_SIMD_INLINE unsigned load_u16(const std::uint8_t* p) noexcept {
   return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8;
 }
-TEXTPLANE_SIMD_INLINE unsigned load_u32(const std::uint8_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8 | static_cast<unsigned>(p[2]) << 16 |
-         static_cast<unsigned>(p[3]) << 24;
-}
-TEXTPLANE_SIMD_INLINE unsigned load_u32_n(const std::uint8_t* p, int n) noexcept {
-  unsigned word = 0;
-  if (n >= 1) word = p[0];
-  if (n >= 2) word |= static_cast<unsigned>(p[1]) << 8;
-  if (n >= 3) word |= static_cast<unsigned>(p[2]) << 16;
-  if (n >= 4) word |= static_cast<unsigned>(p[3]) << 24;
-  return word;
-}
 TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcept {
   std::uint8_t* TEXTPLANE_SIMD_RESTRICT target = static_cast<std::uint8_t*>(to);
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
@@ -3691,8 +3639,39 @@ TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
   volatile std::int16_t* out = p;
   for (int i = from; i < to; ++i) out[i] = 0;
 }
+TEXTPLANE_SIMD_INLINE void fetch_four_words(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                            std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
+  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
+  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
+  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
+}
 // Operations of the avx2 target: vectors of 256 bits. ops/scalar.inl defines them.
 // Include before: ops/common.inl.
+TEXTPLANE_SIMD_INLINE __m128i load128(const void* p) noexcept {
+  return _mm_loadu_si128(static_cast<const __m128i*>(p));
+}
+TEXTPLANE_SIMD_INLINE void store128(void* p, __m128i v) noexcept { _mm_storeu_si128(static_cast<__m128i*>(p), v); }
+TEXTPLANE_SIMD_INLINE float sum_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_add_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE double sum_of_two(__m128d a) noexcept {
+  return _mm_cvtsd_f64(_mm_add_sd(a, _mm_unpackhi_pd(a, a)));
+}
+TEXTPLANE_SIMD_INLINE float min_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE float max_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_max_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE int sum_of_four(__m128i v) noexcept {
+  const __m128i a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+}
 TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   std::uint64_t pair;
   __builtin_memcpy(&pair, offset, 8);
@@ -3737,11 +3716,31 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(lower + o2)), 5);
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(upper + o3)), 6);
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(lower + o3)), 7);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+  store128(taps, v);
 }
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
-// What avx2 and avx512 share, in 256 bits. Include before: ops/common.inl.
+
+// --- floats ---
+constexpr int kLanes = 8;
+constexpr bool kManyRegisters = false;
+using vf = __m256;
+using vi = __m256i;
+using vm = __m256;  // all bits of a lane
+
+// What avx2 and avx512 share: operations on 256 bits, and those on their own vectors that read the same. Include
+// before: ops/x86.inl, and the types of the target.
+
+TEXTPLANE_SIMD_INLINE __m256i load256(const void* p) noexcept {
+  return _mm256_loadu_si256(static_cast<const __m256i*>(p));
+}
+TEXTPLANE_SIMD_INLINE void store256(void* p, __m256i v) noexcept { _mm256_storeu_si256(static_cast<__m256i*>(p), v); }
+TEXTPLANE_SIMD_INLINE __m256i join128(__m128i low, __m128i high) noexcept {
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(low), high, 1);
+}
+TEXTPLANE_SIMD_INLINE __m256i gather_pairs8(const std::uint16_t* p, const int* offset) noexcept {
+  return join128(gather_pairs4(p, offset), gather_pairs4(p, offset + 4));
+}
 
 // Steps of sums across lanes: join_lanes(), then join_pairs(), then join_halves() make of eight vectors one, of the sum
 // of each.
@@ -3754,68 +3753,41 @@ TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
 TEXTPLANE_SIMD_INLINE __m256 join_halves(__m256 a, __m256 b) noexcept {
   return _mm256_add_ps(_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31));
 }
-
-// --- int16 beside bytes ---
-constexpr int kShorts = 16;
-constexpr int kPairsReach = 24;
-using vh = __m256i;
-
-TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return _mm256_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+TEXTPLANE_SIMD_INLINE float sum_of_eight(__m256 a) noexcept {
+  return sum_of_four(_mm_add_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)));
 }
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept {
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a);
+TEXTPLANE_SIMD_INLINE float min_of_eight(__m256 a) noexcept {
+  return min_of_four(_mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)));
 }
-TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return _mm256_add_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return _mm256_sub_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return _mm256_and_si256(a, b); }
-TEXTPLANE_SIMD_INLINE vh halfh(vh a) noexcept { return _mm256_srai_epi16(a, 1); }
-TEXTPLANE_SIMD_INLINE vh mulhrsh(vh a, vh b) noexcept { return _mm256_mulhrs_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh firsth(int n) noexcept {
-  const int limit = n < 0 ? 0 : (n < kShorts ? n : kShorts);
-  const __m256i lane = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  return _mm256_cmpgt_epi16(seth(limit), lane);
+TEXTPLANE_SIMD_INLINE float max_of_eight(__m256 a) noexcept {
+  return max_of_four(_mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)));
 }
-TEXTPLANE_SIMD_INLINE vh pair_weights(int w0, int w1) noexcept { return seth(w0 | (w1 << 8)); }
-TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
-  const __m128i* groups = reinterpret_cast<const __m128i*>(p);
-  const __m128i* later = reinterpret_cast<const __m128i*>(p + 8);
-  const __m256i bytes =
-      _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(groups)), _mm_loadu_si128(later), 1);
-  const __m256i neighbours = _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8));
-  const __m256i centred = _mm256_xor_si256(bytes, _mm256_set1_epi8(-128));
-  return _mm256_maddubs_epi16(weights, _mm256_shuffle_epi8(centred, neighbours));
+TEXTPLANE_SIMD_INLINE int sum_of_eight(__m256i a) noexcept {
+  return sum_of_four(_mm_add_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1)));
+}
+TEXTPLANE_SIMD_INLINE double sum_of_four(__m256d a) noexcept {
+  return sum_of_two(_mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1)));
+}
+// Of eight int32: exact.
+TEXTPLANE_SIMD_INLINE double wide_sum(__m256i a) noexcept {
+  return sum_of_four(
+      _mm256_add_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1))));
 }
 
-TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
-  const __m256 scale = _mm256_set1_ps(32.0f), half = _mm256_set1_ps(0.5f);
-  const __m256i low = _mm256_cvttps_epi32(_mm256_add_ps(_mm256_mul_ps(_mm256_loadu_ps(p), scale), half));
-  const __m256i high = _mm256_cvttps_epi32(_mm256_add_ps(_mm256_mul_ps(_mm256_loadu_ps(p + 8), scale), half));
-  return _mm256_sub_epi16(_mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xD8), seth(4096));
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  __asm__("vminps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
+  return a;
 }
-
-using vw = __m256i;
-
-TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return _mm256_setzero_si256(); }
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
-  const __m256d four =
-      _mm256_add_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1)));
-  const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-  return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  __asm__("vmaxps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
+  return a;
 }
-
-// --- floats ---
-constexpr int kLanes = 8;
-constexpr bool kManyRegisters = false;
-using vf = __m256;
-using vi = __m256i;
-using vm = __m256;  // all bits of a lane
+#endif
 
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm256_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm256_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return _mm256_setzero_ps(); }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm256_setr_ps(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 TEXTPLANE_SIMD_INLINE __m256i first_n_bits(int n) noexcept { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), ioti()); }
@@ -3825,12 +3797,9 @@ TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
   return v;
 }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { _mm256_storeu_ps(p, v); }
-TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), v); }
+TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return load256(p); }
+TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { store256(p, v); }
 TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept { return _mm256_maskload_ps(p, first_n_bits(n)); }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return _mm256_maskload_epi32(p, first_n_bits(n)); }
 // Masked stores are microcode on AMD: halves and quarters instead.
 TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   if (n >= 8) {
@@ -3850,9 +3819,6 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   }
   if ((n & 1) != 0) _mm_store_ss(p, rest);
 }
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
-  store_n(reinterpret_cast<float*>(p), _mm256_castsi256_ps(v), n);
-}
 // Sooner than the instruction.
 TEXTPLANE_SIMD_INLINE __m128 gather_four(const float* p, const int* at) noexcept {
   return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
@@ -3860,47 +3826,17 @@ TEXTPLANE_SIMD_INLINE __m128 gather_four(const float* p, const int* at) noexcept
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return _mm256_insertf128_ps(_mm256_castps128_ps256(gather_four(p, at)), gather_four(p, at + 4), 1);
 }
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
-  return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return _mm256_cvtepi32_ps(load_u8i(p)); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept {
-  const bool half = n >= 4;
-  const unsigned low = half ? load_u32(p) : load_u32_n(p, n);
-  const unsigned high = half ? load_u32_n(p + 4, n - 4) : 0u;
-  return _mm256_cvtepu8_epi32(_mm_setr_epi32(static_cast<int>(low), static_cast<int>(high), 0, 0));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept {
-  return _mm256_cvtepi32_ps(load_u8i_n(p, n));
-}
 
 // --- float arithmetic ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return _mm256_add_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return _mm256_sub_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm256_mul_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm256_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm256_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm256_fnmadd_ps(a, b, c); }
-#if TEXTPLANE_SIMD_HIDE_MINIMA
-TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
-  __asm__("vminps %2, %1, %0" : "=x"(a) : "x"(a), "x"(b));
-  return a;
-}
-TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
-  __asm__("vmaxps %2, %1, %0" : "=x"(a) : "x"(a), "x"(b));
-  return a;
-}
-#else
+#if !TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm256_min_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm256_max_ps(a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm256_sqrt_ps(a); }
-TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
-  const vf y = _mm256_rsqrt_ps(a);
-  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
-}
+TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm256_rsqrt_ps(a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm256_xor_ps(_mm256_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm256_floor_ps(a); }
 
 // --- conversions ---
@@ -3927,93 +3863,39 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return _mm256_cmp_ps(a, b, _C
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return _mm256_cmp_ps(a, b, _CMP_GT_OQ); }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return _mm256_cmp_ps(a, b, _CMP_GE_OQ); }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return _mm256_cmp_ps(a, b, _CMP_EQ_OQ); }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return _mm256_castsi256_ps(_mm256_cmpgt_epi32(b, a)); }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return _mm256_castsi256_ps(_mm256_cmpgt_epi32(a, b)); }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return _mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b)); }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return _mm256_and_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return _mm256_or_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return _mm256_andnot_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return _mm256_xor_ps(a, _mm256_castsi256_ps(_mm256_set1_epi32(-1))); }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm256_blendv_ps(b, a, m); }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return _mm256_blendv_epi8(b, a, _mm256_castps_si256(m)); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm256_and_ps(m, a); }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return _mm256_castsi256_ps(first_n_bits(n)); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return static_cast<unsigned>(_mm256_movemask_ps(m)); }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return _mm_popcnt_u32(bits_from_mask(m)); }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return bits_from_mask(m) != 0; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return bits_from_mask(m) == 255u; }
 
 // --- reductions ---
-TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
-  const __m128 four = _mm_add_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
-  const __m128 two = _mm_add_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return sum_of_eight(a); }
 TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
-  const __m256d four =
-      _mm256_add_pd(_mm256_cvtps_pd(_mm256_castps256_ps128(a)), _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1)));
-  const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-  return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
+  const __m128 low = _mm256_castps256_ps128(a), high = _mm256_extractf128_ps(a, 1);
+  return sum_of_four(_mm256_add_pd(_mm256_cvtps_pd(low), _mm256_cvtps_pd(high)));
 }
-TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
-  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
-  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
-TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
-  const __m128 four = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
-  const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept { return min_of_eight(a); }
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept { return max_of_eight(a); }
 
 // --- bilinear taps ---
 struct taps_t {
   __m256i cells;
 };
-TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept {
-  return taps_t{_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
-}
+TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return taps_t{load256(p)}; }
 // The sum of the four bytes of each cell times the four signed bytes of `weights`: products of a pair fit 16 bits.
 TEXTPLANE_SIMD_INLINE vf tap_dot(taps_t t, int weights) noexcept {
   const __m256i pairs = _mm256_maddubs_epi16(t.cells, _mm256_set1_epi32(weights));
   return _mm256_cvtepi32_ps(_mm256_madd_epi16(pairs, _mm256_set1_epi16(1)));
 }
-TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept {
-  return _mm256_cvtepi32_ps(_mm256_and_si256(t.cells, _mm256_set1_epi32(255)));
-}
-TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return tap_dot(t, 0x000001ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return tap_dot(t, 0x000100ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff01); }
-
-// --- 8 doubles ---
-struct vd {
-  __m256d low, high;
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept { return vd{_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)}; }
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
-  _mm256_storeu_pd(p, a.low);
-  _mm256_storeu_pd(p + 4, a.high);
-}
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
-  const __m256d v = _mm256_set1_pd(value);
-  return vd{v, v};
-}
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
-  return vd{_mm256_mul_pd(a.low, b.low), _mm256_mul_pd(a.high, b.high)};
-}
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
-  return vd{_mm256_fmadd_pd(a.low, b.low, c.low), _mm256_fmadd_pd(a.high, b.high, c.high)};
-}
 
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = join_pairs(join_lanes(a, b), join_lanes(c, d));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
-}
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  const __m256 q = join_pairs(join_lanes(load(p), load(p + 8)), join_lanes(load(p + 16), load(p + 24)));
-  const __m256 r = join_pairs(join_lanes(load(p + 32), load(p + 40)), join_lanes(load(p + 48), load(p + 56)));
-  const __m256 s = join_halves(q, r);
-  return vd{_mm256_cvtps_pd(_mm256_castps256_ps128(s)), _mm256_cvtps_pd(_mm256_extractf128_ps(s, 1))};
 }
 
 // --- bytes, and their int16 ---
@@ -4021,39 +3903,16 @@ constexpr int kBytes = 32;
 using vb = __m256i;
 
 TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return _mm256_set1_epi8(static_cast<char>(value)); }
-TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept {
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a);
-}
-TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
-  std::uint8_t bytes[32] = {0};
-  for (int i = 0; i < n; ++i) bytes[i] = p[i];
-  return loadb(bytes);
-}
-TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
-  std::uint8_t bytes[32];
-  storeb(bytes, a);
-  for (int i = 0; i < n; ++i) p[i] = bytes[i];
-}
+TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept { return load256(p); }
+TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { store256(p, a); }
 
 TEXTPLANE_SIMD_INLINE vb addsb(vb a, vb b) noexcept { return _mm256_adds_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb subsb(vb a, vb b) noexcept { return _mm256_subs_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return _mm256_min_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return _mm256_max_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return _mm256_and_si256(a, b); }
-TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm256_or_si256(a, b); }
 TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return _mm256_xor_si256(a, b); }
-TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
-  const __m256i one = _mm256_set1_epi8(1), two = _mm256_set1_epi16(2);
-  const __m256i sum0 = _mm256_add_epi16(_mm256_maddubs_epi16(upper0, one), _mm256_maddubs_epi16(lower0, one));
-  const __m256i sum1 = _mm256_add_epi16(_mm256_maddubs_epi16(upper1, one), _mm256_maddubs_epi16(lower1, one));
-  // Packing works within the halves of a register.
-  const __m256i packed = _mm256_packus_epi16(_mm256_srli_epi16(_mm256_add_epi16(sum0, two), 2),
-                                             _mm256_srli_epi16(_mm256_add_epi16(sum1, two), 2));
-  return _mm256_permute4x64_epi64(packed, 0xD8);
-}
+TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm256_or_si256(a, b); }
 
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return _mm256_cmpeq_epi8(_mm256_max_epu8(a, b), a); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return _mm256_testz_si256(a, a) == 0; }
@@ -4061,44 +3920,41 @@ TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
   return static_cast<std::uint32_t>(_mm256_movemask_epi8(mask));
 }
 
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept { return _mm256_add_epi32(sum, _mm256_madd_epi16(a, b)); }
-
 // --- int16 ---
 enum : int { k16Lanes = 16 };
 using v16 = __m256i;
+using vw = __m256i;
+constexpr int kPairsReach = 24;
 
 TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm256_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept {
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), v);
-}
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return load256(p); }
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { store256(p, v); }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm256_add_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm256_sub_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm256_mulhrs_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return _mm256_maddubs_epi16(t, _mm256_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return _mm256_and_si256(x, y); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return _mm256_srai_epi16(x, 1); }
+TEXTPLANE_SIMD_INLINE v16 quarter16(v16 x) noexcept { return _mm256_srai_epi16(x, 2); }
+// Unsigned bytes of a times signed ones of b, neighbouring products added.
+TEXTPLANE_SIMD_INLINE v16 dot_bytes(v16 a, v16 b) noexcept { return _mm256_maddubs_epi16(a, b); }
+TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept {
+  return _mm256_permute4x64_epi64(_mm256_packus_epi16(a, b), 0xd8);
 }
+TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept { return join128(p[0], p[1]); }
+TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm256_broadcastsi128_si256(p); }
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
+  const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
+  const __m256i lane = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  return _mm256_cmpgt_epi16(set16(limit), lane);
+}
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return wide_sum(a); }
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm256_mulhrs_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm256_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
   return _mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xd8);
 }
-TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
-  const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
-  const __m128i a = _mm_add_epi32(h, _mm_shuffle_epi32(h, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
-}
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  __m128i u0, l0, u1, l1;
-  gather_pairs8(upper, lower, offset, &u0, &l0);
-  gather_pairs8(upper, lower, offset + 8, &u1, &l1);
-  *first = _mm256_inserti128_si256(_mm256_castsi128_si256(u0), u1, 1);
-  *second = _mm256_inserti128_si256(_mm256_castsi128_si256(l0), l1, 1);
-}
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept { return sum_of_eight(v); }
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  return _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
+  return gather_pairs8(p, offset);
 }
 TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept {
   const __m256i low = _mm256_set1_epi32(65535);
@@ -4113,6 +3969,9 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm256_cvtepi16_e
 // --- doubles ---
 enum : int { kDoubles = 4 };
 using vp = __m256d;
+struct vd {
+  vp part[2];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return _mm256_set1_pd(value); }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return _mm256_loadu_pd(p); }
@@ -4121,10 +3980,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return _mm256_insertf128_pd(_mm256_castpd128_pd256(low), _mm_loadh_pd(_mm_load_sd(p[2] + at), p[3] + at), 1);
 }
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { _mm256_storeu_pd(p, v); }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return _mm256_add_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return _mm256_sub_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return _mm256_mul_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return _mm256_div_pd(a, b); }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return _mm256_fmadd_pd(a, b, c); }
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return _mm256_min_pd(a, b); }
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return _mm256_max_pd(a, b); }
@@ -4135,12 +3990,19 @@ TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept {
 }
 TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept { _mm_storeu_ps(p, _mm256_cvtpd_ps(v)); }
 
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  const __m256 q = join_pairs(join_lanes(load(p), load(p + 8)), join_lanes(load(p + 16), load(p + 24)));
+  const __m256 r = join_pairs(join_lanes(load(p + 32), load(p + 40)), join_lanes(load(p + 48), load(p + 56)));
+  const __m256 s = join_halves(q, r);
+  return vd{{_mm256_cvtps_pd(_mm256_castps256_ps128(s)), _mm256_cvtps_pd(_mm256_extractf128_ps(s, 1))}};
+}
+
 // --- tiles ---
 enum : int { kTileLanes = 8 };
 TEXTPLANE_SIMD_INLINE vi per_tile(const int* b) noexcept { return seti(b[0]); }
 TEXTPLANE_SIMD_INLINE bool in_two_rows(vi y) noexcept { return _mm256_testz_si256(y, _mm256_set1_epi32(~1)) != 0; }
 TEXTPLANE_SIMD_INLINE vi tile_rows(const std::uint8_t* const* corner, std::ptrdiff_t offset) noexcept {
-  return _mm256_broadcastsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(corner[0] + offset)));
+  return repeat_group(load128(corner[0] + offset));
 }
 TEXTPLANE_SIMD_INLINE vi pick_bytes(vi rows, vi picks) noexcept { return _mm256_shuffle_epi8(rows, picks); }
 TEXTPLANE_SIMD_INLINE vi tile_picks(vi x) noexcept {
@@ -4166,43 +4028,20 @@ TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
 // --- tiles of int16 cells ---
 enum : int { kInt16Tiles = 1 };
 TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept { return load16(p); }
-TEXTPLANE_SIMD_INLINE v16 group_ends(bool last) noexcept { return set16(last ? 0x0f0e : 0x0100); }
 TEXTPLANE_SIMD_INLINE v16 saturated_sub16(v16 v, int n) noexcept { return _mm256_subs_epu16(v, set16(n)); }
 TEXTPLANE_SIMD_INLINE v16 pair_picks(v16 x) noexcept {
   return _mm256_add_epi16(_mm256_or_si256(x, _mm256_slli_epi16(x, 8)), set16(0x0100));
-}
-struct TilePlaces {
-  std::ptrdiff_t a, b;
-};
-TEXTPLANE_SIMD_INLINE TilePlaces find_tiles(const std::int16_t* x, const std::int16_t* y,
-                                            std::ptrdiff_t stride) noexcept {
-  return TilePlaces{y[0] * stride + x[0], y[8] * stride + x[8]};
-}
-TEXTPLANE_SIMD_INLINE v16 load_tile_rows(const std::uint8_t* p, const TilePlaces& at) noexcept {
-  return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p + at.a))),
-                                 _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + at.b)), 1);
 }
 TEXTPLANE_SIMD_INLINE v16 choose16(v16 y, v16 a, v16 b) noexcept {
   return _mm256_blendv_epi8(a, b, _mm256_sub_epi16(_mm256_setzero_si256(), y));
 }
 TEXTPLANE_SIMD_INLINE v16 min_unsigned16(v16 v, v16 high) noexcept { return _mm256_min_epu16(v, high); }
+TEXTPLANE_SIMD_INLINE v16 from_group(__m128i p) noexcept { return _mm256_castsi128_si256(p); }
+TEXTPLANE_SIMD_INLINE __m128i first_group(v16 v) noexcept { return _mm256_castsi256_si128(v); }
 TEXTPLANE_SIMD_INLINE v16 or16(v16 a, v16 b) noexcept { return _mm256_or_si256(a, b); }
 TEXTPLANE_SIMD_INLINE unsigned any_of_four(v16 v) noexcept {
   const __m256i none = _mm256_cmpeq_epi64(v, _mm256_setzero_si256());
   return static_cast<unsigned>(_mm256_movemask_pd(_mm256_castsi256_pd(none))) ^ 15U;
-}
-TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept {
-  return _mm256_castsi128_si256(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
-}
-TEXTPLANE_SIMD_INLINE void store_group(std::int16_t* p, v16 v) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(v));
-}
-TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* a,
-                                       v16* b) noexcept {
-  __m128i u, l;
-  gather_pairs8(upper, lower, offset, &u, &l);
-  *a = _mm256_castsi128_si256(u);
-  *b = _mm256_castsi128_si256(l);
 }
 TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t* p, v16 a, v16 b) noexcept {
   const __m256i low = _mm256_unpacklo_epi16(a, b), high = _mm256_unpackhi_epi16(a, b);
@@ -4210,14 +4049,87 @@ TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t* p, v16 a, v16 b) noexcept {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p + 8), _mm256_permute2x128_si256(low, high, 0x31));
 }
 
+TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
+  std::uint8_t bytes[kBytes] = {0};
+  for (int i = 0; i < n; ++i) bytes[i] = p[i];
+  return loadb(bytes);
+}
+TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
+  std::uint8_t bytes[kBytes];
+  storeb(bytes, a);
+  for (int i = 0; i < n; ++i) p[i] = bytes[i];
+}
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  const vf y = rough_inverse_root(a);
+  return y * nmadd(set1(0.5f) * a * y, y, set1(1.5f));
+}
+TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept { return to_float(andi(t.cells, seti(255))); }
+TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return tap_dot(t, 0x000001ff); }
+TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return tap_dot(t, 0x000100ff); }
+TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff01); }
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  return dot_bytes(t, set16((w0 & 255) | (w1 * 256)));
+}
+TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
+  const vb one = setb(1);
+  const v16 sum0 = add16(dot_bytes(upper0, one), dot_bytes(lower0, one));
+  const v16 sum1 = add16(dot_bytes(upper1, one), dot_bytes(lower1, one));
+  return pack_bytes(quarter16(add16(sum0, set16(2))), quarter16(add16(sum1, set16(2))));
+}
+constexpr int kGroups = k16Lanes / 8;
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  __m128i u[kGroups], l[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) gather_pairs8(upper, lower, offset + 8 * i, u + i, l + i);
+  *first = join_groups(u);
+  *second = join_groups(l);
+}
+TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
+  const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
+  __m128i bytes[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) bytes[i] = load128(p + 8 * i);
+  return dot_bytes(weights, pick_bytes(xorb(join_groups(bytes), setb(-128)), repeat_group(neighbours)));
+}
+
 // Tiles of int16 cells, out of the operations of avx2 or avx512. Include before: these.
 
 TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16_t* y, int stride, int* out) noexcept {
-  const __m128i cx = _mm_loadu_si128(reinterpret_cast<const __m128i*>(x));
-  const __m128i cy = _mm_loadu_si128(reinterpret_cast<const __m128i*>(y)), by = _mm_set1_epi32(stride * 65536 + 1);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + 4), _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
+  const __m128i cx = load128(x);
+  const __m128i cy = load128(y), by = _mm_set1_epi32(stride * 65536 + 1);
+  store128(out, _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
+  store128(out + 4, _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
 }
+
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return from_group(load128(p)); }
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t* p, v16 v) noexcept { store128(p, first_group(v)); }
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* a,
+                                       v16* b) noexcept {
+  __m128i u, l;
+  gather_pairs8(upper, lower, offset, &u, &l);
+  *a = from_group(u);
+  *b = from_group(l);
+}
+
+struct TilePlaces {
+  std::ptrdiff_t of_group[kGroups];
+};
+TEXTPLANE_SIMD_INLINE TilePlaces find_tiles(const std::int16_t* x, const std::int16_t* y,
+                                            std::ptrdiff_t stride) noexcept {
+  TilePlaces at;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) at.of_group[i] = y[8 * i] * stride + x[8 * i];
+  return at;
+}
+TEXTPLANE_SIMD_INLINE v16 load_tile_rows(const std::uint8_t* p, const TilePlaces& at) noexcept {
+  __m128i rows[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) rows[i] = load128(p + at.of_group[i]);
+  return join_groups(rows);
+}
+// The two bytes of the first, or the last, cell of each group, for pick_bytes().
+TEXTPLANE_SIMD_INLINE v16 group_ends(bool last) noexcept { return set16(last ? 0x0f0e : 0x0100); }
 
 // Constants of a loop over tiles. `left` and `top` are the guessed numbers of a group's left-most and top-most cell.
 struct TileVectors {
@@ -4254,6 +4166,54 @@ TEXTPLANE_SIMD_INLINE unsigned tile_pairs(const TileVectors& w, const std::int16
   *second = choose16(py, middle, lower);
   return any_of_four(or16(saturated_sub16(px, 14), saturated_sub16(py, 1)));
 }
+TEXTPLANE_SIMD_INLINE vf zero() noexcept { return set1(0.0f); }
+TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
+#if defined(__clang__)
+__attribute__((no_sanitize("float-divide-by-zero")))
+#endif
+TEXTPLANE_SIMD_INLINE vf
+div(vf a, vf b) noexcept {
+  return a / b;
+}
+TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
+TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return a * b; }
+TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return a / b; }
+constexpr int kParts = 8 / kDoubles;
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = load_p(p + i * kDoubles);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) store_p(p + i * kDoubles, a.part[i]);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = set_p(value);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) a.part[i] = a.part[i] * b.part[i];
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) c.part[i] = madd_p(a.part[i], b.part[i], c.part[i]);
+  return c;
+}
+TEXTPLANE_SIMD_INLINE v16 pair_weights(int w0, int w1) noexcept { return set16(w0 | (w1 << 8)); }
+TEXTPLANE_SIMD_INLINE v16 grey_to_fixed(const float* p) noexcept {
+  const vf scale = set1(32.0f), half = set1(0.5f);
+  return sub16(pack16(to_int(load(p) * scale + half), to_int(load(p + kLanes) * scale + half)), set16(4096));
+}
 #undef TEXTPLANE_SIMD_OPS
 }
 }
@@ -4275,18 +4235,6 @@ namespace TEXTPLANE_SIMD_REGION {
 TEXTPLANE_SIMD_INLINE unsigned load_u16(const std::uint8_t* p) noexcept {
   return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8;
 }
-TEXTPLANE_SIMD_INLINE unsigned load_u32(const std::uint8_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8 | static_cast<unsigned>(p[2]) << 16 |
-         static_cast<unsigned>(p[3]) << 24;
-}
-TEXTPLANE_SIMD_INLINE unsigned load_u32_n(const std::uint8_t* p, int n) noexcept {
-  unsigned word = 0;
-  if (n >= 1) word = p[0];
-  if (n >= 2) word |= static_cast<unsigned>(p[1]) << 8;
-  if (n >= 3) word |= static_cast<unsigned>(p[2]) << 16;
-  if (n >= 4) word |= static_cast<unsigned>(p[3]) << 24;
-  return word;
-}
 TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcept {
   std::uint8_t* TEXTPLANE_SIMD_RESTRICT target = static_cast<std::uint8_t*>(to);
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
@@ -4299,11 +4247,42 @@ TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
   volatile std::int16_t* out = p;
   for (int i = from; i < to; ++i) out[i] = 0;
 }
+TEXTPLANE_SIMD_INLINE void fetch_four_words(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                            std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
+  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
+  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
+  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
+}
 // Operations of the avx512 target: vectors of 512 bits. ops/scalar.inl defines them.
 // Include before: ops/common.inl.
 //
 // The zero-masking forms stand where the plain ones start from an undefined register in the compiler's header, about
 // which g++ 11 and 12 warn. With all lanes kept they are the same instructions.
+TEXTPLANE_SIMD_INLINE __m128i load128(const void* p) noexcept {
+  return _mm_loadu_si128(static_cast<const __m128i*>(p));
+}
+TEXTPLANE_SIMD_INLINE void store128(void* p, __m128i v) noexcept { _mm_storeu_si128(static_cast<__m128i*>(p), v); }
+TEXTPLANE_SIMD_INLINE float sum_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_add_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE double sum_of_two(__m128d a) noexcept {
+  return _mm_cvtsd_f64(_mm_add_sd(a, _mm_unpackhi_pd(a, a)));
+}
+TEXTPLANE_SIMD_INLINE float min_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_min_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE float max_of_four(__m128 a) noexcept {
+  const __m128 two = _mm_max_ps(a, _mm_movehl_ps(a, a));
+  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+TEXTPLANE_SIMD_INLINE int sum_of_four(__m128i v) noexcept {
+  const __m128i a = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+}
 TEXTPLANE_SIMD_INLINE std::uint64_t two_offsets(const int* offset) noexcept {
   std::uint64_t pair;
   __builtin_memcpy(&pair, offset, 8);
@@ -4348,63 +4327,10 @@ TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(lower + o2)), 5);
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(upper + o3)), 6);
   v = _mm_insert_epi16(v, static_cast<short>(load_u16(lower + o3)), 7);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(taps), v);
+  store128(taps, v);
 }
 TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(a))); }
 TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
-TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
-}
-TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
-}
-TEXTPLANE_SIMD_INLINE __m256 join_halves(__m256 a, __m256 b) noexcept {
-  return _mm256_add_ps(_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31));
-}
-constexpr int kShorts = 16;
-constexpr int kPairsReach = 24;
-using vh = __m256i;
-TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return _mm256_set1_epi16(static_cast<short>(value)); }
-TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept {
-  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
-}
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept {
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a);
-}
-TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return _mm256_add_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return _mm256_sub_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return _mm256_and_si256(a, b); }
-TEXTPLANE_SIMD_INLINE vh halfh(vh a) noexcept { return _mm256_srai_epi16(a, 1); }
-TEXTPLANE_SIMD_INLINE vh mulhrsh(vh a, vh b) noexcept { return _mm256_mulhrs_epi16(a, b); }
-TEXTPLANE_SIMD_INLINE vh firsth(int n) noexcept {
-  const int limit = n < 0 ? 0 : (n < kShorts ? n : kShorts);
-  const __m256i lane = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  return _mm256_cmpgt_epi16(seth(limit), lane);
-}
-TEXTPLANE_SIMD_INLINE vh pair_weights(int w0, int w1) noexcept { return seth(w0 | (w1 << 8)); }
-TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
-  const __m128i* groups = reinterpret_cast<const __m128i*>(p);
-  const __m128i* later = reinterpret_cast<const __m128i*>(p + 8);
-  const __m256i bytes =
-      _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(groups)), _mm_loadu_si128(later), 1);
-  const __m256i neighbours = _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8));
-  const __m256i centred = _mm256_xor_si256(bytes, _mm256_set1_epi8(-128));
-  return _mm256_maddubs_epi16(weights, _mm256_shuffle_epi8(centred, neighbours));
-}
-TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
-  const __m256 scale = _mm256_set1_ps(32.0f), half = _mm256_set1_ps(0.5f);
-  const __m256i low = _mm256_cvttps_epi32(_mm256_add_ps(_mm256_mul_ps(_mm256_loadu_ps(p), scale), half));
-  const __m256i high = _mm256_cvttps_epi32(_mm256_add_ps(_mm256_mul_ps(_mm256_loadu_ps(p + 8), scale), half));
-  return _mm256_sub_epi16(_mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0xD8), seth(4096));
-}
-using vw = __m256i;
-TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return _mm256_setzero_si256(); }
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
-  const __m256d four =
-      _mm256_add_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1)));
-  const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-  return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
-}
 
 // --- floats ---
 constexpr int kLanes = 16;
@@ -4414,10 +4340,58 @@ using vi = __m512i;
 using vm = __mmask16;
 constexpr vm kAllLanes = 0xffff;
 
+TEXTPLANE_SIMD_INLINE __m256i load256(const void* p) noexcept {
+  return _mm256_loadu_si256(static_cast<const __m256i*>(p));
+}
+TEXTPLANE_SIMD_INLINE void store256(void* p, __m256i v) noexcept { _mm256_storeu_si256(static_cast<__m256i*>(p), v); }
+TEXTPLANE_SIMD_INLINE __m256i join128(__m128i low, __m128i high) noexcept {
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(low), high, 1);
+}
+TEXTPLANE_SIMD_INLINE __m256i gather_pairs8(const std::uint16_t* p, const int* offset) noexcept {
+  return join128(gather_pairs4(p, offset), gather_pairs4(p, offset + 4));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_lanes(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_pairs(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
+}
+TEXTPLANE_SIMD_INLINE __m256 join_halves(__m256 a, __m256 b) noexcept {
+  return _mm256_add_ps(_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31));
+}
+TEXTPLANE_SIMD_INLINE float sum_of_eight(__m256 a) noexcept {
+  return sum_of_four(_mm_add_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)));
+}
+TEXTPLANE_SIMD_INLINE float min_of_eight(__m256 a) noexcept {
+  return min_of_four(_mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)));
+}
+TEXTPLANE_SIMD_INLINE float max_of_eight(__m256 a) noexcept {
+  return max_of_four(_mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1)));
+}
+TEXTPLANE_SIMD_INLINE int sum_of_eight(__m256i a) noexcept {
+  return sum_of_four(_mm_add_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1)));
+}
+TEXTPLANE_SIMD_INLINE double sum_of_four(__m256d a) noexcept {
+  return sum_of_two(_mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1)));
+}
+TEXTPLANE_SIMD_INLINE double wide_sum(__m256i a) noexcept {
+  return sum_of_four(
+      _mm256_add_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1))));
+}
+#if TEXTPLANE_SIMD_HIDE_MINIMA
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
+  __asm__("vminps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
+  __asm__("vmaxps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
+  return a;
+}
+#endif
+
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm512_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm512_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return _mm512_setzero_ps(); }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept {
   return _mm512_set_ps(15.0f, 14.0f, 13.0f, 12.0f, 11.0f, 10.0f, 9.0f, 8.0f, 7.0f, 6.0f, 5.0f, 4.0f, 3.0f, 2.0f, 1.0f,
                        0.0f);
@@ -4440,54 +4414,31 @@ TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return _mm512_loadu_si51
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { _mm512_storeu_si512(p, v); }
 TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept { return _mm512_maskz_loadu_ps(first_n(n), p); }
 TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept { _mm512_mask_storeu_ps(p, first_n(n), v); }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept { return _mm512_maskz_loadu_epi32(first_n(n), p); }
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept { _mm512_mask_storeu_epi32(p, first_n(n), v); }
+TEXTPLANE_SIMD_INLINE __m256i lower_half(__m512i a) noexcept { return _mm512_maskz_extracti64x4_epi64(0xf, a, 0); }
+TEXTPLANE_SIMD_INLINE __m256i upper_half(__m512i a) noexcept { return _mm512_maskz_extracti64x4_epi64(0xf, a, 1); }
+TEXTPLANE_SIMD_INLINE __m512i join256(__m256i low, __m256i high) noexcept {
+  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(low), high, 1);
+}
 // Sooner than the instruction.
 TEXTPLANE_SIMD_INLINE __m256i gather_eight(const float* p, const int* at) noexcept {
   return _mm256_castps_si256(
       _mm256_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]], p[at[4]], p[at[5]], p[at[6]], p[at[7]]));
 }
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
-  const __m512i low = _mm512_castsi256_si512(gather_eight(p, at));
-  return _mm512_castsi512_ps(_mm512_maskz_inserti64x4(0xff, low, gather_eight(p, at + 8), 1));
+  return _mm512_castsi512_ps(join256(gather_eight(p, at), gather_eight(p, at + 8)));
 }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kAllLanes, a); }
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept {
-  return _mm512_maskz_cvtepu8_epi32(kAllLanes, _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return to_float(load_u8i(p)); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept {
-  return _mm512_maskz_cvtepu8_epi32(kAllLanes, _mm_maskz_loadu_epi8(first_n(n), p));
-}
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { return to_float(load_u8i_n(p, n)); }
 
 // --- float arithmetic ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return _mm512_add_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return _mm512_sub_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return _mm512_mul_ps(a, b); }
-TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return _mm512_div_ps(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
-#if TEXTPLANE_SIMD_HIDE_MINIMA
-TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
-  __asm__("vminps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
-  return a;
-}
-TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
-  __asm__("vmaxps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
-  return a;
-}
-#else
+#if !TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kAllLanes, a, b); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAllLanes, a, b); }
 #endif
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAllLanes, a); }
-TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
-  const vf y = _mm512_maskz_rsqrt14_ps(kAllLanes, a);
-  return mul(y, nmadd(mul(mul(set1(0.5f), a), y), y, set1(1.5f)));
-}
+TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm512_maskz_rsqrt14_ps(kAllLanes, a); }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return _mm512_maskz_xor_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept {
   return _mm512_maskz_roundscale_ps(kAllLanes, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
@@ -4519,49 +4470,30 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return _mm512_cmp_ps_mask(a, 
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ); }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return _mm512_cmplt_epi32_mask(a, b); }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return _mm512_cmpgt_epi32_mask(a, b); }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return _mm512_cmpeq_epi32_mask(a, b); }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return static_cast<vm>(a & b); }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return static_cast<vm>(a | b); }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return static_cast<vm>(~a & b); }
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return static_cast<vm>(~a); }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm512_mask_blend_ps(m, b, a); }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return _mm512_mask_blend_epi32(m, b, a); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm512_maskz_mov_ps(m, a); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return _mm_popcnt_u32(m); }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return m != 0; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kAllLanes; }
 
 // --- reductions ---
 TEXTPLANE_SIMD_INLINE __m256 lower_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 0); }
 TEXTPLANE_SIMD_INLINE __m256 upper_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 1); }
-TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
-  const __m256 eight = _mm256_add_ps(lower_half(a), upper_half(a));
-  const __m128 four = _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
-  const __m128 two = _mm_add_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(two, two, 1)));
-}
+TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept { return _mm256_add_ps(lower_half(a), upper_half(a)); }
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return sum_of_eight(half_sum(a)); }
 TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
-  const __m512d eight =
-      _mm512_add_pd(_mm512_maskz_cvtps_pd(0xff, lower_half(a)), _mm512_maskz_cvtps_pd(0xff, upper_half(a)));
-  const __m256d four =
-      _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xf, eight, 0), _mm512_maskz_extractf64x4_pd(0xf, eight, 1));
-  const __m128d two = _mm_add_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-  return _mm_cvtsd_f64(_mm_add_sd(two, _mm_unpackhi_pd(two, two)));
+  const __m512d eight = _mm512_maskz_cvtps_pd(0xff, lower_half(a)) + _mm512_maskz_cvtps_pd(0xff, upper_half(a));
+  return sum_of_four(
+      _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xf, eight, 0), _mm512_maskz_extractf64x4_pd(0xf, eight, 1)));
 }
 TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
-  const __m256 eight = _mm256_min_ps(lower_half(a), upper_half(a));
-  const __m128 four = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
-  const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+  return min_of_eight(_mm256_min_ps(lower_half(a), upper_half(a)));
 }
 TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
-  const __m256 eight = _mm256_max_ps(lower_half(a), upper_half(a));
-  const __m128 four = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
-  const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+  return max_of_eight(_mm256_max_ps(lower_half(a), upper_half(a)));
 }
 
 // --- bilinear taps ---
@@ -4573,38 +4505,10 @@ TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return
 TEXTPLANE_SIMD_INLINE vf tap_dot(taps_t t, int weights) noexcept {
   return to_float(_mm512_dpbusd_epi32(_mm512_setzero_si512(), t.cells, _mm512_set1_epi32(weights)));
 }
-TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept {
-  return to_float(_mm512_and_si512(t.cells, _mm512_set1_epi32(255)));
-}
-TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return tap_dot(t, 0x000001ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return tap_dot(t, 0x000100ff); }
-TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff01); }
 
-// --- 8 doubles ---
-struct vd {
-  __m512d all;
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept { return vd{_mm512_loadu_pd(p)}; }
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept { _mm512_storeu_pd(p, a.all); }
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept { return vd{_mm512_set1_pd(value)}; }
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept { return vd{_mm512_mul_pd(a.all, b.all)}; }
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept { return vd{_mm512_fmadd_pd(a.all, b.all, c.all)}; }
-
-TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept { return _mm256_add_ps(lower_half(a), upper_half(a)); }
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   const __m256 s = _mm256_hadd_ps(_mm256_hadd_ps(half_sum(a), half_sum(b)), _mm256_hadd_ps(half_sum(c), half_sum(d)));
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
-}
-TEXTPLANE_SIMD_INLINE __m256 half_sum_at(const float* p) noexcept {
-  return _mm256_add_ps(_mm256_loadu_ps(p), _mm256_loadu_ps(p + 8));
-}
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  const __m256 a = join_lanes(half_sum_at(p), half_sum_at(p + 16)),
-               b = join_lanes(half_sum_at(p + 32), half_sum_at(p + 48));
-  const __m256 c = join_lanes(half_sum_at(p + 64), half_sum_at(p + 80)),
-               d = join_lanes(half_sum_at(p + 96), half_sum_at(p + 112));
-  const __m256 q = join_pairs(a, b), r = join_pairs(c, d);
-  return vd{_mm512_maskz_cvtps_pd(0xff, join_halves(q, r))};
 }
 
 // --- bytes, and their int16 ---
@@ -4625,37 +4529,41 @@ TEXTPLANE_SIMD_INLINE vb subsb(vb a, vb b) noexcept { return _mm512_subs_epu8(a,
 TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return _mm512_min_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return _mm512_max_epu8(a, b); }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return _mm512_and_si512(a, b); }
-TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm512_or_si512(a, b); }
 TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return _mm512_xor_si512(a, b); }
-TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
-  const __m512i one = _mm512_set1_epi8(1), two = _mm512_set1_epi16(2);
-  const __m512i sum0 = _mm512_add_epi16(_mm512_maddubs_epi16(upper0, one), _mm512_maddubs_epi16(lower0, one));
-  const __m512i sum1 = _mm512_add_epi16(_mm512_maddubs_epi16(upper1, one), _mm512_maddubs_epi16(lower1, one));
-  // Packing works within the quarters of a register.
-  const __m512i packed = _mm512_packus_epi16(_mm512_srli_epi16(_mm512_add_epi16(sum0, two), 2),
-                                             _mm512_srli_epi16(_mm512_add_epi16(sum1, two), 2));
-  return _mm512_maskz_permutexvar_epi64(255, _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7), packed);
-}
+TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return _mm512_or_si512(a, b); }
 
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return _mm512_movm_epi8(_mm512_cmpge_epu8_mask(a, b)); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return _mm512_test_epi8_mask(a, a) != 0; }
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept { return _mm512_movepi8_mask(mask); }
 
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept { return _mm256_dpwssd_epi32(sum, a, b); }
-
 // --- int16 ---
 enum : int { k16Lanes = 32 };
 using v16 = __m512i;
+using vw = __m512i;
+constexpr int kPairsReach = 40;
 
 TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return _mm512_set1_epi16(static_cast<short>(value)); }
 TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return _mm512_loadu_si512(p); }
 TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { _mm512_storeu_si512(p, v); }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return _mm512_add_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return _mm512_sub_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm512_mulhrs_epi16(x, y); }
-TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
-  return _mm512_maddubs_epi16(t, _mm512_set1_epi16(static_cast<short>((w0 & 255) | (w1 * 256))));
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return _mm512_and_si512(x, y); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return _mm512_srai_epi16(x, 1); }
+TEXTPLANE_SIMD_INLINE v16 quarter16(v16 x) noexcept { return _mm512_srai_epi16(x, 2); }
+// Unsigned bytes of a times signed ones of b, neighbouring products added.
+TEXTPLANE_SIMD_INLINE v16 dot_bytes(v16 a, v16 b) noexcept { return _mm512_maddubs_epi16(a, b); }
+TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept {
+  const __m512i order = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);
+  return _mm512_maskz_permutexvar_epi64(0xff, order, _mm512_packus_epi16(a, b));
 }
+TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept {
+  return join256(join128(p[0], p[1]), join128(p[2], p[3]));
+}
+TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm512_maskz_broadcast_i32x4(kAllLanes, p); }
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
+  return _mm512_movm_epi16(n >= 32 ? ~0u : (1u << (n < 0 ? 0 : n)) - 1u);
+}
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm512_mulhrs_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return _mm512_dpwssd_epi32(sum, x, y); }
 // Numbers of int16, two a lane: (first, second) in lane 0 and (step, step) more in each lane after it.
 TEXTPLANE_SIMD_INLINE __m512i int16_order(int first, int second, int step) noexcept {
@@ -4665,44 +4573,21 @@ TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return _mm512_permutex2va
 TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return _mm512_permutex2var_epi16(a, int16_order(1, 3, 4), b); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return low16(low, high); }
 TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
-  const __m256i q =
-      _mm256_add_epi32(_mm512_maskz_extracti64x4_epi64(0xf, v, 0), _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
-  const __m128i h = _mm_add_epi32(_mm256_castsi256_si128(q), _mm256_extracti128_si256(q, 1));
-  const __m128i a = _mm_add_epi32(h, _mm_shuffle_epi32(h, 0x4e));
-  return _mm_cvtsi128_si32(_mm_add_epi32(a, _mm_shuffle_epi32(a, 0xb1)));
+  return sum_of_eight(_mm256_add_epi32(lower_half(v), upper_half(v)));
 }
-TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept {
-  const __m256i a = _mm256_inserti128_si256(_mm256_castsi128_si256(p[0]), p[1], 1);
-  const __m256i b = _mm256_inserti128_si256(_mm256_castsi128_si256(p[2]), p[3], 1);
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
-}
-TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
-                                    v16* second) noexcept {
-  __m128i u[4], l[4];
-  gather_pairs8(upper, lower, offset, u, l);
-  gather_pairs8(upper, lower, offset + 8, u + 1, l + 1);
-  gather_pairs8(upper, lower, offset + 16, u + 2, l + 2);
-  gather_pairs8(upper, lower, offset + 24, u + 3, l + 3);
-  *first = join_groups(u);
-  *second = join_groups(l);
-}
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return wide_sum(lower_half(a)) + wide_sum(upper_half(a)); }
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
-  const __m256i a =
-      _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset)), gather_pairs4(p, offset + 4), 1);
-  const __m256i b =
-      _mm256_inserti128_si256(_mm256_castsi128_si256(gather_pairs4(p, offset + 8)), gather_pairs4(p, offset + 12), 1);
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(a), b, 1);
+  return join256(gather_pairs8(p, offset), gather_pairs8(p, offset + 8));
 }
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept {
-  return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 0));
-}
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept {
-  return _mm512_maskz_cvtepi16_epi32(0xffff, _mm512_maskz_extracti64x4_epi64(0xf, v, 1));
-}
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAllLanes, lower_half(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAllLanes, upper_half(v)); }
 
 // --- doubles ---
 enum : int { kDoubles = 8 };
 using vp = __m512d;
+struct vd {
+  vp part[1];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return _mm512_set1_pd(value); }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return _mm512_loadu_pd(p); }
@@ -4710,10 +4595,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return _mm512_setr_pd(p[0][at], p[1][at], p[2][at], p[3][at], p[4][at], p[5][at], p[6][at], p[7][at]);
 }
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { _mm512_storeu_pd(p, v); }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return _mm512_add_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return _mm512_sub_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return _mm512_mul_pd(a, b); }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return _mm512_div_pd(a, b); }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return _mm512_fmadd_pd(a, b, c); }
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return _mm512_maskz_min_pd(0xff, a, b); }
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return _mm512_maskz_max_pd(0xff, a, b); }
@@ -4729,18 +4610,24 @@ TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept {
   _mm256_storeu_ps(p, _mm512_maskz_cvtpd_ps(0xff, v));
 }
 
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  __m256 s[8];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < 8; ++i) s[i] = _mm256_loadu_ps(p + 16 * i) + _mm256_loadu_ps(p + 16 * i + 8);
+  const __m256 q = join_pairs(join_lanes(s[0], s[1]), join_lanes(s[2], s[3]));
+  const __m256 r = join_pairs(join_lanes(s[4], s[5]), join_lanes(s[6], s[7]));
+  return vd{{_mm512_maskz_cvtps_pd(0xff, join_halves(q, r))}};
+}
+
 // --- tiles ---
 enum : int { kTileLanes = 8 };
 TEXTPLANE_SIMD_INLINE vi per_tile(const int* b) noexcept {
   return _mm512_mask_blend_epi32(0xFF00, _mm512_set1_epi32(b[0]), _mm512_set1_epi32(b[8]));
 }
 TEXTPLANE_SIMD_INLINE bool in_two_rows(vi y) noexcept { return _mm512_test_epi32_mask(y, _mm512_set1_epi32(~1)) == 0; }
-TEXTPLANE_SIMD_INLINE __m128i load_row(const std::uint8_t* p) noexcept {
-  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-}
 TEXTPLANE_SIMD_INLINE vi tile_rows(const std::uint8_t* const* corner, std::ptrdiff_t offset) noexcept {
-  const __m512i a = _mm512_maskz_broadcast_i32x4(0xFFFF, load_row(corner[0] + offset));
-  return _mm512_mask_broadcast_i32x4(a, 0xFF00, load_row(corner[1] + offset));
+  const __m512i a = repeat_group(load128(corner[0] + offset));
+  return _mm512_mask_broadcast_i32x4(a, 0xFF00, load128(corner[1] + offset));
 }
 TEXTPLANE_SIMD_INLINE vi pick_bytes(vi rows, vi picks) noexcept { return _mm512_shuffle_epi8(rows, picks); }
 TEXTPLANE_SIMD_INLINE vi tile_picks(vi x) noexcept {
@@ -4759,7 +4646,7 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
   *b = _mm512_permutex2var_ps(lo, odd, hi);
 }
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm512_maskz_cvtepi32_epi8(0xFFFF, v));
+  store128(p, _mm512_maskz_cvtepi32_epi8(kAllLanes, v));
 }
 
 // --- tiles of int16 cells ---
@@ -4771,54 +4658,89 @@ TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept {
 #endif
   return v;
 }
-TEXTPLANE_SIMD_INLINE v16 group_ends(bool last) noexcept { return set16(last ? 0x0f0e : 0x0100); }
 TEXTPLANE_SIMD_INLINE v16 saturated_sub16(v16 v, int n) noexcept { return _mm512_subs_epu16(v, set16(n)); }
 TEXTPLANE_SIMD_INLINE v16 pair_picks(v16 x) noexcept {
   return _mm512_add_epi16(_mm512_mullo_epi16(x, set16(0x0101)), set16(0x0100));
-}
-struct TilePlaces {
-  std::ptrdiff_t a, b, c, d;
-};
-TEXTPLANE_SIMD_INLINE TilePlaces find_tiles(const std::int16_t* x, const std::int16_t* y,
-                                            std::ptrdiff_t stride) noexcept {
-  return TilePlaces{y[0] * stride + x[0], y[8] * stride + x[8], y[16] * stride + x[16], y[24] * stride + x[24]};
-}
-TEXTPLANE_SIMD_INLINE v16 load_tile_rows(const std::uint8_t* p, const TilePlaces& at) noexcept {
-  const __m256i ab = _mm256_inserti128_si256(_mm256_castsi128_si256(load_row(p + at.a)), load_row(p + at.b), 1);
-  const __m256i cd = _mm256_inserti128_si256(_mm256_castsi128_si256(load_row(p + at.c)), load_row(p + at.d), 1);
-  return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(ab), cd, 1);
 }
 TEXTPLANE_SIMD_INLINE v16 choose16(v16 y, v16 a, v16 b) noexcept {
   return _mm512_mask_blend_epi16(_mm512_test_epi16_mask(y, y), a, b);
 }
 TEXTPLANE_SIMD_INLINE v16 min_unsigned16(v16 v, v16 high) noexcept { return _mm512_min_epu16(v, high); }
+TEXTPLANE_SIMD_INLINE v16 from_group(__m128i p) noexcept { return _mm512_castsi128_si512(p); }
+TEXTPLANE_SIMD_INLINE __m128i first_group(v16 v) noexcept { return _mm256_castsi256_si128(lower_half(v)); }
 TEXTPLANE_SIMD_INLINE v16 or16(v16 a, v16 b) noexcept { return _mm512_or_si512(a, b); }
 TEXTPLANE_SIMD_INLINE unsigned any_of_four(v16 v) noexcept { return _mm512_test_epi64_mask(v, v); }
-TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept {
-  return _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
-}
-TEXTPLANE_SIMD_INLINE void store_group(std::int16_t* p, v16 v) noexcept {
-  const __m256i low = _mm512_maskz_extracti64x4_epi64(0xf, v, 0);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_castsi256_si128(low));
-}
-TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* a,
-                                       v16* b) noexcept {
-  __m128i u, l;
-  gather_pairs8(upper, lower, offset, &u, &l);
-  *a = _mm512_castsi128_si512(u);
-  *b = _mm512_castsi128_si512(l);
-}
 TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t* p, v16 a, v16 b) noexcept {
   _mm512_storeu_si512(p, _mm512_permutex2var_epi16(a, int16_order(0, 32, 1), b));
   _mm512_storeu_si512(p + 16, _mm512_permutex2var_epi16(a, int16_order(16, 48, 1), b));
 }
 
-TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16_t* y, int stride, int* out) noexcept {
-  const __m128i cx = _mm_loadu_si128(reinterpret_cast<const __m128i*>(x));
-  const __m128i cy = _mm_loadu_si128(reinterpret_cast<const __m128i*>(y)), by = _mm_set1_epi32(stride * 65536 + 1);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + 4), _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
+  const vf y = rough_inverse_root(a);
+  return y * nmadd(set1(0.5f) * a * y, y, set1(1.5f));
 }
+TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept { return to_float(andi(t.cells, seti(255))); }
+TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return tap_dot(t, 0x000001ff); }
+TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept { return tap_dot(t, 0x000100ff); }
+TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept { return tap_dot(t, 0x01ffff01); }
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
+  return dot_bytes(t, set16((w0 & 255) | (w1 * 256)));
+}
+TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
+  const vb one = setb(1);
+  const v16 sum0 = add16(dot_bytes(upper0, one), dot_bytes(lower0, one));
+  const v16 sum1 = add16(dot_bytes(upper1, one), dot_bytes(lower1, one));
+  return pack_bytes(quarter16(add16(sum0, set16(2))), quarter16(add16(sum1, set16(2))));
+}
+constexpr int kGroups = k16Lanes / 8;
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  __m128i u[kGroups], l[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) gather_pairs8(upper, lower, offset + 8 * i, u + i, l + i);
+  *first = join_groups(u);
+  *second = join_groups(l);
+}
+TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
+  const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
+  __m128i bytes[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) bytes[i] = load128(p + 8 * i);
+  return dot_bytes(weights, pick_bytes(xorb(join_groups(bytes), setb(-128)), repeat_group(neighbours)));
+}
+
+TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16_t* y, int stride, int* out) noexcept {
+  const __m128i cx = load128(x);
+  const __m128i cy = load128(y), by = _mm_set1_epi32(stride * 65536 + 1);
+  store128(out, _mm_madd_epi16(_mm_unpacklo_epi16(cx, cy), by));
+  store128(out + 4, _mm_madd_epi16(_mm_unpackhi_epi16(cx, cy), by));
+}
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return from_group(load128(p)); }
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t* p, v16 v) noexcept { store128(p, first_group(v)); }
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* a,
+                                       v16* b) noexcept {
+  __m128i u, l;
+  gather_pairs8(upper, lower, offset, &u, &l);
+  *a = from_group(u);
+  *b = from_group(l);
+}
+struct TilePlaces {
+  std::ptrdiff_t of_group[kGroups];
+};
+TEXTPLANE_SIMD_INLINE TilePlaces find_tiles(const std::int16_t* x, const std::int16_t* y,
+                                            std::ptrdiff_t stride) noexcept {
+  TilePlaces at;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) at.of_group[i] = y[8 * i] * stride + x[8 * i];
+  return at;
+}
+TEXTPLANE_SIMD_INLINE v16 load_tile_rows(const std::uint8_t* p, const TilePlaces& at) noexcept {
+  __m128i rows[kGroups];
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kGroups; ++i) rows[i] = load128(p + at.of_group[i]);
+  return join_groups(rows);
+}
+TEXTPLANE_SIMD_INLINE v16 group_ends(bool last) noexcept { return set16(last ? 0x0f0e : 0x0100); }
 struct TileVectors {
   v16 left_ends, top_ends;
   int left, top;
@@ -4850,6 +4772,54 @@ TEXTPLANE_SIMD_INLINE unsigned tile_pairs(const TileVectors& w, const std::int16
   *second = choose16(py, middle, lower);
   return any_of_four(or16(saturated_sub16(px, 14), saturated_sub16(py, 1)));
 }
+TEXTPLANE_SIMD_INLINE vf zero() noexcept { return set1(0.0f); }
+TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
+#if defined(__clang__)
+__attribute__((no_sanitize("float-divide-by-zero")))
+#endif
+TEXTPLANE_SIMD_INLINE vf
+div(vf a, vf b) noexcept {
+  return a / b;
+}
+TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
+TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return a * b; }
+TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return a / b; }
+constexpr int kParts = 8 / kDoubles;
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = load_p(p + i * kDoubles);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) store_p(p + i * kDoubles, a.part[i]);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = set_p(value);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) a.part[i] = a.part[i] * b.part[i];
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) c.part[i] = madd_p(a.part[i], b.part[i], c.part[i]);
+  return c;
+}
+TEXTPLANE_SIMD_INLINE v16 pair_weights(int w0, int w1) noexcept { return set16(w0 | (w1 << 8)); }
+TEXTPLANE_SIMD_INLINE v16 grey_to_fixed(const float* p) noexcept {
+  const vf scale = set1(32.0f), half = set1(0.5f);
+  return sub16(pack16(to_int(load(p) * scale + half), to_int(load(p + kLanes) * scale + half)), set16(4096));
+}
 #undef TEXTPLANE_SIMD_OPS
 }
 }
@@ -4871,18 +4841,6 @@ namespace TEXTPLANE_SIMD_REGION {
 TEXTPLANE_SIMD_INLINE unsigned load_u16(const std::uint8_t* p) noexcept {
   return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8;
 }
-TEXTPLANE_SIMD_INLINE unsigned load_u32(const std::uint8_t* p) noexcept {
-  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8 | static_cast<unsigned>(p[2]) << 16 |
-         static_cast<unsigned>(p[3]) << 24;
-}
-TEXTPLANE_SIMD_INLINE unsigned load_u32_n(const std::uint8_t* p, int n) noexcept {
-  unsigned word = 0;
-  if (n >= 1) word = p[0];
-  if (n >= 2) word |= static_cast<unsigned>(p[1]) << 8;
-  if (n >= 3) word |= static_cast<unsigned>(p[2]) << 16;
-  if (n >= 4) word |= static_cast<unsigned>(p[3]) << 24;
-  return word;
-}
 TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcept {
   std::uint8_t* TEXTPLANE_SIMD_RESTRICT target = static_cast<std::uint8_t*>(to);
   const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
@@ -4894,6 +4852,14 @@ TEXTPLANE_SIMD_INLINE unsigned int16_pair(const std::uint16_t* p) noexcept {
 TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
   volatile std::int16_t* out = p;
   for (int i = from; i < to; ++i) out[i] = 0;
+}
+TEXTPLANE_SIMD_INLINE void fetch_four_words(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                            std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
+  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
+  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
+  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
 }
 // Operations of the neon target: vectors of 128 bits. ops/scalar.inl defines them.
 // Include before: ops/common.inl.
@@ -4908,7 +4874,6 @@ using vm = uint32x4_t;  // all bits of a lane
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return vdupq_n_f32(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return vdupq_n_s32(value); }
-TEXTPLANE_SIMD_INLINE vf zero() noexcept { return vdupq_n_f32(0.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return vi{0, 1, 2, 3}; }
 TEXTPLANE_SIMD_INLINE vf iota() noexcept { return vf{0.0f, 1.0f, 2.0f, 3.0f}; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return vld1q_f32(p); }
@@ -4933,41 +4898,11 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   if (n >= 2) vst1q_lane_f32(p + 1, v, 1);
   if (n >= 3) vst1q_lane_f32(p + 2, v, 2);
 }
-TEXTPLANE_SIMD_INLINE vi loadi_n(const int* p, int n) noexcept {
-  if (n >= 4) return vld1q_s32(p);
-  vi v = seti(0);
-  if (n >= 1) v = vld1q_lane_s32(p, v, 0);
-  if (n >= 2) v = vld1q_lane_s32(p + 1, v, 1);
-  if (n >= 3) v = vld1q_lane_s32(p + 2, v, 2);
-  return v;
-}
-TEXTPLANE_SIMD_INLINE void storei_n(int* p, vi v, int n) noexcept {
-  if (n >= 4) {
-    vst1q_s32(p, v);
-    return;
-  }
-  if (n >= 1) vst1q_lane_s32(p, v, 0);
-  if (n >= 2) vst1q_lane_s32(p + 1, v, 1);
-  if (n >= 3) vst1q_lane_s32(p + 2, v, 2);
-}
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return vf{p[at[0]], p[at[1]], p[at[2]], p[at[3]]};
 }
-// The four bytes of `word`, the lowest in lane 0.
-TEXTPLANE_SIMD_INLINE vi widen_u32(unsigned word) noexcept {
-  const uint16x8_t halves = vmovl_u8(vcreate_u8(word));
-  return vreinterpretq_s32_u32(vmovl_u16(vget_low_u16(halves)));
-}
-TEXTPLANE_SIMD_INLINE vi load_u8i(const std::uint8_t* p) noexcept { return widen_u32(load_u32(p)); }
-TEXTPLANE_SIMD_INLINE vf load_u8(const std::uint8_t* p) noexcept { return vcvtq_f32_s32(load_u8i(p)); }
-TEXTPLANE_SIMD_INLINE vi load_u8i_n(const std::uint8_t* p, int n) noexcept { return widen_u32(load_u32_n(p, n)); }
-TEXTPLANE_SIMD_INLINE vf load_u8_n(const std::uint8_t* p, int n) noexcept { return vcvtq_f32_s32(load_u8i_n(p, n)); }
 
 // --- float arithmetic ---
-TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return vaddq_f32(a, b); }
-TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return vsubq_f32(a, b); }
-TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return vmulq_f32(a, b); }
-TEXTPLANE_SIMD_INLINE vf div(vf a, vf b) noexcept { return vdivq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return vfmaq_f32(c, a, b); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return vfmsq_f32(c, a, b); }
 // NEON's own minimum gives NaN for either operand and orders the zeros.
@@ -4989,11 +4924,10 @@ TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return vbslq_f32(vcgtq_f32(
 TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return vsqrtq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept {
   vf y = vrsqrteq_f32(a);
-  y = mul(y, vrsqrtsq_f32(mul(a, y), y));
-  return mul(y, vrsqrtsq_f32(mul(a, y), y));
+  y = y * vrsqrtsq_f32(a * y, y);
+  return y * vrsqrtsq_f32(a * y, y);
 }
 TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return vabsq_f32(a); }
-TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return vnegq_f32(a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return vrndmq_f32(a); }
 
 // --- conversions ---
@@ -5020,22 +4954,16 @@ TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return vcleq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return vcgtq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return vcgeq_f32(a, b); }
 TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return vceqq_f32(a, b); }
-TEXTPLANE_SIMD_INLINE vm lti(vi a, vi b) noexcept { return vcltq_s32(a, b); }
-TEXTPLANE_SIMD_INLINE vm gti(vi a, vi b) noexcept { return vcgtq_s32(a, b); }
 TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return vceqq_s32(a, b); }
 TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return vandq_u32(a, b); }
-TEXTPLANE_SIMD_INLINE vm or_(vm a, vm b) noexcept { return vorrq_u32(a, b); }
 TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return vbicq_u32(b, a); }
-TEXTPLANE_SIMD_INLINE vm not_(vm a) noexcept { return vmvnq_u32(a); }
 TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return vbslq_f32(m, a, b); }
-TEXTPLANE_SIMD_INLINE vi selecti(vm m, vi a, vi b) noexcept { return vbslq_s32(m, a, b); }
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept {
   return vreinterpretq_f32_u32(vandq_u32(m, vreinterpretq_u32_f32(a)));
 }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return vcltq_s32(ioti(), seti(n)); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return vaddvq_u32(vandq_u32(m, vm{1u, 2u, 4u, 8u})); }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return static_cast<int>(vaddvq_u32(vshrq_n_u32(m, 31))); }
-TEXTPLANE_SIMD_INLINE bool any_true(vm m) noexcept { return vmaxvq_u32(m) != 0; }
 TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return vminvq_u32(m) != 0; }
 
 // --- reductions ---
@@ -5078,46 +5006,11 @@ TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __bui
 
 TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
                                       std::uint32_t* taps) noexcept {
-  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
-  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
-  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
-  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
-  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
-}
-
-// --- 8 doubles ---
-struct vd {
-  float64x2_t part[4];
-};
-TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
-  return vd{{vld1q_f64(p), vld1q_f64(p + 2), vld1q_f64(p + 4), vld1q_f64(p + 6)}};
-}
-TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
-  vst1q_f64(p, a.part[0]);
-  vst1q_f64(p + 2, a.part[1]);
-  vst1q_f64(p + 4, a.part[2]);
-  vst1q_f64(p + 6, a.part[3]);
-}
-TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
-  const float64x2_t v = vdupq_n_f64(value);
-  return vd{{v, v, v, v}};
-}
-TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
-  return vd{{vmulq_f64(a.part[0], b.part[0]), vmulq_f64(a.part[1], b.part[1]), vmulq_f64(a.part[2], b.part[2]),
-             vmulq_f64(a.part[3], b.part[3])}};
-}
-TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
-  return vd{{vfmaq_f64(c.part[0], a.part[0], b.part[0]), vfmaq_f64(c.part[1], a.part[1], b.part[1]),
-             vfmaq_f64(c.part[2], a.part[2], b.part[2]), vfmaq_f64(c.part[3], a.part[3], b.part[3])}};
+  fetch_four_words(upper, lower, offset, taps);
 }
 
 TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
   vst1q_f32(out, vpaddq_f32(vpaddq_f32(a, b), vpaddq_f32(c, d)));
-}
-TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
-  const float32x4_t q = vpaddq_f32(vpaddq_f32(load(p), load(p + 4)), vpaddq_f32(load(p + 8), load(p + 12)));
-  const float32x4_t r = vpaddq_f32(vpaddq_f32(load(p + 16), load(p + 20)), vpaddq_f32(load(p + 24), load(p + 28)));
-  return vd{{vcvt_f64_f32(vget_low_f32(q)), vcvt_high_f64_f32(q), vcvt_f64_f32(vget_low_f32(r)), vcvt_high_f64_f32(r)}};
 }
 
 // --- bytes, and their int16 ---
@@ -5127,16 +5020,6 @@ using vb = uint8x16_t;
 TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return vdupq_n_u8(static_cast<std::uint8_t>(value)); }
 TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept { return vld1q_u8(p); }
 TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { vst1q_u8(p, a); }
-TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
-  std::uint8_t bytes[16] = {0};
-  for (int i = 0; i < n; ++i) bytes[i] = p[i];
-  return loadb(bytes);
-}
-TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
-  std::uint8_t bytes[16];
-  storeb(bytes, a);
-  for (int i = 0; i < n; ++i) p[i] = bytes[i];
-}
 
 TEXTPLANE_SIMD_INLINE vb addsb(vb a, vb b) noexcept { return vqaddq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb subsb(vb a, vb b) noexcept { return vqsubq_u8(a, b); }
@@ -5144,7 +5027,6 @@ TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return vminq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return vmaxq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return vandq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return vorrq_u8(a, b); }
-TEXTPLANE_SIMD_INLINE vb xorb(vb a, vb b) noexcept { return veorq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
   const uint16x8_t sum0 = vpadalq_u8(vpaddlq_u8(upper0), lower0), sum1 = vpadalq_u8(vpaddlq_u8(upper1), lower1);
   return vcombine_u8(vrshrn_n_u16(sum0, 2), vrshrn_n_u16(sum1, 2));
@@ -5159,57 +5041,31 @@ TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
          static_cast<std::uint64_t>(vaddv_u8(vget_high_u8(bit))) << 8;
 }
 
-constexpr int kShorts = 8;
-constexpr int kPairsReach = 9;
-using vh = int16x8_t;
-
-TEXTPLANE_SIMD_INLINE vh seth(int value) noexcept { return vdupq_n_s16(static_cast<std::int16_t>(value)); }
-TEXTPLANE_SIMD_INLINE vh loadh(const std::int16_t* p) noexcept { return vld1q_s16(p); }
-TEXTPLANE_SIMD_INLINE void storeh(std::int16_t* p, vh a) noexcept { vst1q_s16(p, a); }
-TEXTPLANE_SIMD_INLINE vh addh(vh a, vh b) noexcept { return vaddq_s16(a, b); }
-TEXTPLANE_SIMD_INLINE vh subh(vh a, vh b) noexcept { return vsubq_s16(a, b); }
-TEXTPLANE_SIMD_INLINE vh andh(vh a, vh b) noexcept { return vandq_s16(a, b); }
-TEXTPLANE_SIMD_INLINE vh halfh(vh a) noexcept { return vshrq_n_s16(a, 1); }
-TEXTPLANE_SIMD_INLINE vh mulhrsh(vh a, vh b) noexcept { return vqrdmulhq_s16(a, b); }
-TEXTPLANE_SIMD_INLINE vh firsth(int n) noexcept {
-  const std::int16_t lane[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-  const int limit = n < 0 ? 0 : (n < kShorts ? n : kShorts);
-  return vreinterpretq_s16_u16(vcltq_s16(vld1q_s16(lane), seth(limit)));
-}
-TEXTPLANE_SIMD_INLINE vh pair_weights(int w0, int w1) noexcept { return seth(w0 | (w1 << 8)); }
-TEXTPLANE_SIMD_INLINE vh mix_pairs(const std::uint8_t* p, vh weights) noexcept {
-  const int8x8_t w0 = vmovn_s16(weights), w1 = vshrn_n_s16(weights, 8);
-  const uint8x8_t middle = vdup_n_u8(128);
-  const int8x8_t left = vreinterpret_s8_u8(veor_u8(vld1_u8(p), middle));
-  const int8x8_t right = vreinterpret_s8_u8(veor_u8(vld1_u8(p + 1), middle));
-  return vmlal_s8(vmull_s8(left, w0), right, w1);
-}
-
-TEXTPLANE_SIMD_INLINE vh grey_to_fixed(const float* p) noexcept {
-  const float32x4_t scale = vdupq_n_f32(32.0f), half = vdupq_n_f32(0.5f);
-  const int32x4_t low = vcvtq_s32_f32(vaddq_f32(vmulq_f32(vld1q_f32(p), scale), half));
-  const int32x4_t high = vcvtq_s32_f32(vaddq_f32(vmulq_f32(vld1q_f32(p + 4), scale), half));
-  return vsubq_s16(vcombine_s16(vqmovn_s32(low), vqmovn_s32(high)), seth(4096));
-}
-
-using vw = int32x4_t;
-
-TEXTPLANE_SIMD_INLINE vw zerow() noexcept { return vdupq_n_s32(0); }
-TEXTPLANE_SIMD_INLINE vw dotw(vw sum, vh a, vh b) noexcept {
-  const int32x4_t low = vmull_s16(vget_low_s16(a), vget_low_s16(b)), high = vmull_high_s16(a, b);
-  return vaddq_s32(sum, vpaddq_s32(low, high));
-}
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(vaddlvq_s32(a)); }
-
 // --- int16 ---
 enum : int { k16Lanes = 8 };
 using v16 = int16x8_t;
+using vw = int32x4_t;
+constexpr int kPairsReach = 9;
 
 TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return vdupq_n_s16(static_cast<std::int16_t>(value)); }
 TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return vld1q_s16(p); }
 TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { vst1q_s16(p, v); }
 TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return vaddq_s16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return vsubq_s16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return vandq_s16(x, y); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return vshrq_n_s16(x, 1); }
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
+  const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
+  return vreinterpretq_s16_u16(vcltq_s16(v16{0, 1, 2, 3, 4, 5, 6, 7}, set16(limit)));
+}
+TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
+  const int8x8_t w0 = vmovn_s16(weights), w1 = vshrn_n_s16(weights, 8);
+  const uint8x8_t middle = vdup_n_u8(128);
+  const int8x8_t left = vreinterpret_s8_u8(veor_u8(vld1_u8(p), middle));
+  const int8x8_t right = vreinterpret_s8_u8(veor_u8(vld1_u8(p + 1), middle));
+  return vmlal_s8(vmull_s8(left, w0), right, w1);
+}
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return static_cast<double>(vaddlvq_s32(a)); }
 TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return vqrdmulhq_s16(x, y); }
 TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept {
   const uint16x8_t u = vreinterpretq_u16_s16(t);
@@ -5249,6 +5105,9 @@ TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return vmovl_high_s16(v)
 // --- doubles ---
 enum : int { kDoubles = 2 };
 using vp = float64x2_t;
+struct vd {
+  vp part[4];
+};
 
 TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return vdupq_n_f64(value); }
 TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return vld1q_f64(p); }
@@ -5256,10 +5115,6 @@ TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexc
   return vld1q_lane_f64(p[1] + at, vld1q_dup_f64(p[0] + at), 1);
 }
 TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { vst1q_f64(p, v); }
-TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return vaddq_f64(a, b); }
-TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return vsubq_f64(a, b); }
-TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return vmulq_f64(a, b); }
-TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return vdivq_f64(a, b); }
 TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return vfmaq_f64(c, a, b); }
 TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return vbslq_f64(vcltq_f64(a, b), a, b); }
 TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return vbslq_f64(vcgtq_f64(a, b), a, b); }
@@ -5267,6 +5122,12 @@ TEXTPLANE_SIMD_INLINE vp abs_p(vp a) noexcept { return vabsq_f64(a); }
 TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return vrndq_f64(a); }
 TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept { return vbslq_f64(vcgtq_f64(m, vdupq_n_f64(0)), a, b); }
 TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept { vst1_f32(p, vcvt_f32_f64(v)); }
+
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  const float32x4_t q = vpaddq_f32(vpaddq_f32(load(p), load(p + 4)), vpaddq_f32(load(p + 8), load(p + 12)));
+  const float32x4_t r = vpaddq_f32(vpaddq_f32(load(p + 16), load(p + 20)), vpaddq_f32(load(p + 24), load(p + 28)));
+  return vd{{vcvt_f64_f32(vget_low_f32(q)), vcvt_high_f64_f32(q), vcvt_f64_f32(vget_low_f32(r)), vcvt_high_f64_f32(r)}};
+}
 
 // --- tiles ---
 enum : int { kTileLanes = 4 };
@@ -5301,6 +5162,16 @@ TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
   __builtin_memcpy(p, &word, 4);
 }
 
+TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
+  std::uint8_t bytes[kBytes] = {0};
+  for (int i = 0; i < n; ++i) bytes[i] = p[i];
+  return loadb(bytes);
+}
+TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
+  std::uint8_t bytes[kBytes];
+  storeb(bytes, a);
+  for (int i = 0; i < n; ++i) p[i] = bytes[i];
+}
 enum : int { kInt16Tiles = 0 };
 TEXTPLANE_SIMD_INLINE v16 min_unsigned16(v16 v, v16) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return load16(p); }
@@ -5320,6 +5191,54 @@ TEXTPLANE_SIMD_INLINE unsigned tile_pairs(const TileVectors&, const std::int16_t
                                           v16* second) noexcept {
   *first = *second = set16(0);
   return 0;
+}
+TEXTPLANE_SIMD_INLINE vf zero() noexcept { return set1(0.0f); }
+TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
+#if defined(__clang__)
+__attribute__((no_sanitize("float-divide-by-zero")))
+#endif
+TEXTPLANE_SIMD_INLINE vf
+div(vf a, vf b) noexcept {
+  return a / b;
+}
+TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
+TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return a * b; }
+TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return a / b; }
+constexpr int kParts = 8 / kDoubles;
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = load_p(p + i * kDoubles);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) store_p(p + i * kDoubles, a.part[i]);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = set_p(value);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) a.part[i] = a.part[i] * b.part[i];
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) c.part[i] = madd_p(a.part[i], b.part[i], c.part[i]);
+  return c;
+}
+TEXTPLANE_SIMD_INLINE v16 pair_weights(int w0, int w1) noexcept { return set16(w0 | (w1 << 8)); }
+TEXTPLANE_SIMD_INLINE v16 grey_to_fixed(const float* p) noexcept {
+  const vf scale = set1(32.0f), half = set1(0.5f);
+  return sub16(pack16(to_int(load(p) * scale + half), to_int(load(p + kLanes) * scale + half)), set16(4096));
 }
 #undef TEXTPLANE_SIMD_OPS
 }
@@ -5939,10 +5858,8 @@ constexpr int kMaxPyramidLevels = 8;  ///< Levels at most, the finest included.
 
 /// The levels of a pyramid that somebody else owns, finest first. Levels from `levels` on are empty views.
 struct PyramidView {
-  /// Finest first; each half the size of the one before.
-  std::array<ImageView8, kMaxPyramidLevels> level;
-  /// How many of them there are.
-  int levels = 0;
+  std::array<ImageView8, kMaxPyramidLevels> level;  ///< Finest first; each half the size of the one before.
+  int levels = 0;                                   ///< How many of them there are.
 };
 
 /// dst(x, y) = (a + b + c + d + 2) / 4, rounded down, over the 2 x 2 block of src that begins at (2 x, 2 y). An odd
@@ -8166,21 +8083,14 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// gradient there, in intensity units a px, which template_jacobian and esm need (null: these policies are not
 /// possible).
 struct PatchView {
-  /// Columns, px of the level.
-  const float* x = nullptr;
-  /// Rows, px of the level.
-  const float* y = nullptr;
-  /// Grey levels of the host there.
-  const float* intensity = nullptr;
-  /// Zero: the pixel is left out; null: none is.
-  const std::uint8_t* mask = nullptr;
-  /// Number of pixels.
-  int n = 0;
-  /// Gradient along x, grey levels a px; null: not known.
-  const float* gx = nullptr;
-  /// Gradient along y, likewise.
-  const float* gy = nullptr;
-  simd::PointBounds bounds = {};  ///< Of x and y, where known: saves the kernels a look at them.
+  const float* x = nullptr;            ///< Columns, px of the level.
+  const float* y = nullptr;            ///< Rows, px of the level.
+  const float* intensity = nullptr;    ///< Grey levels of the host there.
+  const std::uint8_t* mask = nullptr;  ///< Zero: the pixel is left out; null: none is.
+  int n = 0;                           ///< Number of pixels.
+  const float* gx = nullptr;           ///< Gradient along x, grey levels a px; null: not known.
+  const float* gy = nullptr;           ///< Gradient along y, likewise.
+  simd::PointBounds bounds = {};       ///< Of x and y, where known: saves the kernels a look at them.
 };
 
 /// The host pixels of one pyramid level. x, y and intensity have one length, gx and gy that length too or none.
@@ -8297,10 +8207,8 @@ using Matrix2d = Eigen::Matrix<double, 2, 2>;  ///< A covariance, px^2.
 
 /// Covariances, px^2 of each image, of the Gaussian filters that bring host and target to one blur on the plane.
 struct BlurMatch {
-  /// Covariance of the host's filter, px^2 of the host.
-  Matrix2d host = Matrix2d::Zero();
-  /// Covariance of the target's filter, px^2 of the target.
-  Matrix2d target = Matrix2d::Zero();
+  Matrix2d host = Matrix2d::Zero();    ///< Covariance of the host's filter, px^2 of the host.
+  Matrix2d target = Matrix2d::Zero();  ///< Covariance of the target's filter, px^2 of the target.
 };
 
 /// What each view lacks. `A`: d target px / d host px on the plane. The variances (px^2 of each image) describe the
@@ -8562,8 +8470,8 @@ TEXTPLANE_END_NAMESPACE
 // 1; Cauchy's and Tukey's costs sum all pixels again with their weights. All 9 parameters then go through the 8 of the
 // pixel homography.
 //
-// Error against the double reference, for samples 1e-4 px clear of pixel lines (where the gradient jumps) and patches of
-// at most 128 px: coordinates 1e-5 px; r sqrt(N) 1e-5 (1 + |g| / sigma), sigma being the standard deviation of the
+// Error against the double reference, for samples 1e-4 px clear of pixel lines (where the gradient jumps) and patches
+// of at most 128 px: coordinates 1e-5 px; r sqrt(N) 1e-5 (1 + |g| / sigma), sigma being the standard deviation of the
 // target's intensities; entries of H and b 3e-5 of sqrt(F_ii F_jj) and sqrt(F_ii), F being H with the normalisation
 // frozen (for Cauchy and Tukey: and without weights); cost and E 1e-5 of themselves and 1e-6. For delta < 0.1 the bound
 // of H and b grows as 1 / delta, since weights are ratios to delta.
@@ -17744,12 +17652,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Pairs that somebody else owns; `stride` counts pairs. Empty where width is 0.
 struct PairView {
-  /// Rows of pairs.
-  const std::uint16_t* data = nullptr;
-  /// Pairs from a row to the next.
-  std::ptrdiff_t stride = 0;
-  int width = 0;   ///< px, of the image they were made of.
-  int height = 0;  ///< Likewise.
+  const std::uint16_t* data = nullptr;  ///< Rows of pairs.
+  std::ptrdiff_t stride = 0;            ///< Pairs from a row to the next.
+  int width = 0;                        ///< px, of the image they were made of.
+  int height = 0;                       ///< Likewise.
 };
 
 /// Owns the pairs of one image after the other.
@@ -17797,13 +17703,11 @@ struct BasicPhotometricInput {
   static_assert(std::is_same<T, std::uint8_t>::value || std::is_same<T, float>::value,
                 "textplane: target images are 8-bit or float; T is the pixel's type without const");
 
-  /// Host pixels of one level.
-  PatchView patch;
+  PatchView patch;                ///< Host pixels of one level.
   Pinhole<double> host_camera;    ///< Of the level that `patch` is of.
   Pinhole<double> target_camera;  ///< Of the level that `target` is.
-  /// Image of one level.
-  ImageView<const T> target;
-  PairView pairs = {};  ///< Optional, for an 8-bit target: PreparedTarget of the same image.
+  ImageView<const T> target;      ///< Image of one level.
+  PairView pairs = {};            ///< Optional, for an 8-bit target: PreparedTarget of the same image.
 };
 using PhotometricInput = BasicPhotometricInput<std::uint8_t>;  ///< Of an 8-bit target.
 using PhotometricInputF = BasicPhotometricInput<float>;        ///< Of a float target.
@@ -17874,10 +17778,8 @@ enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
 ///   cauchy  rho = d^2 log(1 + r2 / d^2)                        weight = 1 / (1 + r2 / d^2)
 ///   tukey   rho = d^2 / 3 (1 - (1 - r2 / d^2)^3), else d^2/3   weight = (1 - r2 / d^2)^2, 0 for |r| > d
 struct Robust {
-  /// Which cost.
-  RobustKind kind = RobustKind::huber;
-  /// Where it leaves the quadratic, in the unit of |r|.
-  double delta = 1.0;
+  RobustKind kind = RobustKind::huber;  ///< Which cost.
+  double delta = 1.0;                   ///< Where it leaves the quadratic, in the unit of |r|.
 
   /// A known kind with a delta in [1e-100, 1e100], so that its square and ratios to it are numbers (l2 ignores it).
   bool valid() const noexcept {
@@ -17949,8 +17851,7 @@ enum class Normalisation : std::uint8_t {
 
 /// Settings of the photometric residual.
 struct PhotometricOptions {
-  /// Of the derivatives.
-  Normalisation normalisation = Normalisation::exact;
+  Normalisation normalisation = Normalisation::exact;  ///< Of the derivatives.
   /// Acts on r sqrt(N), that is, delta is in units of 1/sqrt(N): on the difference of two patches of unit variance. The
   /// default 0.5 is 1.345 sigma (95 % efficiency) for the residuals of a match with ZNCC 0.93, since E = sigma^2 and
   /// ZNCC = 1 - E / 2.
@@ -17996,8 +17897,7 @@ struct PolicyRequest;
 /// aggregate: ResidualRequest{input, theta, T_t_h, options}. It refers to pixels and images, and owns the rest.
 template <class T>
 struct ResidualRequest {
-  /// Patch, target and cameras.
-  BasicPhotometricInput<T> input;
+  BasicPhotometricInput<T> input;                   ///< Patch, target and cameras.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_t_h = {};                                  ///< Host to target.
   PhotometricOptions options = {};
@@ -18058,15 +17958,14 @@ inline double range_error(double sum) noexcept { return sum < 0.0 ? 0.0 : sum > 
 
 /// What comes with normal equations. All zero unless is_ok(status).
 struct ResidualStats {
-  double cost = 0.0;   ///< Sum of rho(N r^2) / N.
-  double error = 0.0;  ///< E = sum of r^2, in [0, 4].
-  double zncc = 0.0;   ///< 1 - E / 2, in [-1, 1].
-  int visible = 0;     ///< N.
-  double mean = 0.0;   ///< Of the target intensities of the visible pixels.
-  double s = 0.0;      ///< ||I - mean|| of the same.
-  /// Whether the sums can be used.
-  Status status = Status::invalid_argument;
-  Path path = Path::kernel;  ///< What computed them.
+  double cost = 0.0;                         ///< Sum of rho(N r^2) / N.
+  double error = 0.0;                        ///< E = sum of r^2, in [0, 4].
+  double zncc = 0.0;                         ///< 1 - E / 2, in [-1, 1].
+  int visible = 0;                           ///< N.
+  double mean = 0.0;                         ///< Of the target intensities of the visible pixels.
+  double s = 0.0;                            ///< ||I - mean|| of the same.
+  Status status = Status::invalid_argument;  ///< Whether the sums can be used.
+  Path path = Path::kernel;                  ///< What computed them.
 };
 
 /// Sums over the visible pixels for P parameters: with residuals r = I~_host - I~_target, their derivatives J (N x P),
@@ -18074,10 +17973,8 @@ struct ResidualStats {
 /// is_ok(status).
 template <int P>
 struct NormalEquations : ResidualStats {
-  /// J^T W J.
-  Eigen::Matrix<double, P, P> H;
-  /// J^T W r.
-  Eigen::Matrix<double, P, 1> b;
+  Eigen::Matrix<double, P, P> H;  ///< J^T W J.
+  Eigen::Matrix<double, P, 1> b;  ///< J^T W r.
 
   NormalEquations() noexcept { clear(); }
   /// Leaves H and b as they are in memory, for callers that fill them at once: zeroing both takes as long as some
@@ -18097,18 +17994,16 @@ struct PhotometricCost {
   double zncc = 0.0;   ///< 1 - E / 2, in [-1, 1].
   int visible = 0;     ///< N.
   int lost = 0;        ///< Pixels of the given set that are not visible now.
-  /// Whether the cost can be used.
-  Status status = Status::invalid_argument;
-  Path path = Path::kernel;  ///< What computed it.
+  Status status = Status::invalid_argument;  ///< Whether the cost can be used.
+  Path path = Path::kernel;                  ///< What computed it.
 };
 
 /// What residuals() found out besides the residuals.
 struct ResidualSummary {
-  int visible = 0;    ///< N.
-  double mean = 0.0;  ///< Of the target intensities of the visible pixels.
-  double s = 0.0;     ///< ||I - mean|| of the same.
-  /// Whether the residuals can be used.
-  Status status = Status::invalid_argument;
+  int visible = 0;                           ///< N.
+  double mean = 0.0;                         ///< Of the target intensities of the visible pixels.
+  double s = 0.0;                            ///< ||I - mean|| of the same.
+  Status status = Status::invalid_argument;  ///< Whether the residuals can be used.
 };
 
 TEXTPLANE_END_NAMESPACE
@@ -18126,14 +18021,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// mean and s = ||I - mean|| = sigma sqrt(n), sigma the population standard deviation, of n intensities. The normalised
 /// intensity is (I - mean) / s: zero mean, unit norm.
 struct IntensityStats {
-  /// Of the intensities.
-  double mean = 0.0;
-  /// Norm of the intensities less their mean.
-  double s = 0.0;
-  /// How many intensities.
-  int n = 0;
-  /// Whether they have contrast enough.
-  Status status = Status::too_few;
+  double mean = 0.0;                ///< Of the intensities.
+  double s = 0.0;                   ///< Norm of the intensities less their mean.
+  int n = 0;                        ///< How many intensities.
+  Status status = Status::too_few;  ///< Whether they have contrast enough.
 };
 
 /// Statistics of those of the n values whose mask byte is not zero (a null mask: all of them).
@@ -18808,6 +18699,10 @@ NormalEquations<dof(Unknowns)> linearise(const ResidualRequest<T>& request, Phot
   return out;
 }
 
+/// The same by a policy, ResidualRequest::by(): residual_policy.hpp defines it.
+template <Parameters Unknowns, class T>
+NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept;
+
 /// The cost alone: see reference::evaluate().
 template <class T>
 PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace& workspace,
@@ -18904,10 +18799,10 @@ TEXTPLANE_END_NAMESPACE
 // 1/128 each). All sums are exact integers of these V; so up to the float warp the results are the same on every
 // target.
 //
-// The columns are rounded too (to 1/8191 of their largest entry, or finer). The fixed point of the iteration stays where
-// it is: the projections through mean and norm use the sums of the rounded columns, so a target that equals the host but
-// for gain and bias has a gradient of exactly zero. Rounding changes H and b by its own relative size. Cauchy's and
-// Tukey's costs sum float rows with their weights; there that gradient is zero but for rounding.
+// The columns are rounded too (to 1/8191 of their largest entry, or finer). The fixed point of the iteration stays
+// where it is: the projections through mean and norm use the sums of the rounded columns, so a target that equals the
+// host but for gain and bias has a gradient of exactly zero. Rounding changes H and b by its own relative size.
+// Cauchy's and Tukey's costs sum float rows with their weights; there that gradient is zero but for rounding.
 #ifndef TEXTPLANE_SIMD_TEMPLATE_HPP
 #define TEXTPLANE_SIMD_TEMPLATE_HPP
 
@@ -18915,7 +18810,8 @@ TEXTPLANE_END_NAMESPACE
 #include <cstdint>
 
 // Normal equations from the host's gradients, or from the mean of host's and target's (ESM): raw pointers in, sums out.
-// photometry/residual_request.hpp says what they are, residual_reference.hpp holds the double reference; docs/equations.md the formulas.
+// photometry/residual_request.hpp says what they are, residual_reference.hpp holds the double reference,
+// docs/equations.md the formulas.
 //
 // The target's gradient is pulled back to the host, d I_target(H m~) / d host pixel, and both gradients are scaled by
 // their side's norm, so that their mean has the form of one: rows j of eight for a homography in host coordinates,
@@ -23419,7 +23315,7 @@ struct LocalContrastOptions {
 };
 
 /// Replaces I by 128 + scale (I - mean) / sqrt(variance + floor^2), mean and variance being those of a square round the
-/// pixel; cut to [0, 255], rounded. The cost a pixel does not depend on the window. Keeps the memory that this takes:
+/// pixel; cut to [0, 255], rounded. The cost a pixel does not depend on the radius. Keeps the memory that this takes:
 /// use one a thread.
 class LocalContrast {
  public:
@@ -25695,7 +25591,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
     if (a.robust == simd::RobustKind::huber)
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
     else if (simd::weighs_all(a.robust))
-      batch_weigh_all(a, n, parameters, scales, e, c, &cost, &error);
+      batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
+                      &error);
     else
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
@@ -25901,7 +25798,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
     if (a.robust == simd::RobustKind::huber)
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
     else if (simd::weighs_all(a.robust))
-      batch_weigh_all(a, n, parameters, scales, e, c, &cost, &error);
+      batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
+                      &error);
     else
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
@@ -26105,7 +26003,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
     if (a.robust == simd::RobustKind::huber)
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
     else if (simd::weighs_all(a.robust))
-      batch_weigh_all(a, n, parameters, scales, e, c, &cost, &error);
+      batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
+                      &error);
     else
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
@@ -26309,7 +26208,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
     if (a.robust == simd::RobustKind::huber)
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
     else if (simd::weighs_all(a.robust))
-      batch_weigh_all(a, n, parameters, scales, e, c, &cost, &error);
+      batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
+                      &error);
     else
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
@@ -26513,7 +26413,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
     if (a.robust == simd::RobustKind::huber)
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
     else if (simd::weighs_all(a.robust))
-      batch_weigh_all(a, n, parameters, scales, e, c, &cost, &error);
+      batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
+                      &error);
     else
       batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
@@ -26596,12 +26497,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// One object of a batch: host pixels of one level, the host's camera of that level, and the plane in the host frame.
 struct TextBatchItem {
-  /// Host pixels of one level.
-  PatchView patch;
-  /// Of the level that `patch` is of.
-  Pinhole<double> host_camera;
-  /// Plane in the host frame.
-  Vector3<double> theta = Vector3<double>::Zero();
+  PatchView patch;                                  ///< Host pixels of one level.
+  Pinhole<double> host_camera;                      ///< Of the level that `patch` is of.
+  Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
 };
 
 /// The host side of many objects, packed once. Thread-safe to read.
@@ -28261,9 +28159,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// How a warp went.
 struct WarpSummary {
-  int inside = 0;  ///< Output pixels that lie inside the source.
-  /// Whether the warp was possible.
-  Status status = Status::invalid_argument;
+  int inside = 0;                            ///< Output pixels that lie inside the source.
+  Status status = Status::invalid_argument;  ///< Whether the warp was possible.
 };
 
 namespace detail {
@@ -28395,8 +28292,9 @@ constexpr int kKltSide = 21;       ///< Largest columns and rows of a patch.
 constexpr int kKltStride = 32;     ///< int16 from a row of samples to the next.
 constexpr int kKltSubpixels = 64;  ///< Positions a px.
 constexpr int kKltScale = 32;      ///< Units of a sample a grey level.
+constexpr int kKltSlack = 32;      ///< int16 past the last row that vectors read.
 /// Elements of a patch with a border of one sample on all sides.
-constexpr int kKltPadded = (kKltSide + 2) * kKltStride + 16;
+constexpr int kKltPadded = (kKltSide + 2) * kKltStride + kKltSlack;
 
 /// columns x rows samples v = kKltScale (I - 128), rounded down, of the bilinear interpolant; the first one (fx, fy) /
 /// 64 px from the pixel at `data`. The columns + 1 pixels of rows + 1 rows from there on exist.
@@ -28451,18 +28349,18 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
-// KLT: a strip of kShorts columns goes down the rows of a patch; the row below of one step is the row above of the
+// KLT: a strip of k16Lanes columns goes down the rows of a patch; the row below of one step is the row above of the
 // next. Include before: the operations.
 //
-// mix_pairs() interpolates along x exactly, in 1/64 grey level; mulhrsh() along y, rounded to 1/64; halving leaves
+// mix_pairs() interpolates along x exactly, in 1/64 grey level; mul15() along y, rounded to 1/64; halving leaves
 // 1/32, so |v| <= 4096. A lane of a sum takes at most 2 products of each row of each strip: 2 * 21 * 3 * 2^24 < 2^31.
 
 constexpr int kKltCopyStride = 48;  // bytes; at least kPairsReach from the last strip of a row on
 
 // `window` with room to read whole strips: itself, or a copy in `copy`, kKltCopyStride (kKltSide + 3) bytes.
 TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, std::uint8_t* copy) noexcept {
-  const int strips = (window.columns + kShorts - 1) / kShorts;
-  if ((strips - 1) * kShorts + kPairsReach <= window.readable) return window;
+  const int strips = (window.columns + k16Lanes - 1) / k16Lanes;
+  if ((strips - 1) * k16Lanes + kPairsReach <= window.readable) return window;
   for (int y = 0; y <= window.rows; ++y) {
     const std::uint8_t* from = window.data + y * window.stride;
     std::uint8_t* to = copy + y * kKltCopyStride;
@@ -28473,37 +28371,36 @@ TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, s
 }
 
 // Between the interpolated rows `above` and `below`, in 1/32 grey level; minus_fy: -fy / 64 in units of 2^-15.
-TEXTPLANE_SIMD_INLINE vh klt_between(vh above, vh below, vh minus_fy) noexcept {
-  return halfh(addh(above, mulhrsh(subh(above, below), minus_fy)));
+TEXTPLANE_SIMD_INLINE v16 klt_between(v16 above, v16 below, v16 minus_fy) noexcept {
+  return half16(add16(above, mul15(sub16(above, below), minus_fy)));
 }
 
 // The inner samples of `padded`, their gradients and the sums over them.
 TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows,
                                                        simd::KltPatch& patch) noexcept {
-  const vh one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), x_sum = zerow(), y_sum = zerow(), vx = zerow(), vy = zerow(), xx = zerow(),
-     xy = zerow(), yy = zerow();
-  for (int first = 0; first < columns; first += kShorts) {
-    const vh mask = firsth(columns - first);
+  const v16 one = set16(1);
+  vw v_sum{}, vv{}, x_sum{}, y_sum{}, vx{}, vy{}, xx{}, xy{}, yy{};
+  for (int first = 0; first < columns; first += k16Lanes) {
+    const v16 mask = first16(columns - first);
     for (int y = 0; y < rows; ++y) {
       const std::int16_t* row = padded + (y + 1) * simd::kKltStride + first;
       const int at = y * simd::kKltStride + first;
-      const vh v = andh(loadh(row + 1), mask);
-      const vh x = andh(halfh(subh(loadh(row + 2), loadh(row))), mask);
-      const vh down = subh(loadh(row + 1 + simd::kKltStride), loadh(row + 1 - simd::kKltStride));
-      const vh g = andh(halfh(down), mask);
-      storeh(patch.value + at, v);
-      storeh(patch.gx + at, x);
-      storeh(patch.gy + at, g);
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      x_sum = dotw(x_sum, x, one);
-      y_sum = dotw(y_sum, g, one);
-      vx = dotw(vx, v, x);
-      vy = dotw(vy, v, g);
-      xx = dotw(xx, x, x);
-      xy = dotw(xy, x, g);
-      yy = dotw(yy, g, g);
+      const v16 v = and16(load16(row + 1), mask);
+      const v16 x = and16(half16(sub16(load16(row + 2), load16(row))), mask);
+      const v16 down = sub16(load16(row + 1 + simd::kKltStride), load16(row + 1 - simd::kKltStride));
+      const v16 g = and16(half16(down), mask);
+      store16(patch.value + at, v);
+      store16(patch.gx + at, x);
+      store16(patch.gy + at, g);
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      x_sum = add_dot16(x_sum, x, one);
+      y_sum = add_dot16(y_sum, g, one);
+      vx = add_dot16(vx, v, x);
+      vy = add_dot16(vy, v, g);
+      xx = add_dot16(xx, x, x);
+      xy = add_dot16(xy, x, g);
+      yy = add_dot16(yy, g, g);
     }
   }
   return simd::KltPatchSums{sumw(v_sum), sumw(vv), sumw(x_sum), sumw(y_sum), sumw(vx),
@@ -28513,8 +28410,8 @@ TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padde
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_from_grey(const float* padded, int columns, int rows,
                                                       simd::KltPatch& patch) noexcept {
   std::int16_t samples[simd::kKltPadded];
-  const int used = (rows + 2) * simd::kKltStride + 16;
-  for (int i = 0; i < used; i += kShorts) storeh(samples + i, grey_to_fixed(padded + i));
+  const int used = (rows + 2) * simd::kKltStride + simd::kKltSlack;
+  for (int i = 0; i < used; i += k16Lanes) store16(samples + i, grey_to_fixed(padded + i));
   return klt_gradients(samples, columns, rows, patch);
 }
 
@@ -28522,47 +28419,48 @@ TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_extract(const simd::KltWindow& windo
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   std::int16_t padded[simd::kKltPadded];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = seth(-512 * w.fy), none = seth(0);
-  for (int first = 0; first < simd::kKltStride; first += kShorts) {
+  const v16 weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = set16(-512 * w.fy), none = set16(0);
+  for (int first = 0; first < simd::kKltStride; first += k16Lanes) {
     std::int16_t* out = padded + first;
     if (first >= w.columns) {  // the gradients read these, and leave them out
-      for (int y = 0; y < w.rows; ++y) storeh(out + y * simd::kKltStride, none);
+      for (int y = 0; y < w.rows; ++y) store16(out + y * simd::kKltStride, none);
       continue;
     }
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      storeh(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
+      const v16 below = mix_pairs(p, weights);
+      store16(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
       above = below;
     }
   }
-  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + 16; i += kShorts) storeh(padded + i, none);
+  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + simd::kKltSlack; i += k16Lanes)
+    store16(padded + i, none);
   return klt_gradients(padded, w.columns - 2, w.rows - 2, patch);
 }
 
 TEXTPLANE_SIMD_ENTRY simd::KltSums klt_sums(const simd::KltWindow& window, const simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh minus_fy = seth(-512 * w.fy), one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), tv = zerow(), xv = zerow(), yv = zerow();
-  for (int first = 0; first < w.columns; first += kShorts) {
+  const v16 minus_fy = set16(-512 * w.fy), one = set16(1);
+  vw v_sum{}, vv{}, tv{}, xv{}, yv{};
+  for (int first = 0; first < w.columns; first += k16Lanes) {
     // Without weight, the samples past the last column are 0.
-    const vh weights = andh(pair_weights(simd::kKltSubpixels - w.fx, w.fx), firsth(w.columns - first));
+    const v16 weights = and16(pair_weights(simd::kKltSubpixels - w.fx, w.fx), first16(w.columns - first));
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      const vh v = klt_between(above, below, minus_fy);
+      const v16 below = mix_pairs(p, weights);
+      const v16 v = klt_between(above, below, minus_fy);
       above = below;
       const int at = y * simd::kKltStride + first;
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      tv = dotw(tv, v, loadh(patch.value + at));
-      xv = dotw(xv, v, loadh(patch.gx + at));
-      yv = dotw(yv, v, loadh(patch.gy + at));
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      tv = add_dot16(tv, v, load16(patch.value + at));
+      xv = add_dot16(xv, v, load16(patch.gx + at));
+      yv = add_dot16(yv, v, load16(patch.gy + at));
     }
   }
   return simd::KltSums{sumw(v_sum), sumw(vv), sumw(tv), sumw(xv), sumw(yv)};
@@ -28585,8 +28483,8 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 constexpr int kKltCopyStride = 48;
 TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, std::uint8_t* copy) noexcept {
-  const int strips = (window.columns + kShorts - 1) / kShorts;
-  if ((strips - 1) * kShorts + kPairsReach <= window.readable) return window;
+  const int strips = (window.columns + k16Lanes - 1) / k16Lanes;
+  if ((strips - 1) * k16Lanes + kPairsReach <= window.readable) return window;
   for (int y = 0; y <= window.rows; ++y) {
     const std::uint8_t* from = window.data + y * window.stride;
     std::uint8_t* to = copy + y * kKltCopyStride;
@@ -28595,35 +28493,34 @@ TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, s
   }
   return simd::KltWindow{copy, kKltCopyStride, kKltCopyStride, window.columns, window.rows, window.fx, window.fy};
 }
-TEXTPLANE_SIMD_INLINE vh klt_between(vh above, vh below, vh minus_fy) noexcept {
-  return halfh(addh(above, mulhrsh(subh(above, below), minus_fy)));
+TEXTPLANE_SIMD_INLINE v16 klt_between(v16 above, v16 below, v16 minus_fy) noexcept {
+  return half16(add16(above, mul15(sub16(above, below), minus_fy)));
 }
 TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows,
                                                        simd::KltPatch& patch) noexcept {
-  const vh one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), x_sum = zerow(), y_sum = zerow(), vx = zerow(), vy = zerow(), xx = zerow(),
-     xy = zerow(), yy = zerow();
-  for (int first = 0; first < columns; first += kShorts) {
-    const vh mask = firsth(columns - first);
+  const v16 one = set16(1);
+  vw v_sum{}, vv{}, x_sum{}, y_sum{}, vx{}, vy{}, xx{}, xy{}, yy{};
+  for (int first = 0; first < columns; first += k16Lanes) {
+    const v16 mask = first16(columns - first);
     for (int y = 0; y < rows; ++y) {
       const std::int16_t* row = padded + (y + 1) * simd::kKltStride + first;
       const int at = y * simd::kKltStride + first;
-      const vh v = andh(loadh(row + 1), mask);
-      const vh x = andh(halfh(subh(loadh(row + 2), loadh(row))), mask);
-      const vh down = subh(loadh(row + 1 + simd::kKltStride), loadh(row + 1 - simd::kKltStride));
-      const vh g = andh(halfh(down), mask);
-      storeh(patch.value + at, v);
-      storeh(patch.gx + at, x);
-      storeh(patch.gy + at, g);
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      x_sum = dotw(x_sum, x, one);
-      y_sum = dotw(y_sum, g, one);
-      vx = dotw(vx, v, x);
-      vy = dotw(vy, v, g);
-      xx = dotw(xx, x, x);
-      xy = dotw(xy, x, g);
-      yy = dotw(yy, g, g);
+      const v16 v = and16(load16(row + 1), mask);
+      const v16 x = and16(half16(sub16(load16(row + 2), load16(row))), mask);
+      const v16 down = sub16(load16(row + 1 + simd::kKltStride), load16(row + 1 - simd::kKltStride));
+      const v16 g = and16(half16(down), mask);
+      store16(patch.value + at, v);
+      store16(patch.gx + at, x);
+      store16(patch.gy + at, g);
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      x_sum = add_dot16(x_sum, x, one);
+      y_sum = add_dot16(y_sum, g, one);
+      vx = add_dot16(vx, v, x);
+      vy = add_dot16(vy, v, g);
+      xx = add_dot16(xx, x, x);
+      xy = add_dot16(xy, x, g);
+      yy = add_dot16(yy, g, g);
     }
   }
   return simd::KltPatchSums{sumw(v_sum), sumw(vv), sumw(x_sum), sumw(y_sum), sumw(vx),
@@ -28632,53 +28529,54 @@ TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padde
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_from_grey(const float* padded, int columns, int rows,
                                                       simd::KltPatch& patch) noexcept {
   std::int16_t samples[simd::kKltPadded];
-  const int used = (rows + 2) * simd::kKltStride + 16;
-  for (int i = 0; i < used; i += kShorts) storeh(samples + i, grey_to_fixed(padded + i));
+  const int used = (rows + 2) * simd::kKltStride + simd::kKltSlack;
+  for (int i = 0; i < used; i += k16Lanes) store16(samples + i, grey_to_fixed(padded + i));
   return klt_gradients(samples, columns, rows, patch);
 }
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_extract(const simd::KltWindow& window, simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   std::int16_t padded[simd::kKltPadded];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = seth(-512 * w.fy), none = seth(0);
-  for (int first = 0; first < simd::kKltStride; first += kShorts) {
+  const v16 weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = set16(-512 * w.fy), none = set16(0);
+  for (int first = 0; first < simd::kKltStride; first += k16Lanes) {
     std::int16_t* out = padded + first;
     if (first >= w.columns) {
-      for (int y = 0; y < w.rows; ++y) storeh(out + y * simd::kKltStride, none);
+      for (int y = 0; y < w.rows; ++y) store16(out + y * simd::kKltStride, none);
       continue;
     }
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      storeh(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
+      const v16 below = mix_pairs(p, weights);
+      store16(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
       above = below;
     }
   }
-  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + 16; i += kShorts) storeh(padded + i, none);
+  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + simd::kKltSlack; i += k16Lanes)
+    store16(padded + i, none);
   return klt_gradients(padded, w.columns - 2, w.rows - 2, patch);
 }
 TEXTPLANE_SIMD_ENTRY simd::KltSums klt_sums(const simd::KltWindow& window, const simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh minus_fy = seth(-512 * w.fy), one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), tv = zerow(), xv = zerow(), yv = zerow();
-  for (int first = 0; first < w.columns; first += kShorts) {
-    const vh weights = andh(pair_weights(simd::kKltSubpixels - w.fx, w.fx), firsth(w.columns - first));
+  const v16 minus_fy = set16(-512 * w.fy), one = set16(1);
+  vw v_sum{}, vv{}, tv{}, xv{}, yv{};
+  for (int first = 0; first < w.columns; first += k16Lanes) {
+    const v16 weights = and16(pair_weights(simd::kKltSubpixels - w.fx, w.fx), first16(w.columns - first));
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      const vh v = klt_between(above, below, minus_fy);
+      const v16 below = mix_pairs(p, weights);
+      const v16 v = klt_between(above, below, minus_fy);
       above = below;
       const int at = y * simd::kKltStride + first;
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      tv = dotw(tv, v, loadh(patch.value + at));
-      xv = dotw(xv, v, loadh(patch.gx + at));
-      yv = dotw(yv, v, loadh(patch.gy + at));
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      tv = add_dot16(tv, v, load16(patch.value + at));
+      xv = add_dot16(xv, v, load16(patch.gx + at));
+      yv = add_dot16(yv, v, load16(patch.gy + at));
     }
   }
   return simd::KltSums{sumw(v_sum), sumw(vv), sumw(tv), sumw(xv), sumw(yv)};
@@ -28701,8 +28599,8 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 constexpr int kKltCopyStride = 48;
 TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, std::uint8_t* copy) noexcept {
-  const int strips = (window.columns + kShorts - 1) / kShorts;
-  if ((strips - 1) * kShorts + kPairsReach <= window.readable) return window;
+  const int strips = (window.columns + k16Lanes - 1) / k16Lanes;
+  if ((strips - 1) * k16Lanes + kPairsReach <= window.readable) return window;
   for (int y = 0; y <= window.rows; ++y) {
     const std::uint8_t* from = window.data + y * window.stride;
     std::uint8_t* to = copy + y * kKltCopyStride;
@@ -28711,35 +28609,34 @@ TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, s
   }
   return simd::KltWindow{copy, kKltCopyStride, kKltCopyStride, window.columns, window.rows, window.fx, window.fy};
 }
-TEXTPLANE_SIMD_INLINE vh klt_between(vh above, vh below, vh minus_fy) noexcept {
-  return halfh(addh(above, mulhrsh(subh(above, below), minus_fy)));
+TEXTPLANE_SIMD_INLINE v16 klt_between(v16 above, v16 below, v16 minus_fy) noexcept {
+  return half16(add16(above, mul15(sub16(above, below), minus_fy)));
 }
 TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows,
                                                        simd::KltPatch& patch) noexcept {
-  const vh one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), x_sum = zerow(), y_sum = zerow(), vx = zerow(), vy = zerow(), xx = zerow(),
-     xy = zerow(), yy = zerow();
-  for (int first = 0; first < columns; first += kShorts) {
-    const vh mask = firsth(columns - first);
+  const v16 one = set16(1);
+  vw v_sum{}, vv{}, x_sum{}, y_sum{}, vx{}, vy{}, xx{}, xy{}, yy{};
+  for (int first = 0; first < columns; first += k16Lanes) {
+    const v16 mask = first16(columns - first);
     for (int y = 0; y < rows; ++y) {
       const std::int16_t* row = padded + (y + 1) * simd::kKltStride + first;
       const int at = y * simd::kKltStride + first;
-      const vh v = andh(loadh(row + 1), mask);
-      const vh x = andh(halfh(subh(loadh(row + 2), loadh(row))), mask);
-      const vh down = subh(loadh(row + 1 + simd::kKltStride), loadh(row + 1 - simd::kKltStride));
-      const vh g = andh(halfh(down), mask);
-      storeh(patch.value + at, v);
-      storeh(patch.gx + at, x);
-      storeh(patch.gy + at, g);
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      x_sum = dotw(x_sum, x, one);
-      y_sum = dotw(y_sum, g, one);
-      vx = dotw(vx, v, x);
-      vy = dotw(vy, v, g);
-      xx = dotw(xx, x, x);
-      xy = dotw(xy, x, g);
-      yy = dotw(yy, g, g);
+      const v16 v = and16(load16(row + 1), mask);
+      const v16 x = and16(half16(sub16(load16(row + 2), load16(row))), mask);
+      const v16 down = sub16(load16(row + 1 + simd::kKltStride), load16(row + 1 - simd::kKltStride));
+      const v16 g = and16(half16(down), mask);
+      store16(patch.value + at, v);
+      store16(patch.gx + at, x);
+      store16(patch.gy + at, g);
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      x_sum = add_dot16(x_sum, x, one);
+      y_sum = add_dot16(y_sum, g, one);
+      vx = add_dot16(vx, v, x);
+      vy = add_dot16(vy, v, g);
+      xx = add_dot16(xx, x, x);
+      xy = add_dot16(xy, x, g);
+      yy = add_dot16(yy, g, g);
     }
   }
   return simd::KltPatchSums{sumw(v_sum), sumw(vv), sumw(x_sum), sumw(y_sum), sumw(vx),
@@ -28748,53 +28645,54 @@ TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padde
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_from_grey(const float* padded, int columns, int rows,
                                                       simd::KltPatch& patch) noexcept {
   std::int16_t samples[simd::kKltPadded];
-  const int used = (rows + 2) * simd::kKltStride + 16;
-  for (int i = 0; i < used; i += kShorts) storeh(samples + i, grey_to_fixed(padded + i));
+  const int used = (rows + 2) * simd::kKltStride + simd::kKltSlack;
+  for (int i = 0; i < used; i += k16Lanes) store16(samples + i, grey_to_fixed(padded + i));
   return klt_gradients(samples, columns, rows, patch);
 }
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_extract(const simd::KltWindow& window, simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   std::int16_t padded[simd::kKltPadded];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = seth(-512 * w.fy), none = seth(0);
-  for (int first = 0; first < simd::kKltStride; first += kShorts) {
+  const v16 weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = set16(-512 * w.fy), none = set16(0);
+  for (int first = 0; first < simd::kKltStride; first += k16Lanes) {
     std::int16_t* out = padded + first;
     if (first >= w.columns) {
-      for (int y = 0; y < w.rows; ++y) storeh(out + y * simd::kKltStride, none);
+      for (int y = 0; y < w.rows; ++y) store16(out + y * simd::kKltStride, none);
       continue;
     }
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      storeh(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
+      const v16 below = mix_pairs(p, weights);
+      store16(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
       above = below;
     }
   }
-  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + 16; i += kShorts) storeh(padded + i, none);
+  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + simd::kKltSlack; i += k16Lanes)
+    store16(padded + i, none);
   return klt_gradients(padded, w.columns - 2, w.rows - 2, patch);
 }
 TEXTPLANE_SIMD_ENTRY simd::KltSums klt_sums(const simd::KltWindow& window, const simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh minus_fy = seth(-512 * w.fy), one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), tv = zerow(), xv = zerow(), yv = zerow();
-  for (int first = 0; first < w.columns; first += kShorts) {
-    const vh weights = andh(pair_weights(simd::kKltSubpixels - w.fx, w.fx), firsth(w.columns - first));
+  const v16 minus_fy = set16(-512 * w.fy), one = set16(1);
+  vw v_sum{}, vv{}, tv{}, xv{}, yv{};
+  for (int first = 0; first < w.columns; first += k16Lanes) {
+    const v16 weights = and16(pair_weights(simd::kKltSubpixels - w.fx, w.fx), first16(w.columns - first));
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      const vh v = klt_between(above, below, minus_fy);
+      const v16 below = mix_pairs(p, weights);
+      const v16 v = klt_between(above, below, minus_fy);
       above = below;
       const int at = y * simd::kKltStride + first;
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      tv = dotw(tv, v, loadh(patch.value + at));
-      xv = dotw(xv, v, loadh(patch.gx + at));
-      yv = dotw(yv, v, loadh(patch.gy + at));
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      tv = add_dot16(tv, v, load16(patch.value + at));
+      xv = add_dot16(xv, v, load16(patch.gx + at));
+      yv = add_dot16(yv, v, load16(patch.gy + at));
     }
   }
   return simd::KltSums{sumw(v_sum), sumw(vv), sumw(tv), sumw(xv), sumw(yv)};
@@ -28817,8 +28715,8 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 constexpr int kKltCopyStride = 48;
 TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, std::uint8_t* copy) noexcept {
-  const int strips = (window.columns + kShorts - 1) / kShorts;
-  if ((strips - 1) * kShorts + kPairsReach <= window.readable) return window;
+  const int strips = (window.columns + k16Lanes - 1) / k16Lanes;
+  if ((strips - 1) * k16Lanes + kPairsReach <= window.readable) return window;
   for (int y = 0; y <= window.rows; ++y) {
     const std::uint8_t* from = window.data + y * window.stride;
     std::uint8_t* to = copy + y * kKltCopyStride;
@@ -28827,35 +28725,34 @@ TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, s
   }
   return simd::KltWindow{copy, kKltCopyStride, kKltCopyStride, window.columns, window.rows, window.fx, window.fy};
 }
-TEXTPLANE_SIMD_INLINE vh klt_between(vh above, vh below, vh minus_fy) noexcept {
-  return halfh(addh(above, mulhrsh(subh(above, below), minus_fy)));
+TEXTPLANE_SIMD_INLINE v16 klt_between(v16 above, v16 below, v16 minus_fy) noexcept {
+  return half16(add16(above, mul15(sub16(above, below), minus_fy)));
 }
 TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows,
                                                        simd::KltPatch& patch) noexcept {
-  const vh one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), x_sum = zerow(), y_sum = zerow(), vx = zerow(), vy = zerow(), xx = zerow(),
-     xy = zerow(), yy = zerow();
-  for (int first = 0; first < columns; first += kShorts) {
-    const vh mask = firsth(columns - first);
+  const v16 one = set16(1);
+  vw v_sum{}, vv{}, x_sum{}, y_sum{}, vx{}, vy{}, xx{}, xy{}, yy{};
+  for (int first = 0; first < columns; first += k16Lanes) {
+    const v16 mask = first16(columns - first);
     for (int y = 0; y < rows; ++y) {
       const std::int16_t* row = padded + (y + 1) * simd::kKltStride + first;
       const int at = y * simd::kKltStride + first;
-      const vh v = andh(loadh(row + 1), mask);
-      const vh x = andh(halfh(subh(loadh(row + 2), loadh(row))), mask);
-      const vh down = subh(loadh(row + 1 + simd::kKltStride), loadh(row + 1 - simd::kKltStride));
-      const vh g = andh(halfh(down), mask);
-      storeh(patch.value + at, v);
-      storeh(patch.gx + at, x);
-      storeh(patch.gy + at, g);
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      x_sum = dotw(x_sum, x, one);
-      y_sum = dotw(y_sum, g, one);
-      vx = dotw(vx, v, x);
-      vy = dotw(vy, v, g);
-      xx = dotw(xx, x, x);
-      xy = dotw(xy, x, g);
-      yy = dotw(yy, g, g);
+      const v16 v = and16(load16(row + 1), mask);
+      const v16 x = and16(half16(sub16(load16(row + 2), load16(row))), mask);
+      const v16 down = sub16(load16(row + 1 + simd::kKltStride), load16(row + 1 - simd::kKltStride));
+      const v16 g = and16(half16(down), mask);
+      store16(patch.value + at, v);
+      store16(patch.gx + at, x);
+      store16(patch.gy + at, g);
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      x_sum = add_dot16(x_sum, x, one);
+      y_sum = add_dot16(y_sum, g, one);
+      vx = add_dot16(vx, v, x);
+      vy = add_dot16(vy, v, g);
+      xx = add_dot16(xx, x, x);
+      xy = add_dot16(xy, x, g);
+      yy = add_dot16(yy, g, g);
     }
   }
   return simd::KltPatchSums{sumw(v_sum), sumw(vv), sumw(x_sum), sumw(y_sum), sumw(vx),
@@ -28864,53 +28761,54 @@ TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padde
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_from_grey(const float* padded, int columns, int rows,
                                                       simd::KltPatch& patch) noexcept {
   std::int16_t samples[simd::kKltPadded];
-  const int used = (rows + 2) * simd::kKltStride + 16;
-  for (int i = 0; i < used; i += kShorts) storeh(samples + i, grey_to_fixed(padded + i));
+  const int used = (rows + 2) * simd::kKltStride + simd::kKltSlack;
+  for (int i = 0; i < used; i += k16Lanes) store16(samples + i, grey_to_fixed(padded + i));
   return klt_gradients(samples, columns, rows, patch);
 }
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_extract(const simd::KltWindow& window, simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   std::int16_t padded[simd::kKltPadded];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = seth(-512 * w.fy), none = seth(0);
-  for (int first = 0; first < simd::kKltStride; first += kShorts) {
+  const v16 weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = set16(-512 * w.fy), none = set16(0);
+  for (int first = 0; first < simd::kKltStride; first += k16Lanes) {
     std::int16_t* out = padded + first;
     if (first >= w.columns) {
-      for (int y = 0; y < w.rows; ++y) storeh(out + y * simd::kKltStride, none);
+      for (int y = 0; y < w.rows; ++y) store16(out + y * simd::kKltStride, none);
       continue;
     }
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      storeh(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
+      const v16 below = mix_pairs(p, weights);
+      store16(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
       above = below;
     }
   }
-  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + 16; i += kShorts) storeh(padded + i, none);
+  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + simd::kKltSlack; i += k16Lanes)
+    store16(padded + i, none);
   return klt_gradients(padded, w.columns - 2, w.rows - 2, patch);
 }
 TEXTPLANE_SIMD_ENTRY simd::KltSums klt_sums(const simd::KltWindow& window, const simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh minus_fy = seth(-512 * w.fy), one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), tv = zerow(), xv = zerow(), yv = zerow();
-  for (int first = 0; first < w.columns; first += kShorts) {
-    const vh weights = andh(pair_weights(simd::kKltSubpixels - w.fx, w.fx), firsth(w.columns - first));
+  const v16 minus_fy = set16(-512 * w.fy), one = set16(1);
+  vw v_sum{}, vv{}, tv{}, xv{}, yv{};
+  for (int first = 0; first < w.columns; first += k16Lanes) {
+    const v16 weights = and16(pair_weights(simd::kKltSubpixels - w.fx, w.fx), first16(w.columns - first));
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      const vh v = klt_between(above, below, minus_fy);
+      const v16 below = mix_pairs(p, weights);
+      const v16 v = klt_between(above, below, minus_fy);
       above = below;
       const int at = y * simd::kKltStride + first;
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      tv = dotw(tv, v, loadh(patch.value + at));
-      xv = dotw(xv, v, loadh(patch.gx + at));
-      yv = dotw(yv, v, loadh(patch.gy + at));
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      tv = add_dot16(tv, v, load16(patch.value + at));
+      xv = add_dot16(xv, v, load16(patch.gx + at));
+      yv = add_dot16(yv, v, load16(patch.gy + at));
     }
   }
   return simd::KltSums{sumw(v_sum), sumw(vv), sumw(tv), sumw(xv), sumw(yv)};
@@ -28933,8 +28831,8 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 constexpr int kKltCopyStride = 48;
 TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, std::uint8_t* copy) noexcept {
-  const int strips = (window.columns + kShorts - 1) / kShorts;
-  if ((strips - 1) * kShorts + kPairsReach <= window.readable) return window;
+  const int strips = (window.columns + k16Lanes - 1) / k16Lanes;
+  if ((strips - 1) * k16Lanes + kPairsReach <= window.readable) return window;
   for (int y = 0; y <= window.rows; ++y) {
     const std::uint8_t* from = window.data + y * window.stride;
     std::uint8_t* to = copy + y * kKltCopyStride;
@@ -28943,35 +28841,34 @@ TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, s
   }
   return simd::KltWindow{copy, kKltCopyStride, kKltCopyStride, window.columns, window.rows, window.fx, window.fy};
 }
-TEXTPLANE_SIMD_INLINE vh klt_between(vh above, vh below, vh minus_fy) noexcept {
-  return halfh(addh(above, mulhrsh(subh(above, below), minus_fy)));
+TEXTPLANE_SIMD_INLINE v16 klt_between(v16 above, v16 below, v16 minus_fy) noexcept {
+  return half16(add16(above, mul15(sub16(above, below), minus_fy)));
 }
 TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows,
                                                        simd::KltPatch& patch) noexcept {
-  const vh one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), x_sum = zerow(), y_sum = zerow(), vx = zerow(), vy = zerow(), xx = zerow(),
-     xy = zerow(), yy = zerow();
-  for (int first = 0; first < columns; first += kShorts) {
-    const vh mask = firsth(columns - first);
+  const v16 one = set16(1);
+  vw v_sum{}, vv{}, x_sum{}, y_sum{}, vx{}, vy{}, xx{}, xy{}, yy{};
+  for (int first = 0; first < columns; first += k16Lanes) {
+    const v16 mask = first16(columns - first);
     for (int y = 0; y < rows; ++y) {
       const std::int16_t* row = padded + (y + 1) * simd::kKltStride + first;
       const int at = y * simd::kKltStride + first;
-      const vh v = andh(loadh(row + 1), mask);
-      const vh x = andh(halfh(subh(loadh(row + 2), loadh(row))), mask);
-      const vh down = subh(loadh(row + 1 + simd::kKltStride), loadh(row + 1 - simd::kKltStride));
-      const vh g = andh(halfh(down), mask);
-      storeh(patch.value + at, v);
-      storeh(patch.gx + at, x);
-      storeh(patch.gy + at, g);
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      x_sum = dotw(x_sum, x, one);
-      y_sum = dotw(y_sum, g, one);
-      vx = dotw(vx, v, x);
-      vy = dotw(vy, v, g);
-      xx = dotw(xx, x, x);
-      xy = dotw(xy, x, g);
-      yy = dotw(yy, g, g);
+      const v16 v = and16(load16(row + 1), mask);
+      const v16 x = and16(half16(sub16(load16(row + 2), load16(row))), mask);
+      const v16 down = sub16(load16(row + 1 + simd::kKltStride), load16(row + 1 - simd::kKltStride));
+      const v16 g = and16(half16(down), mask);
+      store16(patch.value + at, v);
+      store16(patch.gx + at, x);
+      store16(patch.gy + at, g);
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      x_sum = add_dot16(x_sum, x, one);
+      y_sum = add_dot16(y_sum, g, one);
+      vx = add_dot16(vx, v, x);
+      vy = add_dot16(vy, v, g);
+      xx = add_dot16(xx, x, x);
+      xy = add_dot16(xy, x, g);
+      yy = add_dot16(yy, g, g);
     }
   }
   return simd::KltPatchSums{sumw(v_sum), sumw(vv), sumw(x_sum), sumw(y_sum), sumw(vx),
@@ -28980,53 +28877,54 @@ TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padde
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_from_grey(const float* padded, int columns, int rows,
                                                       simd::KltPatch& patch) noexcept {
   std::int16_t samples[simd::kKltPadded];
-  const int used = (rows + 2) * simd::kKltStride + 16;
-  for (int i = 0; i < used; i += kShorts) storeh(samples + i, grey_to_fixed(padded + i));
+  const int used = (rows + 2) * simd::kKltStride + simd::kKltSlack;
+  for (int i = 0; i < used; i += k16Lanes) store16(samples + i, grey_to_fixed(padded + i));
   return klt_gradients(samples, columns, rows, patch);
 }
 TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_extract(const simd::KltWindow& window, simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   std::int16_t padded[simd::kKltPadded];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = seth(-512 * w.fy), none = seth(0);
-  for (int first = 0; first < simd::kKltStride; first += kShorts) {
+  const v16 weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = set16(-512 * w.fy), none = set16(0);
+  for (int first = 0; first < simd::kKltStride; first += k16Lanes) {
     std::int16_t* out = padded + first;
     if (first >= w.columns) {
-      for (int y = 0; y < w.rows; ++y) storeh(out + y * simd::kKltStride, none);
+      for (int y = 0; y < w.rows; ++y) store16(out + y * simd::kKltStride, none);
       continue;
     }
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      storeh(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
+      const v16 below = mix_pairs(p, weights);
+      store16(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
       above = below;
     }
   }
-  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + 16; i += kShorts) storeh(padded + i, none);
+  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + simd::kKltSlack; i += k16Lanes)
+    store16(padded + i, none);
   return klt_gradients(padded, w.columns - 2, w.rows - 2, patch);
 }
 TEXTPLANE_SIMD_ENTRY simd::KltSums klt_sums(const simd::KltWindow& window, const simd::KltPatch& patch) noexcept {
   std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
   const simd::KltWindow w = klt_roomy(window, copy);
-  const vh minus_fy = seth(-512 * w.fy), one = seth(1);
-  vw v_sum = zerow(), vv = zerow(), tv = zerow(), xv = zerow(), yv = zerow();
-  for (int first = 0; first < w.columns; first += kShorts) {
-    const vh weights = andh(pair_weights(simd::kKltSubpixels - w.fx, w.fx), firsth(w.columns - first));
+  const v16 minus_fy = set16(-512 * w.fy), one = set16(1);
+  vw v_sum{}, vv{}, tv{}, xv{}, yv{};
+  for (int first = 0; first < w.columns; first += k16Lanes) {
+    const v16 weights = and16(pair_weights(simd::kKltSubpixels - w.fx, w.fx), first16(w.columns - first));
     const std::uint8_t* p = w.data + first;
-    vh above = mix_pairs(p, weights);
+    v16 above = mix_pairs(p, weights);
     for (int y = 0; y < w.rows; ++y) {
       p += w.stride;
-      const vh below = mix_pairs(p, weights);
-      const vh v = klt_between(above, below, minus_fy);
+      const v16 below = mix_pairs(p, weights);
+      const v16 v = klt_between(above, below, minus_fy);
       above = below;
       const int at = y * simd::kKltStride + first;
-      v_sum = dotw(v_sum, v, one);
-      vv = dotw(vv, v, v);
-      tv = dotw(tv, v, loadh(patch.value + at));
-      xv = dotw(xv, v, loadh(patch.gx + at));
-      yv = dotw(yv, v, loadh(patch.gy + at));
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      tv = add_dot16(tv, v, load16(patch.value + at));
+      xv = add_dot16(xv, v, load16(patch.gx + at));
+      yv = add_dot16(yv, v, load16(patch.gy + at));
     }
   }
   return simd::KltSums{sumw(v_sum), sumw(vv), sumw(tv), sumw(xv), sumw(yv)};
@@ -30798,8 +30696,7 @@ struct SolveOptions {
 
 /// Cost of a trial state on the residuals of the last linearisation.
 struct Evaluation {
-  /// In the problem's own unit.
-  double cost = 0;
+  double cost = 0;             ///< In the problem's own unit.
   double lost_fraction = 0;    ///< In [0, 1].
   Status status = Status::ok;  ///< Anything but an ok status rejects the trial.
 };
@@ -30810,9 +30707,8 @@ struct Evaluation {
 /// `stall_tolerance`); rank_deficient (H of the initial state is singular); non_finite (NaN or infinity in H, b or the
 /// cost of the initial state); invalid_argument (options); or the status of the failed first linearisation.
 struct SolveSummary {
-  /// Why it ended.
-  Status status = Status::invalid_argument;
-  double initial_cost = 0;  ///< At the initial state, on its own residuals.
+  Status status = Status::invalid_argument;  ///< Why it ended.
+  double initial_cost = 0;                   ///< At the initial state, on its own residuals.
   /// At the returned state, on its own residuals: comparable with initial_cost if the set did not change.
   double final_cost = 0;
   /// Sum of the decreases of the accepted steps, each on the set of its linearisation; never negative.
@@ -30967,10 +30863,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// As PyramidView, for embedders that keep float images: level l + 1 is half as wide and high as level l.
 struct PyramidViewF {
-  /// Finest first; each half the size of the one before.
-  std::array<ImageViewF, kMaxPyramidLevels> level;
-  /// How many of them there are.
-  int levels = 0;
+  std::array<ImageViewF, kMaxPyramidLevels> level;  ///< Finest first; each half the size of the one before.
+  int levels = 0;                                   ///< How many of them there are.
 };
 
 namespace detail {
@@ -31018,10 +30912,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A target image and its pose relative to the host. View: PyramidView, or PyramidViewF for float images.
 template <class View>
 struct BasicPlaneTarget {
-  /// Pyramid of the undistorted image.
-  View image;
-  /// Host to target.
-  SE3d T_t_h;
+  View image;           ///< Pyramid of the undistorted image.
+  SE3d T_t_h;           ///< Host to target.
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
   /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to
   /// refine_plane(), whose levels and numbers of pixels it must have: a target with another is not used.
@@ -31032,13 +30924,11 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
 
 /// Settings of refine_plane() and align_plane().
 struct PlaneOptions {
-  /// Of every pixel.
-  PhotometricOptions photometric;
+  PhotometricOptions photometric;  ///< Of every pixel.
   /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
   SolveOptions solve;
   int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
-  /// Where it ends; 0 is the image itself.
-  int finest_level = 0;
+  int finest_level = 0;    ///< Where it ends; 0 is the image itself.
 };
 
 namespace detail {
@@ -31209,16 +31099,13 @@ struct PlaneRefinement {
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
   /// Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and norm costing two.
   double residual_variance = 0;
-  /// C(theta).
-  double cost = 0;
-  double zncc = 0;  ///< Mean over the targets used.
-  /// Targets that took part.
-  int targets_used = 0;
-  int visible_pixels = 0;    ///< Over the targets used.
-  int iterations = 0;        ///< Trials over all levels.
-  Path path = Path::kernel;  ///< Path::reference where any evaluation ran on the slow reference.
-  /// Why it ended: see above.
-  Status status = Status::invalid_argument;
+  double cost = 0;                           ///< C(theta).
+  double zncc = 0;                           ///< Mean over the targets used.
+  int targets_used = 0;                      ///< Targets that took part.
+  int visible_pixels = 0;                    ///< Over the targets used.
+  int iterations = 0;                        ///< Trials over all levels.
+  Path path = Path::kernel;                  ///< Path::reference where any evaluation ran on the slow reference.
+  Status status = Status::invalid_argument;  ///< Why it ended: see above.
 };
 
 namespace detail {
@@ -31386,8 +31273,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// A text object whose host pose and plane are held fixed. Its pixels come from `patch` (not owned).
 struct PoseTextTerm {
-  /// Its pixels in the host; not owned.
-  const TextPatch* patch = nullptr;
+  const TextPatch* patch = nullptr;                 ///< Its pixels in the host; not owned.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< On top of lambda_w.
@@ -31399,31 +31285,26 @@ struct PoseTextTerm {
 
 /// A known 3D point and where it was seen.
 struct PosePointTerm {
-  /// In the world.
-  Vector3<double> p_w = Vector3<double>::Zero();
-  Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted, level 0.
+  Vector3<double> p_w = Vector3<double>::Zero();  ///< In the world.
+  Vector2<double> px = Vector2<double>::Zero();   ///< Undistorted, level 0.
   double sigma = 1;  ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
 };
 
 /// Settings of refine_pose() and align_pose().
 struct PoseOptions {
-  /// Of every pixel of the texts.
-  PhotometricOptions photometric;
+  PhotometricOptions photometric;  ///< Of every pixel of the texts.
   /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's
   /// residual in units of 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the
   /// paper's E_text.
   Weighting weighting = Weighting::variance;
-  /// See `weighting`.
-  double sigma_photo = 0.3;
-  /// px, of a point with sigma 1.
-  double sigma_rep = 1;
+  double sigma_photo = 0.3;  ///< See `weighting`.
+  double sigma_rep = 1;      ///< px, of a point with sigma 1.
   /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
   Robust point_robust{RobustKind::huber, 2.4477};
   /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
   SolveOptions solve;
   int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
-  /// Where it ends; 0 is the image itself.
-  int finest_level = 0;
+  int finest_level = 0;    ///< Where it ends; 0 is the image itself.
   /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take
   /// forward. Whatever the policy, steps are judged by the cost.
   LinearisePolicy policy = LinearisePolicy::forward;
@@ -31688,29 +31569,25 @@ TEXTPLANE_BEGIN_NAMESPACE
 struct PoseResult {
   /// Of xi = (v, omega), left: H / sigma_rep^2. Its inverse is the covariance under Weighting::variance.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  /// C(T_t_w) of the finest level.
-  double cost = 0;
+  double cost = 0;           ///< C(T_t_w) of the finest level.
   double zncc = 0;           ///< Mean over the texts that took part.
   int texts = 0;             ///< Texts that took part.
   int visible_pixels = 0;    ///< Theirs.
   int inlier_points = 0;     ///< Points with |e|^2 <= 5.99 (sigma sigma_rep)^2.
   int iterations = 0;        ///< Trials over all levels.
   Path path = Path::kernel;  ///< Path::reference where any evaluation of a text ran on the slow reference.
-  /// Why it ended: see above.
-  Status status = Status::invalid_argument;
+  Status status = Status::invalid_argument;  ///< Why it ended: see above.
 };
 
 /// Result of refine_pose(). T_t_w is the best pose seen, the initial one if nothing could be improved; finite whenever
 /// the initial one is.
 struct PoseFit : PoseResult {
-  /// World to target camera.
-  SE3d T_t_w;
+  SE3d T_t_w;  ///< World to target camera.
 };
 
 /// Result of align_pose().
 struct PoseAlignment : PoseResult {
-  /// Host to target.
-  SE3d T_t_h;
+  SE3d T_t_h;  ///< Host to target.
 };
 
 namespace detail {
@@ -31877,8 +31754,7 @@ struct SearchOptions {
   double step = 1.0;  ///< Between shifts.
   /// Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
   double roll = 0.1;
-  /// Of every pixel.
-  PhotometricOptions photometric;
+  PhotometricOptions photometric;  ///< Of every pixel.
 };
 
 namespace detail {
@@ -32065,10 +31941,8 @@ struct WindowPoint {
 
 /// A point seen in a frame.
 struct WindowPointObservation {
-  /// Index into Window::frames: the one that sees it.
-  int frame = -1;
-  /// Index into Window::points.
-  int point = -1;
+  int frame = -1;                                ///< Index into Window::frames: the one that sees it.
+  int point = -1;                                ///< Index into Window::points.
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
   /// Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
   double sigma = 1;
@@ -32103,8 +31977,7 @@ struct WindowText {
 
 /// A text seen in a frame other than its host.
 struct WindowTextObservation {
-  /// Index into Window::texts.
-  int text = -1;
+  int text = -1;        ///< Index into Window::texts.
   int frame = -1;       ///< Target frame, other than the host.
   double weight = 1;    ///< Of this observation, on top of lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(): where the target sees the text at another size than its host.
@@ -32119,30 +31992,22 @@ struct WindowTextObservation {
 
 /// The whole problem. One pinhole camera for all frames (level 0).
 struct Window {
-  /// Of all frames, level 0.
-  Pinhole<double> camera;
-  /// Poses, the unknown ones and those held.
-  std::vector<WindowFrame> frames;
-  /// Points in the world.
-  std::vector<WindowPoint> points;
-  /// Who sees which point where.
-  std::vector<WindowPointObservation> point_observations;
-  /// Text objects, by host and plane.
-  std::vector<WindowText> texts;
-  /// Who sees which text.
-  std::vector<WindowTextObservation> text_observations;
+  Pinhole<double> camera;                                  ///< Of all frames, level 0.
+  std::vector<WindowFrame> frames;                         ///< Poses, the unknown ones and those held.
+  std::vector<WindowPoint> points;                         ///< Points in the world.
+  std::vector<WindowPointObservation> point_observations;  ///< Who sees which point where.
+  std::vector<WindowText> texts;                           ///< Text objects, by host and plane.
+  std::vector<WindowTextObservation> text_observations;    ///< Who sees which text.
 };
 
 /// Settings of solve_window().
 struct WindowOptions {
-  /// Of every pixel of the texts.
-  PhotometricOptions photometric;
+  PhotometricOptions photometric;  ///< Of every pixel of the texts.
   Robust point_robust{RobustKind::huber,
                       std::sqrt(5.99)};  ///< On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom.
-  /// How texts weigh against points: lambda_w.
-  Weighting weighting = Weighting::variance;
-  double sigma_rep = 1;      ///< px.
-  double sigma_photo = 0.3;  ///< Per pixel, in units of 1/sqrt(N).
+  Weighting weighting = Weighting::variance;  ///< How texts weigh against points: lambda_w.
+  double sigma_rep = 1;                       ///< px.
+  double sigma_photo = 0.3;                   ///< Per pixel, in units of 1/sqrt(N).
   /// Pyramid level of patches and images; for coarse to fine call solve_window() once a level, same workspace.
   int text_level = 0;
 
@@ -32161,8 +32026,7 @@ struct WindowOptions {
   /// just one frame is fixed; allowed with more (a known baseline). Ignored where both frames are fixed; -1: no such
   /// constraint.
   int scale_frame_a = -1;
-  /// Index into Window::frames of the other frame of that distance; -1: none.
-  int scale_frame_b = -1;
+  int scale_frame_b = -1;  ///< Index into Window::frames of the other frame of that distance; -1: none.
 
   bool covariance = true;  ///< Compute WindowText::covariance and information, and the rank_deficient statuses.
 };
@@ -32177,9 +32041,8 @@ struct WindowOptions {
 /// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state (the start,
 /// perhaps).
 struct WindowSummary {
-  /// Why it ended: see above.
-  Status status = Status::too_few;
-  double initial_cost = 0;  ///< E over what took part at the start.
+  Status status = Status::too_few;  ///< Why it ended: see above.
+  double initial_cost = 0;          ///< E over what took part at the start.
   /// E at the final state. It can exceed the initial cost only where patches gained visible pixels meanwhile.
   double final_cost = 0;
   int iterations = 0;  ///< Steps tried.
@@ -32852,8 +32715,7 @@ struct WindowTrial {
 template <class S>
 class BasicWindowTerms {
  public:
-  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates where the window exceeds all
-  /// earlier.
+  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates for the largest window so far.
   void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
     path_ = Path::kernel;
     for (WindowFrame& f : w.frames) f.status = Status::ok;
@@ -33132,14 +32994,11 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Memory of solve_window(), to be reused from call to call: a call allocates only where its window exceeds every
 /// earlier one, and then in its set-up. Not to be shared by two threads at a time.
 struct WindowWorkspace {
-  detail::WindowState current;  ///< The estimate.
-  detail::WindowState trial;    ///< The one that a step leads to.
-  /// Which unknowns there are and how they meet.
-  detail::WindowStructure structure;
-  /// The linearised texts.
-  detail::WindowTerms terms;
-  /// The normal equations.
-  detail::WindowSchur system;
+  detail::WindowState current;        ///< The estimate.
+  detail::WindowState trial;          ///< The one that a step leads to.
+  detail::WindowStructure structure;  ///< Which unknowns there are and how they meet.
+  detail::WindowTerms terms;          ///< The linearised texts.
+  detail::WindowSchur system;         ///< The normal equations.
 };
 
 namespace detail {
