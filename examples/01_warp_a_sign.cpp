@@ -4,6 +4,7 @@
 
 #include "stage/picture.hpp"
 #include "stage/stage.hpp"
+#include "textplane/geometry/homography.hpp"
 #include "textplane/photometry/warp_patch.hpp"
 #include "textplane/photometry/zncc.hpp"
 

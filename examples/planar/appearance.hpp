@@ -13,6 +13,7 @@
 
 #include "textplane/photometry/blur.hpp"
 #include "textplane/photometry/local_contrast.hpp"
+#include "textplane/photometry/residual.hpp"
 #include "textplane/photometry/template_patch.hpp"
 
 namespace planar {
