@@ -1,5 +1,5 @@
 // Normal equations from the host's gradients, or from the mean of host's and target's (ESM): raw pointers in, sums out.
-// photometry/residual_request.hpp says what they are, residual_reference.hpp holds the double reference,
+// photometry/residual_request.hpp says what they are, residual_reference.hpp holds the double reference, and
 // docs/equations.md the formulas.
 //
 // The target's gradient is pulled back to the host, d I_target(H m~) / d host pixel, and both gradients are scaled by

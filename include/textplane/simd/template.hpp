@@ -11,10 +11,10 @@
 // 1/128 each). All sums are exact integers of these V; so up to the float warp the results are the same on every
 // target.
 //
-// The columns are rounded too (to 1/8191 of their largest entry, or finer). The fixed point of the iteration stays
-// where it is: the projections through mean and norm use the sums of the rounded columns, so a target that equals the
-// host but for gain and bias has a gradient of exactly zero. Rounding changes H and b by its own relative size.
-// Cauchy's and Tukey's costs sum float rows with their weights; there that gradient is zero but for rounding.
+// The columns are rounded too (to 1/8191 of their largest entry, or finer). The fixed point of the iteration stays:
+// the projections through mean and norm use the sums of the rounded columns, so a target that equals the host but for
+// gain and bias has a gradient of exactly zero. Rounding changes H and b by its own relative size. Cauchy's and Tukey's
+// costs sum float rows with their weights; there that gradient is zero but for rounding.
 #ifndef TEXTPLANE_SIMD_TEMPLATE_HPP
 #define TEXTPLANE_SIMD_TEMPLATE_HPP
 

@@ -1,11 +1,12 @@
 // Reads the disassembly of an object and checks that instructions beyond the x86-64 baseline stay in the target
 // namespaces.
 //
-//   isa_check regions OBJECT [HEADER...]   A function may hold the instructions of its own target and no wider ones; whatever
-//                                          is outside the target namespaces has the baseline. There must be AVX2 and AVX-512
-//                                          kernels, and every kernel that the HEADERs dispatch to must be there.
-//   isa_check shared BASELINE WIDE         No weak function that both objects define holds an AVX instruction in WIDE: the
-//                                          linker keeps either copy, and an old CPU would die of it. WIDE must hold some.
+//   isa_check regions OBJECT [HEADER...]
+//     A function may hold the instructions of its own target and no wider ones; whatever is outside the target
+//     namespaces has the baseline. There must be AVX2 and AVX-512 kernels, and every kernel that the HEADERs dispatch to.
+//   isa_check shared BASELINE WIDE
+//     No weak function that both objects define holds an AVX instruction in WIDE: the linker keeps either copy, and an
+//     old CPU would die of it. WIDE must hold some.
 //
 // Exit code 0: as it should be; 1: not, with the findings on standard output; 2: the check itself could not be made.
 #include <algorithm>

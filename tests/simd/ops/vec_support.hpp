@@ -2,6 +2,7 @@
 #ifndef TEXTPLANE_TESTS_SIMD_OPS_VEC_SUPPORT_HPP
 #define TEXTPLANE_TESTS_SIMD_OPS_VEC_SUPPORT_HPP
 
+#include "support/targets.hpp"
 #include "textplane/simd/ops.hpp"
 
 #define TEXTPLANE_SIMD_KERNEL "simd/ops/vec_kernel.inl"
@@ -30,6 +31,17 @@ inline void partial_store(float* p, const float* from, int n) { TEXTPLANE_SIMD_D
 inline unsigned first_lanes(int n) { TEXTPLANE_SIMD_DISPATCH(first_lanes(n)) }
 inline unsigned read_u16(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_u16(p)) }
 inline void copy_bytes(void* to, const void* from, int n) { TEXTPLANE_SIMD_DISPATCH(copy(to, from, n)) }
+
+constexpr int kMost = 16;  // lanes
+
+template <class Body>
+void on_each_target(Body body) {
+  for (const simd::Target target : testable_targets()) {
+    const TargetScope scope(target);
+    SCOPED_TRACE(simd::to_string(target));
+    body(target, simd::lanes(target));
+  }
+}
 
 }  // namespace textplane_test
 

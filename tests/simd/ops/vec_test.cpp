@@ -10,15 +10,12 @@
 #include <vector>
 
 #include "simd/ops/vec_support.hpp"
-#include "support/guarded.hpp"
-#include "support/targets.hpp"
 
 namespace vec_test {
 
 using namespace textplane_test;
 using simd::Target;
 
-constexpr int kMost = 16;  // lanes
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr int kMin = std::numeric_limits<int>::min(), kMax = std::numeric_limits<int>::max();
@@ -46,15 +43,6 @@ int wrap(std::int64_t value) {
   int result = 0;
   std::memcpy(&result, &low, sizeof result);
   return result;
-}
-
-template <class Body>
-void on_each_target(Body body) {
-  for (const Target target : testable_targets()) {
-    const TargetScope scope(target);
-    SCOPED_TRACE(simd::to_string(target));
-    body(target, simd::lanes(target));
-  }
 }
 
 void expect_float_operations(Target target, const float* a, const float* b, const float* c) {
@@ -280,52 +268,6 @@ TEST(Vec, TapsAreExactDifferencesOfBytes) {
         EXPECT_EQ(out[2 * lanes + i], static_cast<float>(byte(2) - byte(0)));
         EXPECT_EQ(out[3 * lanes + i], static_cast<float>(byte(0) - byte(1) - byte(2) + byte(3)));
       }
-    }
-  });
-}
-
-TEST(Vec, PartialLoadsTouchNoMoreThanTheyLoad) {
-  const Guarded<float> floats(kMost);
-  for (int i = 0; i < kMost; ++i) floats.data()[i] = static_cast<float>(i) + 0.5f;
-  on_each_target([&](Target, int lanes) {
-    for (int n = 0; n <= lanes; ++n) {
-      SCOPED_TRACE(n);
-      float f[kMost];
-      partial_load(floats.end() - n, n, f);
-      for (int i = 0; i < lanes; ++i)
-        EXPECT_TRUE(same(f[i], i < n ? static_cast<float>(kMost - n + i) + 0.5f : 0.0f)) << i;
-    }
-  });
-}
-
-TEST(Vec, PartialStoresWriteNoMoreThanTheyStore) {
-  const Guarded<float> floats(3 * kMost);
-  float f[kMost];
-  for (int i = 0; i < kMost; ++i) f[i] = static_cast<float>(i) + 1.0f;
-  on_each_target([&](Target, int lanes) {
-    for (int n = 0; n <= lanes; ++n) {
-      SCOPED_TRACE(n);
-      for (const int behind : {0, kMost}) {  // at the forbidden page, and with room for a canary
-        std::fill(floats.data(), floats.end(), -7.0f);
-        const int first = 3 * kMost - behind - n;
-        partial_store(floats.data() + first, f, n);
-        for (int i = 0; i < 3 * kMost; ++i)
-          EXPECT_EQ(floats.data()[i], i >= first && i < first + n ? static_cast<float>(i - first + 1) : -7.0f) << i;
-      }
-    }
-  });
-}
-
-TEST(Vec, BytesAsNumbersAndCopies) {
-  const Guarded<std::uint8_t> bytes(2), target(70), source(70);
-  bytes.data()[0] = 0x03, bytes.data()[1] = 0xc4;
-  for (int i = 0; i < 70; ++i) source.data()[i] = static_cast<std::uint8_t>(i * 3 + 1);
-  on_each_target([&](Target, int) {
-    EXPECT_EQ(read_u16(bytes.data()), 0xc403u);
-    for (int n = 0; n <= 70; ++n) {
-      std::fill(target.data(), target.end(), std::uint8_t{0});
-      copy_bytes(target.end() - n, source.end() - n, n);
-      for (int i = 0; i < 70; ++i) EXPECT_EQ(target.data()[i], i < 70 - n ? 0 : source.data()[i]);
     }
   });
 }

@@ -14,7 +14,6 @@ using vm = __m256;  // all bits of a lane
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm256_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm256_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm256_setr_ps(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 TEXTPLANE_SIMD_INLINE __m256i first_n_bits(int n) noexcept { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), ioti()); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm256_loadu_ps(p); }
@@ -45,7 +44,6 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   }
   if ((n & 1) != 0) _mm_store_ss(p, rest);
 }
-// Sooner than the instruction.
 TEXTPLANE_SIMD_INLINE __m128 gather_four(const float* p, const int* at) noexcept {
   return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
 }
@@ -68,7 +66,6 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm256_floor_ps(a); }
 // --- conversions ---
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm256_cvttps_epi32(a); }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm256_cvtepi32_ps(a); }
-
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm256_castps_si256(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm256_castsi256_ps(a); }
 
@@ -124,7 +121,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 32;
 using vb = __m256i;
 
@@ -167,12 +164,16 @@ TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept {
 }
 TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept { return join128(p[0], p[1]); }
 TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm256_broadcastsi128_si256(p); }
+TEXTPLANE_SIMD_INLINE v16 load_groups(const std::uint8_t* p) noexcept { return join128(load128(p), load128(p + 8)); }
 TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
   const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
   const __m256i lane = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   return _mm256_cmpgt_epi16(set16(limit), lane);
 }
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return wide_sum(a); }
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
+  return sum_of_four(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)) +
+                     _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1)));
+}
 TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm256_mulhrs_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm256_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {

@@ -1,8 +1,6 @@
 // Operations of the avx512 target: vectors of 512 bits. ops/scalar.inl defines them.
-// Include before: ops/common.inl.
-//
-// The zero-masking forms stand where the plain ones start from an undefined register in the compiler's header, about
-// which g++ 11 and 12 warn. With all lanes kept they are the same instructions.
+// Include before: ops/common.inl. Zero-masking forms that keep all lanes are the plain instructions: g++ 11 and 12 warn
+// about an undefined register in the headers of the plain forms.
 #include "textplane/simd/ops/x86.inl"
 
 // --- floats ---
@@ -11,22 +9,18 @@ constexpr bool kManyRegisters = true;  // 32
 using vf = __m512;
 using vi = __m512i;
 using vm = __mmask16;
-constexpr vm kAllLanes = 0xffff;
+constexpr vm kAll = 0xffff;
 
 #include "textplane/simd/ops/x86_wide.inl"
 
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm512_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm512_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf iota() noexcept {
-  return _mm512_set_ps(15.0f, 14.0f, 13.0f, 12.0f, 11.0f, 10.0f, 9.0f, 8.0f, 7.0f, 6.0f, 5.0f, 4.0f, 3.0f, 2.0f, 1.0f,
-                       0.0f);
-}
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept {
   return _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
 }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept {
-  return n >= 16 ? kAllLanes : static_cast<vm>((1u << (n < 0 ? 0 : n)) - 1u);
+  return n >= 16 ? kAll : static_cast<vm>((1u << (n < 0 ? 0 : n)) - 1u);
 }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm512_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
@@ -45,7 +39,6 @@ TEXTPLANE_SIMD_INLINE __m256i upper_half(__m512i a) noexcept { return _mm512_mas
 TEXTPLANE_SIMD_INLINE __m512i join256(__m256i low, __m256i high) noexcept {
   return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(low), high, 1);
 }
-// Sooner than the instruction.
 TEXTPLANE_SIMD_INLINE __m256i gather_eight(const float* p, const int* at) noexcept {
   return _mm256_castps_si256(
       _mm256_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]], p[at[4]], p[at[5]], p[at[6]], p[at[7]]));
@@ -53,25 +46,24 @@ TEXTPLANE_SIMD_INLINE __m256i gather_eight(const float* p, const int* at) noexce
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return _mm512_castsi512_ps(join256(gather_eight(p, at), gather_eight(p, at + 8)));
 }
-TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kAllLanes, a); }
+TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kAll, a); }
 
 // --- float arithmetic ---
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
 #if !TEXTPLANE_SIMD_HIDE_MINIMA
-TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kAllLanes, a, b); }
-TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAllLanes, a, b); }
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kAll, a, b); }
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAll, a, b); }
 #endif
-TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAllLanes, a); }
-TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm512_maskz_rsqrt14_ps(kAllLanes, a); }
-TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
+TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAll, a); }
+TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm512_maskz_rsqrt14_ps(kAll, a); }
+TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAll, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept {
-  return _mm512_maskz_roundscale_ps(kAllLanes, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+  return _mm512_maskz_roundscale_ps(kAll, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
 
 // --- conversions ---
-TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm512_maskz_cvttps_epi32(kAllLanes, a); }
-
+TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm512_maskz_cvttps_epi32(kAll, a); }
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm512_castps_si512(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm512_castsi512_ps(a); }
 
@@ -79,13 +71,13 @@ TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm512_castsi512_ps(a)
 TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept { return _mm512_add_epi32(a, b); }
 TEXTPLANE_SIMD_INLINE vi subi(vi a, vi b) noexcept { return _mm512_sub_epi32(a, b); }
 TEXTPLANE_SIMD_INLINE vi muli(vi a, vi b) noexcept { return _mm512_mullo_epi32(a, b); }
-TEXTPLANE_SIMD_INLINE vi mini(vi a, vi b) noexcept { return _mm512_maskz_min_epi32(kAllLanes, a, b); }
-TEXTPLANE_SIMD_INLINE vi maxi(vi a, vi b) noexcept { return _mm512_maskz_max_epi32(kAllLanes, a, b); }
+TEXTPLANE_SIMD_INLINE vi mini(vi a, vi b) noexcept { return _mm512_maskz_min_epi32(kAll, a, b); }
+TEXTPLANE_SIMD_INLINE vi maxi(vi a, vi b) noexcept { return _mm512_maskz_max_epi32(kAll, a, b); }
 TEXTPLANE_SIMD_INLINE vi shl(vi a, int bits) noexcept {
-  return _mm512_maskz_sll_epi32(kAllLanes, a, _mm_cvtsi32_si128(bits));
+  return _mm512_maskz_sll_epi32(kAll, a, _mm_cvtsi32_si128(bits));
 }
 TEXTPLANE_SIMD_INLINE vi shr(vi a, int bits) noexcept {
-  return _mm512_maskz_sra_epi32(kAllLanes, a, _mm_cvtsi32_si128(bits));
+  return _mm512_maskz_sra_epi32(kAll, a, _mm_cvtsi32_si128(bits));
 }
 TEXTPLANE_SIMD_INLINE vi andi(vi a, vi b) noexcept { return _mm512_and_si512(a, b); }
 TEXTPLANE_SIMD_INLINE vi ori(vi a, vi b) noexcept { return _mm512_or_si512(a, b); }
@@ -103,17 +95,18 @@ TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm512_mask_
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm512_maskz_mov_ps(m, a); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return _mm_popcnt_u32(m); }
-TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kAllLanes; }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kAll; }
 
 // --- reductions ---
 TEXTPLANE_SIMD_INLINE __m256 lower_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 0); }
 TEXTPLANE_SIMD_INLINE __m256 upper_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 1); }
 TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept { return _mm256_add_ps(lower_half(a), upper_half(a)); }
 TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return sum_of_eight(half_sum(a)); }
+TEXTPLANE_SIMD_INLINE double sum_of_eight(__m512d a) noexcept {
+  return sum_of_four(_mm512_maskz_extractf64x4_pd(0xf, a, 0) + _mm512_maskz_extractf64x4_pd(0xf, a, 1));
+}
 TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
-  const __m512d eight = _mm512_maskz_cvtps_pd(0xff, lower_half(a)) + _mm512_maskz_cvtps_pd(0xff, upper_half(a));
-  return sum_of_four(
-      _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xf, eight, 0), _mm512_maskz_extractf64x4_pd(0xf, eight, 1)));
+  return sum_of_eight(_mm512_maskz_cvtps_pd(0xff, lower_half(a)) + _mm512_maskz_cvtps_pd(0xff, upper_half(a)));
 }
 TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
   return min_of_eight(_mm256_min_ps(lower_half(a), upper_half(a)));
@@ -137,7 +130,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 64;
 using vb = __m512i;
 
@@ -185,7 +178,11 @@ TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept {
 TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept {
   return join256(join128(p[0], p[1]), join128(p[2], p[3]));
 }
-TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm512_maskz_broadcast_i32x4(kAllLanes, p); }
+TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm512_maskz_broadcast_i32x4(kAll, p); }
+TEXTPLANE_SIMD_INLINE v16 load_groups(const std::uint8_t* p) noexcept {
+  const __m512i overlapping = _mm512_setr_epi64(0, 1, 1, 2, 2, 3, 3, 4);
+  return _mm512_maskz_permutexvar_epi64(0xff, overlapping, loadb_n(p, kPairsReach));
+}
 TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
   return _mm512_movm_epi16(n >= 32 ? ~0u : (1u << (n < 0 ? 0 : n)) - 1u);
 }
@@ -201,12 +198,14 @@ TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return low16(low, h
 TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
   return sum_of_eight(_mm256_add_epi32(lower_half(v), upper_half(v)));
 }
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return wide_sum(lower_half(a)) + wide_sum(upper_half(a)); }
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
+  return sum_of_eight(_mm512_maskz_cvtepi32_pd(0xff, lower_half(a)) + _mm512_maskz_cvtepi32_pd(0xff, upper_half(a)));
+}
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
   return join256(gather_pairs8(p, offset), gather_pairs8(p, offset + 8));
 }
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAllLanes, lower_half(v)); }
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAllLanes, upper_half(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAll, lower_half(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAll, upper_half(v)); }
 
 // --- doubles ---
 enum : int { kDoubles = 8 };
@@ -272,18 +271,12 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
   *b = _mm512_permutex2var_ps(lo, odd, hi);
 }
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
-  store128(p, _mm512_maskz_cvtepi32_epi8(kAllLanes, v));
+  store128(p, _mm512_maskz_cvtepi32_epi8(kAll, v));
 }
 
 // --- tiles of int16 cells ---
 enum : int { kInt16Tiles = 1 };
-TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept {
-  v16 v = load16(p);
-#if !defined(TEXTPLANE_EMULATED_AVX512)
-  __asm__("" : "+v"(v));
-#endif
-  return v;
-}
+TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept { return as_int(hold(as_float(load16(p)))); }
 TEXTPLANE_SIMD_INLINE v16 saturated_sub16(v16 v, int n) noexcept { return _mm512_subs_epu16(v, set16(n)); }
 TEXTPLANE_SIMD_INLINE v16 pair_picks(v16 x) noexcept {
   return _mm512_add_epi16(_mm512_mullo_epi16(x, set16(0x0101)), set16(0x0100));

@@ -12,7 +12,6 @@ using vm = uint32x4_t;  // all bits of a lane
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return vdupq_n_f32(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return vdupq_n_s32(value); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return vi{0, 1, 2, 3}; }
-TEXTPLANE_SIMD_INLINE vf iota() noexcept { return vf{0.0f, 1.0f, 2.0f, 3.0f}; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return vld1q_f32(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { vst1q_f32(p, v); }
@@ -20,7 +19,7 @@ TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return vld1q_s32(p); }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { vst1q_s32(p, v); }
 TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept {
   if (n >= 4) return vld1q_f32(p);
-  vf v = zero();
+  vf v = set1(0.0f);
   if (n >= 1) v = vld1q_lane_f32(p, v, 0);
   if (n >= 2) v = vld1q_lane_f32(p + 1, v, 1);
   if (n >= 3) v = vld1q_lane_f32(p + 2, v, 2);
@@ -70,7 +69,6 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return vrndmq_f32(a); }
 // --- conversions ---
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return vcvtq_s32_f32(a); }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return vcvtq_f32_s32(a); }
-
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return vreinterpretq_s32_f32(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return vreinterpretq_f32_s32(a); }
 
@@ -150,7 +148,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   vst1q_f32(out, vpaddq_f32(vpaddq_f32(a, b), vpaddq_f32(c, d)));
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 16;
 using vb = uint8x16_t;
 
@@ -172,8 +170,7 @@ TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noex
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return vcgeq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return vmaxvq_u8(a) != 0; }
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
-  const std::uint8_t weights[16] = {1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
-  const uint8x16_t bit = vandq_u8(mask, vld1q_u8(weights));
+  const uint8x16_t bit = vandq_u8(mask, vb{1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128});
   return static_cast<std::uint64_t>(vaddv_u8(vget_low_u8(bit))) |
          static_cast<std::uint64_t>(vaddv_u8(vget_high_u8(bit))) << 8;
 }

@@ -14,8 +14,7 @@ using vm = bool;   // kLanes truth values
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return value; }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return value; }
-TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
-TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
+TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }  // 0, 1, 2, ...
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
 // The same value, in a register from here on: g++ would load it again for each use.
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
@@ -148,7 +147,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   out[3] = d;
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 1;
 using vb = int;  // kBytes uint8; here one in [0, 255]
 

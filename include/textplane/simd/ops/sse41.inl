@@ -12,7 +12,6 @@ using vm = __m128;  // all bits of a lane
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm_setr_ps(0.0f, 1.0f, 2.0f, 3.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm_setr_epi32(0, 1, 2, 3); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
@@ -65,7 +64,6 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm_floor_ps(a); }
 // --- conversions ---
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm_cvttps_epi32(a); }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm_cvtepi32_ps(a); }
-
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm_castps_si128(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm_castsi128_ps(a); }
 
@@ -122,7 +120,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   _mm_storeu_ps(out, _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, d)));
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 16;
 using vb = __m128i;
 
@@ -163,6 +161,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_bytes(v16 a, v16 b) noexcept { return _mm_maddubs_
 TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept { return _mm_packus_epi16(a, b); }
 TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept { return p[0]; }
 TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return p; }
+TEXTPLANE_SIMD_INLINE v16 load_groups(const std::uint8_t* p) noexcept { return load128(p); }
 TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
   const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
   return _mm_cmplt_epi16(_mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7), set16(limit));

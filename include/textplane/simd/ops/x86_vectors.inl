@@ -28,10 +28,8 @@ TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_
   *first = join_groups(u);
   *second = join_groups(l);
 }
+// load_groups() has the bytes p + 8 i to p + 8 i + 15 in group i.
 TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
   const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
-  __m128i bytes[kGroups];
-  TEXTPLANE_SIMD_UNROLL
-  for (int i = 0; i < kGroups; ++i) bytes[i] = load128(p + 8 * i);
-  return dot_bytes(weights, pick_bytes(xorb(join_groups(bytes), setb(-128)), repeat_group(neighbours)));
+  return dot_bytes(weights, pick_bytes(xorb(load_groups(p), setb(-128)), repeat_group(neighbours)));
 }

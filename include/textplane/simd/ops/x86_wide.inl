@@ -38,11 +38,6 @@ TEXTPLANE_SIMD_INLINE int sum_of_eight(__m256i a) noexcept {
 TEXTPLANE_SIMD_INLINE double sum_of_four(__m256d a) noexcept {
   return sum_of_two(_mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1)));
 }
-// Of eight int32: exact.
-TEXTPLANE_SIMD_INLINE double wide_sum(__m256i a) noexcept {
-  return sum_of_four(
-      _mm256_add_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1))));
-}
 
 #if TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
