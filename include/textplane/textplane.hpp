@@ -20,6 +20,7 @@
 #include "textplane/geometry/quad_projection.hpp"
 #include "textplane/geometry/triangulate.hpp"
 
+#include "textplane/core/robust.hpp"
 #include "textplane/photometry/blur.hpp"
 #include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/local_contrast.hpp"
@@ -36,7 +37,6 @@
 #include "textplane/photometry/residual_reference.hpp"
 #include "textplane/photometry/residual_request.hpp"
 #include "textplane/photometry/residual_result.hpp"
-#include "textplane/photometry/robust.hpp"
 #include "textplane/photometry/sample.hpp"
 #include "textplane/photometry/template_patch.hpp"
 #include "textplane/photometry/text_batch.hpp"

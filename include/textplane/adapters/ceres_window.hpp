@@ -50,7 +50,7 @@ class WindowProblem {
     text_.rows = rows;
     status_ = textplane::detail::WindowStructure::check(window, options);
     if (!is_ok(status_)) return;
-    make_loss();
+    if (options_.point_robust.kind != RobustKind::l2) loss_ = std::make_unique<Loss>(options_.point_robust);
     poses_.resize(window.frames.size());
     for (std::size_t f = 0; f < poses_.size(); ++f) {
       pose_to_block(window.frames[f].T_w_c, poses_[f].data());
@@ -108,15 +108,14 @@ class WindowProblem {
     return out;
   }
 
-  void make_loss() {
-    const double delta = options_.point_robust.delta;
-    switch (options_.point_robust.kind) {
-      case RobustKind::l2: break;
-      case RobustKind::huber: loss_ = std::make_unique<ceres::HuberLoss>(delta); break;
-      case RobustKind::cauchy: loss_ = std::make_unique<ceres::CauchyLoss>(delta); break;
-      case RobustKind::tukey: loss_ = std::make_unique<ceres::TukeyLoss>(delta); break;
+  // A Robust as Ceres wants it.
+  struct Loss final : ceres::LossFunction {
+    explicit Loss(const Robust& r) : robust(r) {}
+    void Evaluate(double r2, double out[3]) const override {
+      out[0] = robust.rho(r2), out[1] = robust.weight(r2), out[2] = robust.curvature(r2);
     }
-  }
+    Robust robust;
+  };
 
   // Adds the landmark with its costs, unless they are too few.
   template <class Add>

@@ -12,8 +12,6 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 
-static_assert(static_cast<int>(simd::RobustKind::tukey) == static_cast<int>(RobustKind::tukey), "one order of kinds");
-
 using KernelRequest = ResidualRequest<std::uint8_t>;
 
 /// The target as the kernels read it. Pairs that are not of its size are left out.
@@ -58,7 +56,7 @@ TEXTPLANE_SIMD_INLINE simd::ResidualArgs kernel_args(const KernelRequest& q, Pho
           {h.fx, h.fy, h.cx, h.cy},
           {c.fx, c.fy, c.cx, c.cy},
           q.options.normalisation == Normalisation::exact,
-          static_cast<simd::RobustKind>(q.options.robust.kind),
+          q.options.robust.kind,
           q.options.robust.delta,
           q.options.min_contrast,
           q.options.min_visible,

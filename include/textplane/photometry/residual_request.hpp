@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
+#include "textplane/core/robust.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/photometry/photometric_input.hpp"
-#include "textplane/photometry/robust.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 

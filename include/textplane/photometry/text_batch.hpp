@@ -254,7 +254,7 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   const double intrinsics[] = {camera.fx, camera.fy, camera.cx, camera.cy};
   std::copy_n(intrinsics, 4, args.camera);
   args.exact = options.normalisation == Normalisation::exact;
-  args.robust = static_cast<simd::RobustKind>(options.robust.kind);
+  args.robust = options.robust.kind;
   args.delta = options.robust.delta;
   args.min_contrast = options.min_contrast;
   args.min_visible = options.min_visible;

@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/robust.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/core/status.hpp"
 #include "textplane/photometry/patch.hpp"
 #include "textplane/photometry/pyramid.hpp"
 #include "textplane/photometry/residual.hpp"
-#include "textplane/photometry/robust.hpp"
 #include "textplane/solver/weighting.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "support/targets.hpp"
-#include "textplane/photometry/robust.hpp"
 #include "textplane/simd/robust.hpp"
 
 #define TEXTPLANE_SIMD_KERNEL "simd/ops/robust_ops_kernel.inl"
@@ -15,7 +14,7 @@ namespace simd = textplane::simd;
 using textplane::Robust;
 using textplane::RobustKind;
 
-void robust_costs(simd::RobustKind kind, double delta, const float* squares, float* rho,
+void robust_costs(RobustKind kind, double delta, const float* squares, float* rho,
                   float* root){TEXTPLANE_SIMD_DISPATCH(robust_costs(kind, delta, squares, rho, root))}
 
 TEST(RobustOps, CostsAndWeights) {
@@ -27,7 +26,7 @@ TEST(RobustOps, CostsAndWeights) {
         for (double e = 1e-4; e < 1e3; e *= 1.07) {
           float squares[16], rho[16], root[16];
           for (int i = 0; i < 16; ++i) squares[i] = static_cast<float>(e * e * (1 + 0.008 * i));
-          robust_costs(static_cast<simd::RobustKind>(kind), delta, squares, rho, root);
+          robust_costs(kind, delta, squares, rho, root);
           const Robust robust{kind, delta};
           for (int i = 0; i < simd::lanes(target); ++i) {
             const double square = static_cast<double>(squares[i]), weight = robust.weight(square);
@@ -51,7 +50,7 @@ TEST(RobustOps, ExtremesStayNumbers) {
         for (const float square : {0.0F, 1e-30F, 1.0F, 1e20F}) {
           float squares[16], rho[16], root[16];
           for (float& s : squares) s = square;
-          robust_costs(static_cast<simd::RobustKind>(kind), delta, squares, rho, root);
+          robust_costs(kind, delta, squares, rho, root);
           EXPECT_TRUE(std::isfinite(rho[0]) && rho[0] >= 0 && root[0] >= 0 && root[0] <= 1.0000003F)
               << square << ' ' << delta << ' ' << rho[0] << ' ' << root[0];
           if (square == 0.0F) {

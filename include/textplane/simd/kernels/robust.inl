@@ -1,4 +1,4 @@
-// Cauchy's and Tukey's costs and weights. Include before: the operations.
+// The costs and weights that weigh all pixels (core/robust.hpp) as vectors. Include before: the operations.
 
 // log(1 + u) within 5e-7 of itself, 0 <= u <= 1e30.
 TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
@@ -15,18 +15,17 @@ TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
 // What a loop over residuals needs, made before it.
 struct RobustVectors {
   vf squared, inverse;  // delta^2, 1 / delta^2
-  bool tukey;
+  RobustKind kind;
 };
-TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(simd::RobustKind kind, double delta) noexcept {
+TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(RobustKind kind, double delta) noexcept {
   const double d = delta < 1e-12 ? 1e-12 : delta > 1e12 ? 1e12 : delta, squared = d * d;
-  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)),
-                       kind == simd::RobustKind::tukey};
+  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)), kind};
 }
 
 // The cost of e^2 and the root of its weight.
 TEXTPLANE_SIMD_INLINE void robust_vector(const RobustVectors& r, vf squares, vf* rho, vf* root) noexcept {
   const vf one = set1(1.0F), u = mul(squares, r.inverse);
-  if (r.tukey) {
+  if (r.kind == RobustKind::tukey) {
     const vf m = min_(u, one), rest = madd(m, madd(m, set1(1.0F / 3), set1(-1.0F)), one);
     *rho = mul(mul(m, r.squared), rest);
     *root = sub(one, m);

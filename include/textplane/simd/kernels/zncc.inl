@@ -2,7 +2,7 @@
 
 TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
   simd::ResidualArgs a = z.base;
-  a.robust = simd::RobustKind::l2;
+  a.robust = RobustKind::l2;
   a.flags = nullptr;
   for (int i = 0; i < z.count; ++i) {
     const double *R = z.pose + i * z.pose_step, *t = R + z.t_offset;

@@ -19,12 +19,13 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 }
 
 // The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i
-// c). Costs. `kind`: l2, huber, or cauchy for both of those that weigh all.
-TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, simd::RobustKind kind,
-                                       const simd::BatchArgs& a, vf host_scale, vf target_scale, const vf* mean,
-                                       const vf* along, vf* cost, vf* error) noexcept {
-  const bool huber = kind == simd::RobustKind::huber, all = kind == simd::RobustKind::cauchy;
-  const RobustVectors robust = all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), false};
+// c). Costs. `kind`: l2, huber, or cauchy for all that weigh all.
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, RobustKind kind, const simd::BatchArgs& a,
+                                       vf host_scale, vf target_scale, const vf* mean, const vf* along, vf* cost,
+                                       vf* error) noexcept {
+  const bool huber = kind == RobustKind::huber, all = kind == RobustKind::cauchy;
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf limit = set1(huber ? static_cast<float>(a.delta) : 0.0F), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
@@ -59,7 +60,7 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, si
 // Not inline: one copy for all numbers of parameters.
 TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int parameters, const vf* scales,
                                           const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
+  batch_weigh(a.scratch, n, parameters, RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 
 // Samples all pixels of a vector of objects, strip by strip.
@@ -164,13 +165,13 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       }
     }
     const vf scales[2] = {host_scale, target_scale};
-    if (a.robust == simd::RobustKind::huber)
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
-    else if (simd::weighs_all(a.robust))
+    if (a.robust == RobustKind::huber)
+      batch_weigh(a.scratch, n, parameters, RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
+    else if (weighs_all(a.robust))
       batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
                       &error);
     else
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
+      batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));

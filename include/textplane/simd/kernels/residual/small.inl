@@ -59,7 +59,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
 
-  const bool huber = a.robust == simd::RobustKind::huber;
+  const bool huber = a.robust == RobustKind::huber;
   const float delta = static_cast<float>(a.delta);
   const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
   const vf by_i = set1(static_cast<float>(i_scale));
@@ -226,7 +226,7 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const Re
   collect_values(host, f, 0, host.n, s, &strip);
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, host.n, &pixels, info);
-  if (simd::weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
+  if (weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
   return status;
 }
 
@@ -245,7 +245,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
   if (status != Status::ok) return status;
-  if (simd::weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
+  if (weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
 
   const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
   float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];

@@ -176,7 +176,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   const double count = m.n, root = sqrt_d(count);
   const ResidualArrays s = template_arrays(m, a.scratch);
   int outliers = 0;
-  if (a.robust != simd::RobustKind::l2) {
+  if (a.robust != RobustKind::l2) {
     const double error = info->error;
     widen_values(values, m.n, s.d);
     outliers = add_costs(a, s, m.n, r, derivatives ? s.list : nullptr, info);
@@ -200,7 +200,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
 
   WeightedSums sums;
   template_unweighted(m, exact, mean, norm, info->error, &sums);
-  template_outliers(a, s, outliers, simd::weighs_all(a.robust), r, root, &sums);
+  template_outliers(a, s, outliers, weighs_all(a.robust), r, root, &sums);
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }

@@ -44,9 +44,8 @@ TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, 
 }
 
 // The same for Cauchy and Tukey.
-TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r,
-                                             simd::RobustKind kind, double delta, double* squares,
-                                             double* rho) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r, RobustKind kind,
+                                             double delta, double* squares, double* rho) noexcept {
   const RobustVectors robust = broadcast_robust(kind, delta);
   const vf shift = set1(static_cast<float>(r.shift));
   const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
@@ -71,10 +70,10 @@ TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualA
                                     std::int32_t* list, simd::ResidualInfo* info) noexcept {
   double squares = 0, rho = 0;
   int weighted = n;
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     add_weighted_costs(s.d, s.i, n, r, a.robust, a.delta, &squares, &rho);
   else
-    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == simd::RobustKind::huber, static_cast<float>(a.delta), list,
+    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == RobustKind::huber, static_cast<float>(a.delta), list,
                                &squares, &rho);
   info->error = squares / n;
   info->cost = rho / n;
@@ -92,7 +91,8 @@ struct WeightedStrip {
 TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
                                           const std::int32_t* list, int begin, int n, const Residual& res, double root,
                                           bool complement, WeightedStrip* w, double* sums) noexcept {
-  const RobustVectors robust = all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), false};
+  const RobustVectors robust =
+      all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
   const vf shift = set1(static_cast<float>(res.shift)), limit = set1(static_cast<float>(args.delta));
   const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
@@ -152,7 +152,7 @@ TEXTPLANE_SIMD_ENTRY void weigh_all(const simd::ResidualArgs& a, const ResidualA
 TEXTPLANE_SIMD_INLINE void weigh_strip(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
                                        int begin, int n, const Residual& r, double root, bool complement,
                                        WeightedStrip* w, double* sums) noexcept {
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     weigh_all(a, s, begin, n, r, root, w, sums);
   else
     weigh_huber(a, s, list, begin, n, r, root, complement, w, sums);

@@ -1,4 +1,4 @@
-#include "textplane/photometry/robust.hpp"
+#include "textplane/core/robust.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace robust_test {
 
 constexpr RobustKind kKinds[] = {RobustKind::l2, RobustKind::huber, RobustKind::cauchy, RobustKind::tukey};
 
-TEST(Robust, WeightIsTheDerivativeOfRho) {
+TEST(Robust, WeightAndCurvatureAreDerivativesOfRho) {
   for (const RobustKind kind : kKinds)
     for (const double delta : {0.3, 1.0, 2.7}) {
       const Robust robust{kind, delta};
@@ -22,6 +22,8 @@ TEST(Robust, WeightIsTheDerivativeOfRho) {
         if (std::abs(r2 - delta * delta) <= h) continue;  // the second derivative jumps there
         const double slope = (robust.rho(r2 + h) - robust.rho(r2 - h)) / (2 * h);
         ASSERT_NEAR(robust.weight(r2), slope, 1e-8) << static_cast<int>(kind) << " at " << r << " of " << delta;
+        const double bend = (robust.weight(r2 + h) - robust.weight(r2 - h)) / (2 * h);
+        ASSERT_NEAR(robust.curvature(r2), bend, 1e-7 * (1 + std::abs(bend))) << static_cast<int>(kind) << " at " << r;
       }
     }
 }

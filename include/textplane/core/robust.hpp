@@ -1,6 +1,6 @@
-// Robust costs as functions of the squared residual.
-#ifndef TEXTPLANE_PHOTOMETRY_ROBUST_HPP
-#define TEXTPLANE_PHOTOMETRY_ROBUST_HPP
+// Robust costs as functions of the squared residual. simd/kernels/robust.inl has them as vectors.
+#ifndef TEXTPLANE_CORE_ROBUST_HPP
+#define TEXTPLANE_CORE_ROBUST_HPP
 
 #include <cmath>
 #include <cstdint>
@@ -11,6 +11,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// The shape of a robust cost: see Robust.
 enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
+
+/// True where all pixels have weights other than 1: L2 has none, and Huber's cost for outliers alone.
+constexpr bool weighs_all(RobustKind kind) noexcept { return kind != RobustKind::l2 && kind != RobustKind::huber; }
 
 /// A robust cost rho(r^2) that is r^2 near zero, and its derivative, the weight of iteratively re-weighted least
 /// squares.
@@ -62,8 +65,20 @@ struct Robust {
     }
     return 1.0;
   }
+
+  /// d weight / d r2, at most 0: with rho and weight what a loss function of Ceres returns.
+  double curvature(double r2) const noexcept {
+    const double d2 = delta * delta, w = weight(r2);
+    switch (kind) {
+      case RobustKind::l2: return 0.0;
+      case RobustKind::huber: return r2 <= d2 ? 0.0 : -0.5 * w / r2;
+      case RobustKind::cauchy: return -w * w / d2;
+      case RobustKind::tukey: return r2 >= d2 ? 0.0 : -2.0 * (1.0 - r2 / d2) / d2;
+    }
+    return 0.0;
+  }
 };
 
 TEXTPLANE_END_NAMESPACE
 
-#endif  // TEXTPLANE_PHOTOMETRY_ROBUST_HPP
+#endif  // TEXTPLANE_CORE_ROBUST_HPP
