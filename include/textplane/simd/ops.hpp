@@ -2,15 +2,17 @@
 //
 //   vf, vi, vm  kLanes floats, int32 and truth values
 //   v16         k16Lanes = 2 kLanes int16, for fixed-point interpolation and exact integer sums
-//   vb, vh, vw  kBytes bytes, kShorts int16 and their int32 sums: integer kernels, exact on every target
-//   vd, vp      8 doubles; kDoubles doubles
+//   vw          sums of products of int16
+//   vb          kBytes bytes: integer kernels, exact on every target
+//   vp, vd      kDoubles doubles; 8 doubles
 //   taps_t      the four pixels around each of kLanes positions
 //
 // Tiles: bilinear taps of pixels that follow each other closely. Eight cells in a row that lie in a tile of 16 x 3
 // pixels take one shuffle for each of its rows in place of two loads a pixel (kernels/tiles.inl).
 //
-// ops/scalar.inl defines each operation in plain C++; the other files in ops/ say the same in intrinsics. Only kernels
-// use them: a vector type never crosses the border of a region.
+// ops/scalar.inl defines each operation in plain C++; the files of the other targets say the same in intrinsics.
+// ops/derived.inl has those that read the same on all of them. Only kernels use them: a vector type never crosses the
+// border of a region.
 #ifndef TEXTPLANE_SIMD_OPS_HPP
 #define TEXTPLANE_SIMD_OPS_HPP
 

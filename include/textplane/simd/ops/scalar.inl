@@ -27,7 +27,7 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
 }
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return p[*at]; }  // p[at[i]]
 
-// --- float arithmetic: IEEE, each operation rounded once ---
+// --- float arithmetic ---
 // a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
