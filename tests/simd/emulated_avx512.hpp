@@ -79,43 +79,26 @@ inline float round(float value, int mode) {
   }
 }
 
-/// Quarters of a, a, b and b, each chosen by two bits of `order`.
-inline __m512 shuffle_quarters(std::uint64_t mask, const __m512& a, const __m512& b, int order) {
-  const auto low = lanes<float>(a), high = lanes<float>(b);
-  return masked<float, __m512>(mask, [&](std::size_t i) {
-    const std::size_t source = 4 * (static_cast<std::size_t>(order) >> (2 * (i / 4)) & 3u) + i % 4;
-    return i < 8 ? low[source] : high[source];
-  });
-}
-
 }  // namespace emulated
 
 #undef _mm512_maskz_loadu_ps
 #define _mm512_maskz_loadu_ps(m, p) (emulated::load<float, __m512>((m), (p)))
-#undef _mm512_maskz_loadu_epi32
-#define _mm512_maskz_loadu_epi32(m, p) (emulated::load<std::int32_t, __m512i>((m), (p)))
 #undef _mm512_maskz_loadu_epi8
 #define _mm512_maskz_loadu_epi8(m, p) (emulated::load<std::int8_t, __m512i>((m), (p)))
-#undef _mm_maskz_loadu_epi8
-#define _mm_maskz_loadu_epi8(m, p) (emulated::load<std::int8_t, __m128i>((m), (p)))
 #undef _mm512_mask_storeu_ps
 #define _mm512_mask_storeu_ps(p, m, v) (emulated::store<float>((p), (m), (v)))
-#undef _mm512_mask_storeu_epi32
-#define _mm512_mask_storeu_epi32(p, m, v) (emulated::store<std::int32_t>((p), (m), (v)))
 #undef _mm512_mask_storeu_epi8
 #define _mm512_mask_storeu_epi8(p, m, v) (emulated::store<std::int8_t>((p), (m), (v)))
 #undef _mm512_maskz_cvtepi32_ps
 #define _mm512_maskz_cvtepi32_ps(m, a) (emulated::convert<float, std::int32_t, __m512>((m), (a)))
-#undef _mm512_maskz_cvtepu8_epi32
-#define _mm512_maskz_cvtepu8_epi32(m, a) (emulated::convert<std::int32_t, std::uint8_t, __m512i>((m), (a)))
 #undef _mm512_maskz_cvtepi32_epi8
 #define _mm512_maskz_cvtepi32_epi8(m, a) (emulated::convert<std::int8_t, std::int32_t, __m128i>((m), (a)))
+#undef _mm512_maskz_cvtepi32_pd
+#define _mm512_maskz_cvtepi32_pd(m, a) (emulated::convert<double, std::int32_t, __m512d>((m), (a)))
 #undef _mm512_maskz_cvtps_pd
 #define _mm512_maskz_cvtps_pd(m, a) (emulated::convert<double, float, __m512d>((m), (a)))
 #undef _mm512_maskz_cvtepi16_epi32
 #define _mm512_maskz_cvtepi16_epi32(m, a) (emulated::convert<std::int32_t, std::int16_t, __m512i>((m), (a)))
-#undef _mm512_maskz_cvtepi32_epi16
-#define _mm512_maskz_cvtepi32_epi16(m, a) (emulated::convert<std::int16_t, std::int32_t, __m256i>((m), (a)))
 #undef _mm512_maskz_cvtpd_ps
 #define _mm512_maskz_cvtpd_ps(m, a) (emulated::convert<float, double, __m256>((m), (a)))
 #undef _mm512_maskz_cvttps_epi32
@@ -125,12 +108,6 @@ inline __m512 shuffle_quarters(std::uint64_t mask, const __m512& a, const __m512
 #undef _mm512_maskz_extractf32x8_ps
 #define _mm512_maskz_extractf32x8_ps(m, a, half) \
   (emulated::masked<float, __m256>((m), [&](std::size_t i) { return emulated::lanes<float>(a)[8 * (half) + i]; }))
-#undef _mm512_maskz_shuffle_f32x4
-#define _mm512_maskz_shuffle_f32x4(m, a, b, order) (emulated::shuffle_quarters((m), (a), (b), (order)))
-#undef _mm512_maskz_srli_epi32
-#define _mm512_maskz_srli_epi32(m, a, bits)  \
-  (emulated::masked<std::uint32_t, __m512i>( \
-      (m), [&](std::size_t i) { return emulated::lanes<std::uint32_t>(a)[i] >> (bits); }))
 #undef _mm512_maskz_sqrt_ps
 #define _mm512_maskz_sqrt_ps(m, a) \
   (emulated::masked<float, __m512>((m), [&](std::size_t i) { return std::sqrt(emulated::lanes<float>(a)[i]); }))
@@ -146,10 +123,5 @@ inline __m512 shuffle_quarters(std::uint64_t mask, const __m512& a, const __m512
 #define _mm512_maskz_roundscale_ps(m, a, mode) \
   (emulated::masked<float, __m512>(            \
       (m), [&](std::size_t i) { return emulated::round(emulated::lanes<float>(a)[i], (mode)); }))
-// SIMDe's macro asks for the arguments of the masked form.
-#undef _mm512_madd_epi16
-#define _mm512_madd_epi16(a, b) simde_mm512_madd_epi16((a), (b))
-#undef _mm512_cmplt_epi32_mask
-#define _mm512_cmplt_epi32_mask(a, b) simde_mm512_cmpgt_epi32_mask((b), (a))
 
 #endif  // TEXTPLANE_TESTS_SIMD_EMULATED_AVX512_HPP
