@@ -9,7 +9,7 @@ constexpr bool kManyRegisters = true;  // 32
 using vf = __m512;
 using vi = __m512i;
 using vm = __mmask16;
-constexpr vm kAll = 0xffff;
+constexpr vm kFull = 0xffff;
 
 #include "textplane/simd/ops/x86_wide.inl"
 
@@ -20,7 +20,7 @@ TEXTPLANE_SIMD_INLINE vi ioti() noexcept {
   return _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
 }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept {
-  return n >= 16 ? kAll : static_cast<vm>((1u << (n < 0 ? 0 : n)) - 1u);
+  return n >= 16 ? kFull : static_cast<vm>((1u << (n < 0 ? 0 : n)) - 1u);
 }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm512_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
@@ -46,24 +46,24 @@ TEXTPLANE_SIMD_INLINE __m256i gather_eight(const float* p, const int* at) noexce
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return _mm512_castsi512_ps(join256(gather_eight(p, at), gather_eight(p, at + 8)));
 }
-TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kAll, a); }
+TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kFull, a); }
 
 // --- float arithmetic ---
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
 #if !TEXTPLANE_SIMD_HIDE_MINIMA
-TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kAll, a, b); }
-TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAll, a, b); }
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kFull, a, b); }
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kFull, a, b); }
 #endif
-TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAll, a); }
-TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm512_maskz_rsqrt14_ps(kAll, a); }
-TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAll, _mm512_set1_ps(-0.0f), a); }
+TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kFull, a); }
+TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm512_maskz_rsqrt14_ps(kFull, a); }
+TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kFull, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept {
-  return _mm512_maskz_roundscale_ps(kAll, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+  return _mm512_maskz_roundscale_ps(kFull, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
 
 // --- conversions ---
-TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm512_maskz_cvttps_epi32(kAll, a); }
+TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm512_maskz_cvttps_epi32(kFull, a); }
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm512_castps_si512(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm512_castsi512_ps(a); }
 
@@ -71,13 +71,13 @@ TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm512_castsi512_ps(a)
 TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept { return _mm512_add_epi32(a, b); }
 TEXTPLANE_SIMD_INLINE vi subi(vi a, vi b) noexcept { return _mm512_sub_epi32(a, b); }
 TEXTPLANE_SIMD_INLINE vi muli(vi a, vi b) noexcept { return _mm512_mullo_epi32(a, b); }
-TEXTPLANE_SIMD_INLINE vi mini(vi a, vi b) noexcept { return _mm512_maskz_min_epi32(kAll, a, b); }
-TEXTPLANE_SIMD_INLINE vi maxi(vi a, vi b) noexcept { return _mm512_maskz_max_epi32(kAll, a, b); }
+TEXTPLANE_SIMD_INLINE vi mini(vi a, vi b) noexcept { return _mm512_maskz_min_epi32(kFull, a, b); }
+TEXTPLANE_SIMD_INLINE vi maxi(vi a, vi b) noexcept { return _mm512_maskz_max_epi32(kFull, a, b); }
 TEXTPLANE_SIMD_INLINE vi shl(vi a, int bits) noexcept {
-  return _mm512_maskz_sll_epi32(kAll, a, _mm_cvtsi32_si128(bits));
+  return _mm512_maskz_sll_epi32(kFull, a, _mm_cvtsi32_si128(bits));
 }
 TEXTPLANE_SIMD_INLINE vi shr(vi a, int bits) noexcept {
-  return _mm512_maskz_sra_epi32(kAll, a, _mm_cvtsi32_si128(bits));
+  return _mm512_maskz_sra_epi32(kFull, a, _mm_cvtsi32_si128(bits));
 }
 TEXTPLANE_SIMD_INLINE vi andi(vi a, vi b) noexcept { return _mm512_and_si512(a, b); }
 TEXTPLANE_SIMD_INLINE vi ori(vi a, vi b) noexcept { return _mm512_or_si512(a, b); }
@@ -95,7 +95,7 @@ TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm512_mask_
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm512_maskz_mov_ps(m, a); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return _mm_popcnt_u32(m); }
-TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kAll; }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kFull; }
 
 // --- reductions ---
 TEXTPLANE_SIMD_INLINE __m256 lower_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 0); }
@@ -178,7 +178,7 @@ TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept {
 TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept {
   return join256(join128(p[0], p[1]), join128(p[2], p[3]));
 }
-TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm512_maskz_broadcast_i32x4(kAll, p); }
+TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm512_maskz_broadcast_i32x4(kFull, p); }
 TEXTPLANE_SIMD_INLINE v16 load_groups(const std::uint8_t* p) noexcept {
   const __m512i overlapping = _mm512_setr_epi64(0, 1, 1, 2, 2, 3, 3, 4);
   return _mm512_maskz_permutexvar_epi64(0xff, overlapping, loadb_n(p, kPairsReach));
@@ -204,8 +204,8 @@ TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
   return join256(gather_pairs8(p, offset), gather_pairs8(p, offset + 8));
 }
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAll, lower_half(v)); }
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAll, upper_half(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kFull, lower_half(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kFull, upper_half(v)); }
 
 // --- doubles ---
 enum : int { kDoubles = 8 };
@@ -271,7 +271,7 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
   *b = _mm512_permutex2var_ps(lo, odd, hi);
 }
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
-  store128(p, _mm512_maskz_cvtepi32_epi8(kAll, v));
+  store128(p, _mm512_maskz_cvtepi32_epi8(kFull, v));
 }
 
 // --- tiles of int16 cells ---
