@@ -40,6 +40,7 @@ TEXTPLANE_SIMD_ENTRY void int_operations(const int* pa, const int* pb, int shift
   storei(out + kLanes * k++, shl(a, 3));
   storei(out + kLanes * k++, shr(a, 3));
   storei(out + kLanes * k++, seti(pa[0]));
+  storei(out + kLanes * k++, ioti());
 }
 
 TEXTPLANE_SIMD_ENTRY void conversions(const float* pa, const int* pb, int* ints, float* floats) noexcept {

@@ -106,13 +106,13 @@ TEST(Vec, IntOperationsWrap) {
   on_each_target([](Target, int lanes) {
     const std::size_t n = kInts.size();
     for (std::size_t first = 0; first < n * n; first += 3) {
-      int a[kMost], b[kMost], out[12 * kMost];
+      int a[kMost], b[kMost], out[13 * kMost];
       for (std::size_t i = 0; i < kMost; ++i) a[i] = kInts[(first + i) % (n * n) / n], b[i] = kInts[(first + i) % n];
       const int shift = static_cast<int>(first % 32);
       int_operations(a, b, shift, out);
       for (int i = 0; i < lanes; ++i) {
         const std::int64_t x = a[i], y = b[i];
-        const int expected[12] = {
+        const int expected[13] = {
             wrap(x + y),
             wrap(x - y),
             wrap(static_cast<std::int64_t>(static_cast<std::uint64_t>(x) * static_cast<std::uint64_t>(y))),
@@ -124,8 +124,9 @@ TEST(Vec, IntOperationsWrap) {
             a[i] >> shift,
             wrap(x * 8),
             a[i] >> 3,
-            a[0]};
-        for (int k = 0; k < 12; ++k)
+            a[0],
+            i};
+        for (int k = 0; k < 13; ++k)
           EXPECT_EQ(out[lanes * k + i], expected[k]) << "operation " << k << " of " << x << ", " << y;
       }
     }

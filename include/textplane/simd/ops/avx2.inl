@@ -14,6 +14,7 @@ using vm = __m256;  // all bits of a lane
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm256_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm256_set1_epi32(value); }
+TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm256_setr_ps(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 TEXTPLANE_SIMD_INLINE __m256i first_n_bits(int n) noexcept { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), ioti()); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm256_loadu_ps(p); }

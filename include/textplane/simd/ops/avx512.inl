@@ -47,6 +47,7 @@ TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return _mm512_castsi512_ps(join256(gather_eight(p, at), gather_eight(p, at + 8)));
 }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kFull, a); }
+TEXTPLANE_SIMD_INLINE vf iota() noexcept { return to_float(ioti()); }
 
 // --- float arithmetic ---
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm512_fmadd_ps(a, b, c); }

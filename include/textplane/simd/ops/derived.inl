@@ -1,7 +1,6 @@
 // Operations that read the same on every target. The last file of a region's operations.
 
 TEXTPLANE_SIMD_INLINE vf zero() noexcept { return set1(0.0f); }
-TEXTPLANE_SIMD_INLINE vf iota() noexcept { return to_float(ioti()); }
 
 // --- float arithmetic: IEEE, each operation rounded once ---
 TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }

@@ -12,6 +12,7 @@ using vm = uint32x4_t;  // all bits of a lane
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return vdupq_n_f32(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return vdupq_n_s32(value); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return vi{0, 1, 2, 3}; }
+TEXTPLANE_SIMD_INLINE vf iota() noexcept { return vf{0.0f, 1.0f, 2.0f, 3.0f}; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return vld1q_f32(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
 TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { vst1q_f32(p, v); }
@@ -118,15 +119,12 @@ struct taps_t {
   uint32x4_t cells;
 };
 TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return taps_t{vld1q_u32(p)}; }
-TEXTPLANE_SIMD_INLINE vi tap_00(taps_t t) noexcept {
-  return vreinterpretq_s32_u32(vandq_u32(t.cells, vdupq_n_u32(255u)));
+TEXTPLANE_SIMD_INLINE vi low_bytes(uint32x4_t cells) noexcept {
+  return vreinterpretq_s32_u32(vandq_u32(cells, vdupq_n_u32(255u)));
 }
-TEXTPLANE_SIMD_INLINE vi tap_10(taps_t t) noexcept {
-  return vreinterpretq_s32_u32(vandq_u32(vshrq_n_u32(t.cells, 8), vdupq_n_u32(255u)));
-}
-TEXTPLANE_SIMD_INLINE vi tap_01(taps_t t) noexcept {
-  return vreinterpretq_s32_u32(vandq_u32(vshrq_n_u32(t.cells, 16), vdupq_n_u32(255u)));
-}
+TEXTPLANE_SIMD_INLINE vi tap_00(taps_t t) noexcept { return low_bytes(t.cells); }
+TEXTPLANE_SIMD_INLINE vi tap_10(taps_t t) noexcept { return low_bytes(vshrq_n_u32(t.cells, 8)); }
+TEXTPLANE_SIMD_INLINE vi tap_01(taps_t t) noexcept { return low_bytes(vshrq_n_u32(t.cells, 16)); }
 TEXTPLANE_SIMD_INLINE vi tap_11(taps_t t) noexcept { return vreinterpretq_s32_u32(vshrq_n_u32(t.cells, 24)); }
 TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept { return vcvtq_f32_s32(tap_00(t)); }
 TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return vcvtq_f32_s32(vsubq_s32(tap_10(t), tap_00(t))); }

@@ -14,7 +14,8 @@ using vm = bool;   // kLanes truth values
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return value; }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return value; }
-TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }  // 0, 1, 2, ...
+TEXTPLANE_SIMD_INLINE vf iota() noexcept { return 0.0f; }  // 0, 1, 2, ...
+TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return 0; }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return *p; }
 // The same value, in a register from here on: g++ would load it again for each use.
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }

@@ -12,6 +12,7 @@ using vm = __m128;  // all bits of a lane
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm_set1_epi32(value); }
+TEXTPLANE_SIMD_INLINE vf iota() noexcept { return _mm_setr_ps(0.0f, 1.0f, 2.0f, 3.0f); }
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return _mm_setr_epi32(0, 1, 2, 3); }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
