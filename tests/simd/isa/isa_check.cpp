@@ -3,7 +3,8 @@
 //
 //   isa_check regions OBJECT [HEADER...]
 //     A function may hold the instructions of its own target and no wider ones; whatever is outside the target
-//     namespaces has the baseline. There must be AVX2 and AVX-512 kernels, and every kernel that the HEADERs dispatch to.
+//     namespaces has the baseline. There must be AVX2 and AVX-512 kernels, and every kernel that the HEADERs dispatch
+//     to.
 //   isa_check shared BASELINE WIDE
 //     No weak function that both objects define holds an AVX instruction in WIDE: the linker keeps either copy, and an
 //     old CPU would die of it. WIDE must hold some.
