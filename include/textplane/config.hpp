@@ -70,18 +70,19 @@
   }                             \
   }
 
-// Deferred functions. A function of no template parameter of its own is compiled in every file that includes its
-// header. A deferred one, TEXTPLANE_DEFERRED before it, is compiled where it is called; callers do not see the
-// parameter. A program with compiled kernels (simd/targets.hpp) compiles it once: the header ends with a line
-// TEXTPLANE_INSTANCE for it, inside `#if defined(TEXTPLANE_EXTERN_KERNELS)`, which is its definition in the one file
-// that defines the kernels and a declaration in all others.
+// Deferred functions. An inline function is compiled in every file that includes its header. A function after
+// TEXTPLANE_DEFERRED is compiled only where it is called; callers do not see the template parameter. A program with
+// compiled kernels (simd/targets.hpp) compiles it once: TEXTPLANE_INSTANCE(signature), at the end of the header, defines
+// it in the one file that defines the kernels and declares it in all others. In other programs it does nothing.
 #define TEXTPLANE_DEFERRED template <class = void>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
 #undef TEXTPLANE_EXTERN_KERNELS
 #define TEXTPLANE_EXTERN_KERNELS
-#define TEXTPLANE_INSTANCE template
+#define TEXTPLANE_INSTANCE(...) template __VA_ARGS__
+#elif defined(TEXTPLANE_EXTERN_KERNELS)
+#define TEXTPLANE_INSTANCE(...) extern template __VA_ARGS__
 #else
-#define TEXTPLANE_INSTANCE extern template
+#define TEXTPLANE_INSTANCE(...) static_assert(true, "") /* for the semicolon */
 #endif
 
 // Checks of preconditions that only a bug in the caller can break. Off unless the embedder defines the macro, for

@@ -31,8 +31,7 @@ enum class PoseOrder {
   translation_quaternion,  ///< x y z qx qy qz qw: TUM, VINS.
 };
 
-/// Numbers of a pose block.
-constexpr int kPoseSize = 7;
+constexpr int kPoseSize = 7;  ///< Numbers of a pose block.
 
 namespace detail {
 constexpr int quaternion_at(PoseOrder order) noexcept { return order == PoseOrder::quaternion_translation ? 0 : 3; }
@@ -109,10 +108,8 @@ class PoseManifold : public ceres::Manifold {
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class PoseManifold : public ceres::LocalParameterization {
  public:
-  /// Seven.
-  int GlobalSize() const override { return kPoseSize; }
-  /// Six.
-  int LocalSize() const override { return 6; }
+  int GlobalSize() const override { return kPoseSize; }  ///< Seven.
+  int LocalSize() const override { return 6; }           ///< Six.
   /// T Exp(delta).
   bool Plus(const double* x, const double* delta, double* out) const override {
     const Vector6<double> xi = Eigen::Map<const Vector6<double>>(delta);

@@ -65,12 +65,10 @@ class WindowProblem {
 
   /// ok, or that of solve_window() for a window or options that cannot be: the problem is then empty.
   Status status() const noexcept { return status_; }
-  /// To add costs of one's own to.
-  ceres::Problem& problem() noexcept { return problem_; }
+  ceres::Problem& problem() noexcept { return problem_; }  ///< To add costs of one's own to.
   /// The block of a frame's pose.
   double* pose(int frame) noexcept { return poses_[static_cast<std::size_t>(frame)].data(); }
-  /// Observations that were left out.
-  int left_out() const noexcept { return left_out_; }
+  int left_out() const noexcept { return left_out_; }  ///< Observations that were left out.
 
   /// Tolerances, damping and the limit of iterations of the WindowOptions; SPARSE_SCHUR, one thread, landmarks
   /// eliminated first: blocks of your own go into linear_solver_ordering too, in group 1.

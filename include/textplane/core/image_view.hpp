@@ -50,8 +50,7 @@ class ImageView {
   T* row(int y) const noexcept {
     return reinterpret_cast<T*>(reinterpret_cast<Byte*>(data_) + static_cast<std::ptrdiff_t>(y) * stride_);
   }
-  /// The pixel at column x, row y, not checked.
-  T& operator()(int x, int y) const noexcept { return row(y)[x]; }
+  T& operator()(int x, int y) const noexcept { return row(y)[x]; }  ///< The pixel at column x, row y, not checked.
 
   /// (x, y) lies in [0, width - 1] x [0, height - 1], where bilinear interpolation is defined. False for NaN.
   template <class S>

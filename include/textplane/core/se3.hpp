@@ -33,8 +33,7 @@ struct SE3 {
   Vector3<S> operator*(const Vector3<S>& p) const noexcept { return product(R, p) + t; }
   /// First `b`, then this: T_a_b T_b_c = T_a_c.
   SE3 operator*(const SE3& b) const noexcept { return {product(R, b.R), product(R, b.t) + t}; }
-  /// Destination to source.
-  SE3 inverse() const noexcept { return {transposed(R), -transposed_product(R, t)}; }
+  SE3 inverse() const noexcept { return {transposed(R), -transposed_product(R, t)}; }  ///< Destination to source.
 
   /// The same of another scalar.
   template <class U>

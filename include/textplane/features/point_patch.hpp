@@ -21,8 +21,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Largest radius of a patch: 21 x 21 samples.
-constexpr int kMaxPatchRadius = 10;
+constexpr int kMaxPatchRadius = 10;  ///< Largest radius of a patch: 21 x 21 samples.
 
 /// A normalised patch with gradients, ready to be aligned: columns x rows samples. The sample at (left, top) is the
 /// point, up to (dx, dy). Fixed capacity (4 KB), no allocation, freely copied.
@@ -52,8 +51,7 @@ struct PointPatch {
   double along_y = 0;    ///< Share of T - mean in gy.
   simd::KltPatch patch;  ///< Samples and gradients.
 
-  /// Number of samples.
-  int count() const noexcept { return columns * rows; }
+  int count() const noexcept { return columns * rows; }  ///< Number of samples.
   /// Population standard deviation of the intensities.
   float contrast() const noexcept { return count() > 0 ? s / std::sqrt(static_cast<float>(count())) : 0.0F; }
 

@@ -238,14 +238,12 @@ TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, cons
   return make_patch(pyramid.view(), camera, quad, options);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE Status select_pixels<void>(const ImageView8&, const Quad<double>&, const SelectOptions&,
-                                              std::vector<Vector2<float>>&);
-TEXTPLANE_INSTANCE TextPatch make_patch<void>(const PyramidView&, const Pinhole<double>&, const Quad<double>&,
-                                              const SelectOptions&);
-TEXTPLANE_INSTANCE TextPatch make_patch<void>(const ImageView8&, const Pinhole<double>&, const Quad<double>&,
-                                              const SelectOptions&);
-#endif
+TEXTPLANE_INSTANCE(Status select_pixels<void>(const ImageView8&, const Quad<double>&, const SelectOptions&,
+                                              std::vector<Vector2<float>>&));
+TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const PyramidView&, const Pinhole<double>&, const Quad<double>&,
+                                              const SelectOptions&));
+TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const ImageView8&, const Pinhole<double>&, const Quad<double>&,
+                                              const SelectOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

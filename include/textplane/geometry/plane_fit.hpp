@@ -257,11 +257,9 @@ PlaneFit<S> plane_from_points(const Points& p) noexcept {
   return plane_from_points<S>(p.data(), static_cast<int>(p.size()));
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE PlaneFit<double> plane_from_matches<double>(const Vector3<double>*, const Vector3<double>*, int,
-                                                               const SE3<double>&, const double*) noexcept;
-TEXTPLANE_INSTANCE PlaneFit<double> plane_from_points<double>(const Vector3<double>*, int, const double*) noexcept;
-#endif
+TEXTPLANE_INSTANCE(PlaneFit<double> plane_from_matches<double>(const Vector3<double>*, const Vector3<double>*, int,
+                                                               const SE3<double>&, const double*) noexcept);
+TEXTPLANE_INSTANCE(PlaneFit<double> plane_from_points<double>(const Vector3<double>*, int, const double*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 

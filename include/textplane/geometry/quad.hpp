@@ -43,14 +43,11 @@ class ConvexPolygon {
  public:
   static constexpr int kCapacity = 16;  ///< Most vertices that it holds.
 
-  /// Number of vertices.
-  int size() const noexcept { return size_; }
-  /// Whether it has no vertices.
-  bool empty() const noexcept { return size_ == 0; }
+  int size() const noexcept { return size_; }         ///< Number of vertices.
+  bool empty() const noexcept { return size_ == 0; }  ///< Whether it has no vertices.
   /// Vertex i, not checked.
   const Vector2<S>& operator[](int i) const noexcept { return vertex_[static_cast<std::size_t>(i)]; }
-  /// Removes all vertices.
-  void clear() noexcept { size_ = 0; }
+  void clear() noexcept { size_ = 0; }  ///< Removes all vertices.
   /// Appends a vertex; drops it where the polygon is full.
   void push(const Vector2<S>& p) noexcept {
     if (size_ < kCapacity) vertex_[static_cast<std::size_t>(size_++)] = p;

@@ -69,10 +69,8 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
 /// No allocation.
 class BlurKernel {
  public:
-  /// px, of the widest kernel.
-  static constexpr int kMaxRadius = 8;
-  /// px^2, of the widest kernel.
-  static constexpr double kMaxVariance = 9.0;
+  static constexpr int kMaxRadius = 8;         ///< px, of the widest kernel.
+  static constexpr double kMaxVariance = 9.0;  ///< px^2, of the widest kernel.
 
   /// The kernel of a covariance in px^2.
   template <class S = double>  // instantiated where it is called: including the header costs little
@@ -92,12 +90,9 @@ class BlurKernel {
     for (int i = 0; i < width() * width(); ++i) weights_[i] = static_cast<float>(raw[i] / sum);
   }
 
-  /// px: weights beyond it are zero.
-  int radius() const noexcept { return radius_; }
-  /// px: weights in a row.
-  int width() const noexcept { return 2 * radius_ + 1; }
-  /// |x|, |y| <= radius().
-  float at(int x, int y) const noexcept { return weights_[index(x, y)]; }
+  int radius() const noexcept { return radius_; }                          ///< px: weights beyond it are zero.
+  int width() const noexcept { return 2 * radius_ + 1; }                   ///< px: weights in a row.
+  float at(int x, int y) const noexcept { return weights_[index(x, y)]; }  ///< |x|, |y| <= radius().
 
  private:
   static constexpr int kSide = 2 * kMaxRadius + 1;

@@ -25,8 +25,7 @@ struct LocalContrastOptions {
   int radius = 6;       ///< px: the square has 2 radius + 1 a side, cut where the image ends; in [1, kMaxRadius].
   double floor = 4.0;   ///< Grey levels: deviations well below this are taken for noise and not made larger.
   double scale = 40.0;  ///< Grey levels that one deviation becomes.
-  /// px, of the largest square.
-  static constexpr int kMaxRadius = 64;
+  static constexpr int kMaxRadius = 64;  ///< px, of the largest square.
 
   /// Whether the numbers make sense.
   bool valid() const noexcept {
@@ -39,8 +38,7 @@ struct LocalContrastOptions {
 /// use one a thread.
 class LocalContrast {
  public:
-  /// With the default options.
-  LocalContrast() = default;
+  LocalContrast() = default;  ///< With the default options.
   /// With these: what is not valid() shows in the status of every call.
   explicit LocalContrast(const LocalContrastOptions& options) : options_(options) {}
 

@@ -14,8 +14,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 class PhotometricWorkspace {
  public:
   PhotometricWorkspace() = default;
-  /// With room for n pixels.
-  explicit PhotometricWorkspace(int n) { reserve(n); }
+  explicit PhotometricWorkspace(int n) { reserve(n); }  ///< With room for n pixels.
 
   /// Makes room for patches of n pixels: some 90 bytes a pixel. The only member that allocates; never shrinks.
   void reserve(int n) {
@@ -33,14 +32,12 @@ class PhotometricWorkspace {
   /// pixel of its patch, 1 where visible. evaluate() leaves it alone, so that it can be passed there as `on_set`.
   const std::uint8_t* visible() const noexcept { return visible_.data(); }
 
-  /// Where the kernels write visible().
-  std::uint8_t* visible_flags() noexcept { return visible_.data(); }
+  std::uint8_t* visible_flags() noexcept { return visible_.data(); }  ///< Where the kernels write visible().
   /// The reference's buffers. A number a visible pixel: host intensity, then residual.
   double* residuals() noexcept { return reinterpret_cast<double*>(aligned()); }
   /// A number a visible pixel: target intensity, then normalised, then robust weight.
   double* intensities() noexcept { return residuals() + visible_.size(); }
-  /// A row of derivatives a visible pixel.
-  double* rows() noexcept { return intensities() + visible_.size(); }
+  double* rows() noexcept { return intensities() + visible_.size(); }  ///< A row of derivatives a visible pixel.
   /// The same memory, as the float kernels use it.
   float* scratch() noexcept { return reinterpret_cast<float*>(aligned()); }
   /// 2 (capacity() + 16) floats more, for the kernels of the template and ESM forms.

@@ -28,8 +28,7 @@ struct PairView {
 class PreparedTarget {
  public:
   PreparedTarget() = default;
-  /// As prepare().
-  explicit PreparedTarget(const ImageView8& image) { prepare(image); }
+  explicit PreparedTarget(const ImageView8& image) { prepare(image); }  ///< As prepare().
 
   /// Fills the pairs of `image`. invalid_argument, and none afterwards, for an image that is not valid() or that the
   /// kernels cannot read (below 2 x 2). Allocates where the image is larger than any before.

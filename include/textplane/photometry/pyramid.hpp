@@ -73,8 +73,7 @@ class Pyramid {
     return Status::ok;
   }
 
-  /// How many levels it has; 0 before it is built.
-  int levels() const noexcept { return count_; }
+  int levels() const noexcept { return count_; }  ///< How many levels it has; 0 before it is built.
 
   /// Level l, an empty view for l outside [0, levels()). It lives as long as the pyramid is neither built anew nor
   /// moved.

@@ -60,18 +60,16 @@ PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace
   return reference::evaluate(request, workspace, on_set);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE NormalEquations<6> linearise<Parameters::pose>(const ResidualRequest<std::uint8_t>&,
-                                                                  PhotometricWorkspace&) noexcept;
-TEXTPLANE_INSTANCE NormalEquations<3> linearise<Parameters::plane>(const ResidualRequest<std::uint8_t>&,
-                                                                   PhotometricWorkspace&) noexcept;
-TEXTPLANE_INSTANCE NormalEquations<9> linearise<Parameters::pose_plane>(const ResidualRequest<std::uint8_t>&,
-                                                                        PhotometricWorkspace&) noexcept;
-TEXTPLANE_INSTANCE NormalEquations<15> linearise<Parameters::host_target_plane>(const ResidualRequest<std::uint8_t>&,
-                                                                                PhotometricWorkspace&) noexcept;
-TEXTPLANE_INSTANCE PhotometricCost evaluate(const ResidualRequest<std::uint8_t>&, PhotometricWorkspace&,
-                                            const std::uint8_t*) noexcept;
-#endif
+TEXTPLANE_INSTANCE(NormalEquations<6> linearise<Parameters::pose>(const ResidualRequest<std::uint8_t>&,
+                                                                  PhotometricWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(NormalEquations<3> linearise<Parameters::plane>(const ResidualRequest<std::uint8_t>&,
+                                                                   PhotometricWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(NormalEquations<9> linearise<Parameters::pose_plane>(const ResidualRequest<std::uint8_t>&,
+                                                                        PhotometricWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(NormalEquations<15> linearise<Parameters::host_target_plane>(const ResidualRequest<std::uint8_t>&,
+                                                                                PhotometricWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PhotometricCost evaluate(const ResidualRequest<std::uint8_t>&, PhotometricWorkspace&,
+                                            const std::uint8_t*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 

@@ -22,10 +22,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 class TemplatePatch {
  public:
   TemplatePatch() = default;
-  /// Moves what was prepared.
-  TemplatePatch(TemplatePatch&&) = default;
-  /// Moves what was prepared.
-  TemplatePatch& operator=(TemplatePatch&&) = default;
+  TemplatePatch(TemplatePatch&&) = default;             ///< Moves what was prepared.
+  TemplatePatch& operator=(TemplatePatch&&) = default;  ///< Moves what was prepared.
   TemplatePatch(const TemplatePatch&) = delete;
   TemplatePatch& operator=(const TemplatePatch&) = delete;
 
@@ -55,10 +53,8 @@ class TemplatePatch {
     return Status::ok;
   }
 
-  /// Whether it was prepared.
-  bool ready() const noexcept { return ready_; }
-  /// Pixels that it was prepared of; 0 before.
-  int size() const noexcept { return ready_ ? model_.n : 0; }
+  bool ready() const noexcept { return ready_; }               ///< Whether it was prepared.
+  int size() const noexcept { return ready_ ? model_.n : 0; }  ///< Pixels that it was prepared of; 0 before.
   /// For the kernels of simd/template.hpp; ready() must be true.
   const simd::TemplateModel& model() const noexcept { return model_; }
 

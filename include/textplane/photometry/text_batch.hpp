@@ -32,8 +32,7 @@ struct TextBatchItem {
 class TextBatch {
  public:
   TextBatch() = default;
-  /// As build().
-  TextBatch(const TextBatchItem* items, int count) { build(items, count); }
+  TextBatch(const TextBatchItem* items, int count) { build(items, count); }  ///< As build().
 
   /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a
   /// negative n or a camera that is not valid() keeps its place, and has Status::invalid_argument in every result.
@@ -57,18 +56,15 @@ class TextBatch {
     return Status::ok;
   }
 
-  /// Objects that it was built of.
-  int size() const noexcept { return static_cast<int>(valid_.size()); }
-  /// Pixels of the largest object.
-  int max_pixels() const noexcept { return most_; }
+  int size() const noexcept { return static_cast<int>(valid_.size()); }  ///< Objects that it was built of.
+  int max_pixels() const noexcept { return most_; }                      ///< Pixels of the largest object.
   /// A new plane for object i, 0 <= i < size().
   void set_plane(int i, const Vector3<double>& theta) noexcept {
     simd::BatchGroup& group = groups_[static_cast<std::size_t>(i / simd::kBatchLanes)];
     for (int k = 0; k < 3; ++k) group.theta[k][i % simd::kBatchLanes] = theta[k];
   }
 
-  /// For the kernels.
-  bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }
+  bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }  ///< For the kernels.
   /// Sets the kernels' pointers to what was built.
   void fill(simd::BatchArgs* args) const noexcept {
     args->groups = groups_.data();
@@ -150,8 +146,7 @@ class TextBatch {
 class TextBatchResult {
  public:
   TextBatchResult() = default;
-  /// With room for the results of `batch`.
-  explicit TextBatchResult(const TextBatch& batch) { reserve(batch); }
+  explicit TextBatchResult(const TextBatch& batch) { reserve(batch); }  ///< With room for the results of `batch`.
 
   /// Makes room for the batch and nine parameters. The only member that allocates; never shrinks.
   void reserve(const TextBatch& batch) {
@@ -170,8 +165,7 @@ class TextBatchResult {
   /// Of object i of the batch, as reference::linearise() would say it; all zero, `visible` excepted, unless
   /// is_ok(status).
   Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
-  /// Robust cost of object i.
-  double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
+  double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }  ///< Robust cost of object i.
   /// E of object i: sum of r^2 over its visible pixels, in [0, 4].
   double error(int i) const noexcept { return detail::range_error(tail(i, simd::BatchEntry::error)); }
   /// ZNCC of object i, 0 unless its status is ok.

@@ -115,16 +115,14 @@ PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta
   return detail::refine_plane(patch, theta, &one, 1, camera, options, workspace);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
+TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
                                                       const Pinhole<double>&, const PlaneOptions&,
-                                                      PlaneWorkspace&) noexcept;
-TEXTPLANE_INSTANCE PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
+                                                      PlaneWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
                                                       int, const Pinhole<double>&, const PlaneOptions&,
-                                                      PlaneWorkspace&) noexcept;
-TEXTPLANE_INSTANCE PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                     const PyramidView&, const Pinhole<double>&, const PlaneOptions&);
-#endif
+                                                      PlaneWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                     const PyramidView&, const Pinhole<double>&, const PlaneOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

@@ -144,12 +144,10 @@ class PlaneProblem {
     return {theta[0] + step[0], theta[1] + step[1], theta[2] + step[2]};
   }
 
-  /// Of the last linearisation.
-  int visible_pixels() const noexcept { return visible_; }
-  int targets_used() const noexcept { return used_; }
-  double mean_zncc() const noexcept { return used_ > 0 ? zncc_ / used_ : 0.0; }
-  /// Of all evaluations so far.
-  Path path() const noexcept { return path_; }
+  int visible_pixels() const noexcept { return visible_; }                       ///< Of the last linearisation.
+  int targets_used() const noexcept { return used_; }                            ///< Likewise.
+  double mean_zncc() const noexcept { return used_ > 0 ? zncc_ / used_ : 0.0; }  ///< Likewise.
+  Path path() const noexcept { return path_; }                                   ///< Of all evaluations so far.
 
  private:
   ResidualRequest<PixelOf<View>> request(int i, const Vector3<double>& theta) const noexcept {

@@ -170,18 +170,16 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
+TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
                                              const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
-                                             float*, float*) noexcept;
-TEXTPLANE_INSTANCE PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
+                                             float*, float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
                                              const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
-                                             float*, float*) noexcept;
-TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidView&, const Pinhole<double>&, const PoseOptions&);
-TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidViewF&, const Pinhole<double>&, const PoseOptions&);
-#endif
+                                             float*, float*) noexcept);
+TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                  const PyramidView&, const Pinhole<double>&, const PoseOptions&));
+TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                  const PyramidViewF&, const Pinhole<double>&, const PoseOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

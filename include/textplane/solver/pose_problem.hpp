@@ -123,8 +123,7 @@ class PoseProblem {
   const PoseTextState& text_state(int i) const noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
   int visible_pixels() const noexcept { return visible_pixels_; }
   int active_texts() const noexcept { return active_texts_; }
-  /// Of all evaluations so far.
-  Path path() const noexcept { return path_; }
+  Path path() const noexcept { return path_; }  ///< Of all evaluations so far.
 
  private:
   using Pixel = PixelOf<View>;

@@ -130,11 +130,9 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
   return search.best();
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE SE3d search_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
+TEXTPLANE_INSTANCE(SE3d search_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
                                           const Pinhole<double>&, const SearchOptions&, PhotometricWorkspace&,
-                                          const TemplatePatch*, float*) noexcept;
-#endif
+                                          const TemplatePatch*, float*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 

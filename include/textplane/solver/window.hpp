@@ -223,10 +223,8 @@ WindowSummary solve_window(Window& window, const WindowOptions& options = {}) {
   return solve_window<S>(window, options, workspace);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE WindowSummary solve_window<double>(Window&, const WindowOptions&, WindowWorkspace&);
-TEXTPLANE_INSTANCE WindowSummary solve_window<double>(Window&, const WindowOptions&);
-#endif
+TEXTPLANE_INSTANCE(WindowSummary solve_window<double>(Window&, const WindowOptions&, WindowWorkspace&));
+TEXTPLANE_INSTANCE(WindowSummary solve_window<double>(Window&, const WindowOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

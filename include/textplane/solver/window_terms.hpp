@@ -160,8 +160,7 @@ class BasicWindowTerms {
       if (t.used_observations > 0) t.zncc /= t.used_observations;
   }
 
-  /// What computed the texts since prepare().
-  Path path() const noexcept { return path_; }
+  Path path() const noexcept { return path_; }  ///< What computed the texts since prepare().
 
   /// Mean distance from the cameras of what the active observations see: the length that steps are compared with.
   double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x,

@@ -22,13 +22,11 @@ struct Pinhole {
   Pinhole(S fx_, S fy_, S cx_, S cy_) noexcept : fx(fx_), fy(fy_), cx(cx_), cy(cy_) {}
   /// Of fx fy cx cy.
   static Pinhole from_parameters(const Eigen::Matrix<S, 4, 1>& p) noexcept { return {p[0], p[1], p[2], p[3]}; }
-  /// fx fy cx cy.
-  Eigen::Matrix<S, 4, 1> parameters() const noexcept { return {fx, fy, cx, cy}; }
+  Eigen::Matrix<S, 4, 1> parameters() const noexcept { return {fx, fy, cx, cy}; }  ///< fx fy cx cy.
 
   /// Finite, with positive focal lengths.
   bool valid() const noexcept { return all_finite(parameters()) && fx > S(0) && fy > S(0); }
-  /// In front of the camera.
-  bool in_domain(const Vector3<S>& p) const noexcept { return p[2] > S(0); }
+  bool in_domain(const Vector3<S>& p) const noexcept { return p[2] > S(0); }  ///< In front of the camera.
 
   /// Pixel of the normalised point m = (x/z, y/z).
   Vector2<S> pixel(const Vector2<S>& m) const noexcept { return {fx * m[0] + cx, fy * m[1] + cy}; }
