@@ -150,7 +150,7 @@ void add_cost(int n) {
 }
 
 // Sixteen objects of n pixels: one object a lane.
-template <int P>
+template <tp::Parameters kUnknowns>
 Work batch_work(int n) {
   constexpr int kObjects = 16;
   const auto cycle = std::make_shared<Cycle>(n, kObjects, false);
@@ -166,7 +166,8 @@ Work batch_work(int n) {
   const auto batch = std::make_shared<tp::TextBatch>(items.data(), kObjects);
   const auto result = std::make_shared<tp::TextBatchResult>(*batch);
   const auto run = [=, &first] {
-    return tp::evaluate_batch<P>(*batch, first.target_view(), first.camera, poses->data(), options(true), *result);
+    return tp::linearise_batch<kUnknowns>(*batch, first.target_view(), first.camera, poses->data(), options(true),
+                                          *result);
   };
   run();
   Work work;
@@ -174,8 +175,7 @@ Work batch_work(int n) {
   for (std::size_t i = 0; i < kObjects; ++i) {
     tp::PhotometricInput in = cycle->inputs[i];
     in.target = first.target_view();
-    const auto ours = result->normal_equations<P>(static_cast<int>(i));
-    constexpr tp::Parameters kUnknowns = P == 9 ? tp::Parameters::pose_plane : tp::Parameters::pose;
+    const auto ours = result->normal_equations<kUnknowns>(static_cast<int>(i));
     const tp::ResidualRequest one{in, items[i].theta, (*poses)[i], options(true)};
     largest(errors_and_cost(ours, tp::reference::linearise<kUnknowns>(one, cycle->workspace)), &work.errors);
   }
@@ -187,8 +187,8 @@ Work batch_work(int n) {
 
 void add_equations() {
   for (const int n : {15, 64}) {
-    add_targets("batch16_pose_plane", std::to_string(n), [=] { return batch_work<9>(n); });
-    add_targets("batch16_pose", std::to_string(n), [=] { return batch_work<6>(n); });
+    add_targets("batch16_pose_plane", std::to_string(n), [=] { return batch_work<tp::Parameters::pose_plane>(n); });
+    add_targets("batch16_pose", std::to_string(n), [=] { return batch_work<tp::Parameters::pose>(n); });
   }
   for (const int n : {15, 64, 256, 1000, 4000}) {
     const std::string size = std::to_string(n);

@@ -68,7 +68,8 @@ void objects(benchmark::State& state, int count_objects) {
   const tp::TextBatch batch(items.data(), count_objects);
   tp::TextBatchResult result(batch);
   for (auto _ : state)
-    keep(tp::evaluate_batch<6>(batch, scene.target_view(), scene.camera, poses.data(), options(true), result));
+    keep(tp::linearise_batch<tp::Parameters::pose>(batch, scene.target_view(), scene.camera, poses.data(),
+                                                   options(true), result));
   count(state, static_cast<double>(m) * kPixels);
 }
 

@@ -59,7 +59,7 @@ int Tracker::triangulate(Frame& a, Frame& b, const Matches& matches) {
       const Eigen::Vector2d px(frame.keys[key].pt.x, frame.keys[key].pt.y);
       return (camera_.project(q) - px).squaredNorm() / (frame.sigma(key) * frame.sigma(key));
     };
-    if (off(a, i, p) > 5.991 || off(b, k, T_b_a * p) > 5.991) continue;
+    if (off(a, i, p) > kChiSquare95 || off(b, k, T_b_a * p) > kChiSquare95) continue;
     auto point = std::make_unique<MapPoint>();
     point->p_w = a.T_w_c * p;
     point->descriptor = b.descriptors.row(static_cast<int>(k));

@@ -16,8 +16,6 @@ namespace foreign {
 
 namespace {
 
-constexpr double kChi2 = 5.991;  // 95 %, two degrees of freedom
-
 // Reprojection error of a point: blocks T_w_c (quaternion x y z w, translation) and p_w.
 struct Reprojection {
   Camera camera;
@@ -40,13 +38,13 @@ bool fits(const Camera& camera, const Frame& frame, std::size_t key, const MapPo
   double r[2];
   const Eigen::Matrix<double, 7, 1> pose = Eigen::Map<const Eigen::Matrix<double, 7, 1>>(Se3(frame.T_w_c).data());
   const Reprojection cost{camera, frame.keys[key].pt, frame.sigma(key)};
-  return cost(pose.data(), point.p_w.data(), r) && r[0] * r[0] + r[1] * r[1] <= kChi2;
+  return cost(pose.data(), point.p_w.data(), r) && r[0] * r[0] + r[1] * r[1] <= kChiSquare95;
 }
 
 void add(const Camera& camera, Frame& frame, std::size_t key, MapPoint& point, bool robust, ceres::Problem& problem) {
   const auto cost = new Reprojection{camera, frame.keys[key].pt, frame.sigma(key)};
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Reprojection, 2, 7, 3>(cost),
-                           robust ? new ceres::HuberLoss(std::sqrt(kChi2)) : nullptr, frame.T_w_c.data(),
+                           robust ? new ceres::HuberLoss(std::sqrt(kChiSquare95)) : nullptr, frame.T_w_c.data(),
                            point.p_w.data());
 }
 

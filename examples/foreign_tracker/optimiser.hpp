@@ -8,6 +8,9 @@
 
 namespace foreign {
 
+/// The 95 % bound of chi-square with two degrees of freedom, on |e|^2 / sigma^2 of a point.
+constexpr double kChiSquare95 = 5.991;
+
 /// Optimises the pose of a frame with its points fixed. Removes its outliers. Returns how many points remain.
 int optimise_pose(const Camera& camera, Frame& frame);
 

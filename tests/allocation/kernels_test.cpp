@@ -105,7 +105,8 @@ TEST(NoAllocation, NormalEquationsAndCosts) {
                                               workspace)
               .status,
           tp::zncc_candidates(in, theta, poses.data(), 20, i.options, workspace, zncc.data(), &i.prepared),
-          tp::evaluate_batch<9>(batch, in.target, in.target_camera, poses.data(), i.options, result)};
+          tp::linearise_batch<tp::Parameters::pose_plane>(batch, in.target, in.target_camera, poses.data(), i.options,
+                                                          result)};
     }
     for (const Status s : status) EXPECT_EQ(s, Status::ok);
   }

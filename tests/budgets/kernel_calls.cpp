@@ -130,10 +130,12 @@ void count_batch(const Scene& scene, int n) {
   tp::TextBatchResult result(batch);
   const std::string size = "/" + std::to_string(n);
   count("batch16_pose" + size, [&] {
-    return is_ok(tp::evaluate_batch<6>(batch, scene.image.view(), scene.camera, poses.data(), {}, result));
+    return is_ok(
+        tp::linearise_batch<tp::Parameters::pose>(batch, scene.image.view(), scene.camera, poses.data(), {}, result));
   });
   count("batch16_pose_plane" + size, [&] {
-    return is_ok(tp::evaluate_batch<9>(batch, scene.image.view(), scene.camera, poses.data(), {}, result));
+    return is_ok(tp::linearise_batch<tp::Parameters::pose_plane>(batch, scene.image.view(), scene.camera, poses.data(),
+                                                                 {}, result));
   });
 }
 

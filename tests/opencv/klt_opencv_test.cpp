@@ -46,6 +46,27 @@ struct Scenario {
 
 void PrintTo(const Scenario& s, std::ostream* os) { *os << s.name; }
 
+struct Points {
+  std::vector<Vector2f> from;
+  std::vector<cv::Point2f> cv_from;
+  std::vector<Vector2d> truth;
+};
+
+// The corners whose whole patch at the finest level is inside both images.
+Points inside_both(const std::vector<Corner>& corners, const Matrix3d& to_second, int width, int height) {
+  Points out;
+  const double margin = 15;
+  for (const Corner& k : corners) {
+    const Vector2d q = TexturedPlane::apply(to_second, {k.x, k.y});
+    if (k.x < margin || k.y < margin || k.x > width - 1 - margin || k.y > height - 1 - margin) continue;
+    if (q[0] < margin || q[1] < margin || q[0] > width - 1 - margin || q[1] > height - 1 - margin) continue;
+    out.from.push_back({k.x, k.y});
+    out.cv_from.emplace_back(k.x, k.y);
+    out.truth.push_back(q);
+  }
+  return out;
+}
+
 class KltAgainstOpenCv : public testing::TestWithParam<Scenario> {};
 
 TEST_P(KltAgainstOpenCv, AtLeastAsAccurateAndAsRobust) {
@@ -59,21 +80,10 @@ TEST_P(KltAgainstOpenCv, AtLeastAsAccurateAndAsRobust) {
     const Image<std::uint8_t> first = plane.render(Matrix3d::Identity(), width, height, c.first, 10 + seed);
     const Image<std::uint8_t> second = plane.render(to_second.inverse(), width, height, c.second, 20 + seed);
 
-    std::vector<Corner> corners, spread;
+    std::vector<Corner> corners, strongest;
     ASSERT_TRUE(is_ok(detect_fast(first.view(), 20, true, corners)));
-    select_spread(corners, width, height, 20, 400, {}, spread);
-    std::vector<Vector2f> from;
-    std::vector<Vector2d> truth;
-    std::vector<cv::Point2f> cv_from;
-    for (const Corner& k : spread) {
-      const Vector2d q = TexturedPlane::apply(to_second, {k.x, k.y});
-      const double margin = 15;  // both trackers see the whole patch at the finest level
-      if (k.x < margin || k.y < margin || k.x > width - 1 - margin || k.y > height - 1 - margin) continue;
-      if (q[0] < margin || q[1] < margin || q[0] > width - 1 - margin || q[1] > height - 1 - margin) continue;
-      from.push_back({k.x, k.y});
-      cv_from.emplace_back(k.x, k.y);
-      truth.push_back(q);
-    }
+    select_spread(corners, width, height, 20, 400, {}, strongest);
+    const auto [from, cv_from, truth] = inside_both(strongest, to_second, width, height);
     ASSERT_GT(from.size(), 200U);
 
     const Pyramid a(first.view(), 4), b(second.view(), 4);

@@ -83,8 +83,8 @@ void run_every_kernel(const tp::PhotometricInput& in, const tp::SE3d& T, tp::Pho
   const tp::TextBatchItem items[2] = {item, item};
   const tp::TextBatch batch(items, 2);
   tp::TextBatchResult result(batch);
-  tp::evaluate_batch<0>(batch, in.target, in.target_camera, candidates, options, result);
-  tp::evaluate_batch<9>(batch, in.target, in.target_camera, candidates, options, result);
+  tp::evaluate_batch(batch, in.target, in.target_camera, candidates, options, result);
+  tp::linearise_batch<tp::Parameters::pose_plane>(batch, in.target, in.target_camera, candidates, options, result);
 }
 
 TEST(GuardPages, EveryKernelEveryBorder) {

@@ -54,8 +54,9 @@ void compare(Objects& objects, const tp::PhotometricOptions& o) {
   const int count = static_cast<int>(objects.items.size());
   const tp::TextBatch batch(objects.items.data(), count);
   tp::TextBatchResult result(batch);
-  ASSERT_EQ(tp::evaluate_batch<P>(batch, objects.image(), objects.camera(), objects.poses.data(), o, result),
-            tp::Status::ok);
+  ASSERT_EQ(
+      tp::linearise_batch<unknowns<P>()>(batch, objects.image(), objects.camera(), objects.poses.data(), o, result),
+      tp::Status::ok);
   for (int i = 0; i < count; ++i) {
     SCOPED_TRACE(i);
     const auto k = static_cast<std::size_t>(i);
@@ -63,7 +64,7 @@ void compare(Objects& objects, const tp::PhotometricOptions& o) {
     plain.normalisation = tp::Normalisation::frozen;
     const auto scale = reference_of<P>(*objects.scenes[k], objects.items[k], objects.poses[k], plain);
     const auto reference = reference_of<P>(*objects.scenes[k], objects.items[k], objects.poses[k], o);
-    textplane_test::expect_close<P>(result.normal_equations<P>(i), reference, kTolerance, scale);
+    textplane_test::expect_close<P>(result.normal_equations<unknowns<P>()>(i), reference, kTolerance, scale);
   }
 }
 
@@ -89,8 +90,9 @@ TEST(BatchKernels, CostsAloneAreThoseOfTheEquations) {
     tp::TextBatchResult costs(batch), equations(batch);
     tp::PhotometricOptions o;
     o.min_visible = 4;
-    tp::evaluate_batch<0>(batch, objects.image(), objects.camera(), objects.poses.data(), o, costs);
-    tp::evaluate_batch<9>(batch, objects.image(), objects.camera(), objects.poses.data(), o, equations);
+    tp::evaluate_batch(batch, objects.image(), objects.camera(), objects.poses.data(), o, costs);
+    tp::linearise_batch<tp::Parameters::pose_plane>(batch, objects.image(), objects.camera(), objects.poses.data(), o,
+                                                    equations);
     for (int i = 0; i < 21; ++i) {
       EXPECT_EQ(costs.status(i), equations.status(i));
       EXPECT_EQ(costs.cost(i), equations.cost(i));
@@ -109,14 +111,17 @@ TEST(BatchKernels, NeighboursDoNotMatter) {
     tp::TextBatchResult together(batch);
     tp::PhotometricOptions o;
     o.min_visible = 4;
-    tp::evaluate_batch<6>(batch, objects.image(), objects.camera(), objects.poses.data(), o, together);
+    tp::linearise_batch<tp::Parameters::pose>(batch, objects.image(), objects.camera(), objects.poses.data(), o,
+                                              together);
     for (int i = 0; i < 19; ++i) {
       const tp::TextBatch single(&objects.items[static_cast<std::size_t>(i)], 1);
       tp::TextBatchResult alone(single);
-      tp::evaluate_batch<6>(single, objects.image(), objects.camera(), &objects.poses[static_cast<std::size_t>(i)], o,
-                            alone);
-      EXPECT_EQ(alone.normal_equations<6>(0).H, together.normal_equations<6>(i).H);
-      EXPECT_EQ(alone.normal_equations<6>(0).b, together.normal_equations<6>(i).b);
+      tp::linearise_batch<tp::Parameters::pose>(single, objects.image(), objects.camera(),
+                                                &objects.poses[static_cast<std::size_t>(i)], o, alone);
+      EXPECT_EQ(alone.normal_equations<tp::Parameters::pose>(0).H,
+                together.normal_equations<tp::Parameters::pose>(i).H);
+      EXPECT_EQ(alone.normal_equations<tp::Parameters::pose>(0).b,
+                together.normal_equations<tp::Parameters::pose>(i).b);
     }
   }
 }
@@ -136,16 +141,20 @@ TEST(BatchKernels, WhollyVisibleVectors) {
       compare<6>(objects, o);
       const tp::TextBatch batch(objects.items.data(), 16);
       tp::TextBatchResult whole(batch), beside(batch);
-      tp::evaluate_batch<9>(batch, objects.image(), objects.camera(), objects.poses.data(), o, whole);
+      tp::linearise_batch<tp::Parameters::pose_plane>(batch, objects.image(), objects.camera(), objects.poses.data(), o,
+                                                      whole);
       for (const std::size_t away : {std::size_t{3}, std::size_t{12}}) objects.poses[away].t[0] += 100;
-      tp::evaluate_batch<9>(batch, objects.image(), objects.camera(), objects.poses.data(), o, beside);
+      tp::linearise_batch<tp::Parameters::pose_plane>(batch, objects.image(), objects.camera(), objects.poses.data(), o,
+                                                      beside);
       for (int i = 0; i < 16; ++i) {
         ASSERT_EQ(whole.status(i), tp::Status::ok);
         EXPECT_EQ(whole.visible(i), n);
         EXPECT_EQ(beside.status(i), i == 3 || i == 12 ? tp::Status::out_of_view : tp::Status::ok);
         if (i == 3 || i == 12) continue;
-        EXPECT_EQ(beside.normal_equations<9>(i).H, whole.normal_equations<9>(i).H);
-        EXPECT_EQ(beside.normal_equations<9>(i).b, whole.normal_equations<9>(i).b);
+        EXPECT_EQ(beside.normal_equations<tp::Parameters::pose_plane>(i).H,
+                  whole.normal_equations<tp::Parameters::pose_plane>(i).H);
+        EXPECT_EQ(beside.normal_equations<tp::Parameters::pose_plane>(i).b,
+                  whole.normal_equations<tp::Parameters::pose_plane>(i).b);
         EXPECT_EQ(beside.cost(i), whole.cost(i));
       }
     }
@@ -174,7 +183,8 @@ TEST(BatchKernels, StatusesPartlyVisibleAndRejected) {
     tp::TextBatchResult result(batch);
     tp::PhotometricOptions o;
     o.min_visible = 3;
-    tp::evaluate_batch<9>(batch, objects.image(), objects.camera(), objects.poses.data(), o, result);
+    tp::linearise_batch<tp::Parameters::pose_plane>(batch, objects.image(), objects.camera(), objects.poses.data(), o,
+                                                    result);
     for (int i = 0; i < 16; ++i) {
       SCOPED_TRACE(i);
       const auto k = static_cast<std::size_t>(i);
@@ -184,7 +194,7 @@ TEST(BatchKernels, StatusesPartlyVisibleAndRejected) {
       EXPECT_EQ(result.status(i), reference.status)
           << tp::to_string(result.status(i)) << tp::to_string(reference.status);
       if (!tp::is_ok(reference.status)) {
-        EXPECT_TRUE(textplane_test::all_zero(result.normal_equations<9>(i)));
+        EXPECT_TRUE(textplane_test::all_zero(result.normal_equations<tp::Parameters::pose_plane>(i)));
       } else {
         EXPECT_EQ(result.visible(i), reference.visible);
       }
@@ -203,7 +213,7 @@ TEST(BatchKernels, BadArguments) {
   tp::PhotometricOptions o;
   o.min_visible = 1;
   const auto run = [&](const tp::ImageView8& image, const tp::SE3d* poses, tp::TextBatchResult& r) {
-    return tp::evaluate_batch<6>(batch, image, objects.camera(), poses, o, r);
+    return tp::linearise_batch<tp::Parameters::pose>(batch, image, objects.camera(), poses, o, r);
   };
   EXPECT_EQ(run(objects.image(), objects.poses.data(), small), tp::Status::invalid_argument);
   EXPECT_EQ(run(objects.image(), nullptr, result), tp::Status::invalid_argument);

@@ -107,7 +107,8 @@ TEST(RobustKernels, Batches) {
       for (const simd::Target target : testable_targets()) {
         const TargetScope scope(target);
         SCOPED_TRACE(simd::to_string(target));
-        ASSERT_EQ(tp::evaluate_batch<9>(batch, scenes[0].view(), scenes[0].target_camera, poses.data(), o, result),
+        ASSERT_EQ(tp::linearise_batch<tp::Parameters::pose_plane>(batch, scenes[0].view(), scenes[0].target_camera,
+                                                                  poses.data(), o, result),
                   tp::Status::ok);
         for (int i = 0; i < 19; ++i) {
           SCOPED_TRACE(i);
@@ -118,7 +119,8 @@ TEST(RobustKernels, Batches) {
           const auto in = s.policy_input(masked);
           const auto scale = equations<9, true>(in, s.theta, s.T_t_h, plain, s.workspace);
           const auto exact = equations<9, true>(in, s.theta, s.T_t_h, o, s.workspace);
-          textplane_test::expect_close<9>(result.normal_equations<9>(i), exact, kEntryBound, scale);
+          textplane_test::expect_close<9>(result.normal_equations<tp::Parameters::pose_plane>(i), exact, kEntryBound,
+                                          scale);
         }
       }
     }

@@ -103,7 +103,8 @@ Bits run(const Shared& s) {
   }
   tp::TextBatchResult result(s.batch);
   const std::vector<tp::SE3d> poses(s.items.size(), s.T_t_h);
-  EXPECT_EQ(tp::evaluate_batch<6>(s.batch, s.image.view(), s.camera, poses.data(), options, result), tp::Status::ok);
+  EXPECT_EQ(tp::linearise_batch<tp::Parameters::pose>(s.batch, s.image.view(), s.camera, poses.data(), options, result),
+            tp::Status::ok);
   for (int i = 0; i < s.batch.size(); ++i) bits.add(result.cost(i));
 
   std::vector<tp::Corner> corners;

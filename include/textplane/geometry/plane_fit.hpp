@@ -74,7 +74,7 @@ struct MatchSystem {
   W chi2 = W(0), parallax = W(0);
 };
 
-/// Reprojection error in the target at `theta`. False where a match is not in front of both cameras.
+/// Sums the reprojection errors in the target at `theta`. False where a match is not in front of both cameras.
 template <class S, class W>
 bool match_system(const Vector3<S>* host_m, const Vector3<S>* target_m, const S* weight, int n, const SE3<W>& T,
                   const Vector3<W>& theta, MatchSystem<W>* system) noexcept {
@@ -94,6 +94,28 @@ bool match_system(const Vector3<S>* host_m, const Vector3<S>* target_m, const S*
     if (shift > system->parallax) system->parallax = shift;
   }
   return true;
+}
+
+/// Up to three Gauss-Newton steps. *theta and *best end at the lowest error; behind_camera where the start is invalid.
+template <class S, class W>
+Status refine_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, const S* weight, int n, const SE3<W>& T,
+                      W weight_sum, Vector3<W>* theta, MatchSystem<W>* best) noexcept {
+  const W epsilon = std::numeric_limits<W>::epsilon(), rounding = weight_sum * (W(64) * epsilon) * (W(64) * epsilon);
+  Vector3<W> previous = *theta;
+  for (int step = 0;; ++step) {
+    MatchSystem<W> trial;
+    const bool in_front = match_system(host_m, target_m, weight, n, T, *theta, &trial);
+    const bool better = in_front && is_finite(trial.chi2) && (step == 0 || trial.chi2 <= best->chi2 + rounding);
+    if (!better) {
+      *theta = previous;
+      return step > 0 ? Status::ok : Status::behind_camera;
+    }
+    *best = trial;
+    const Ldlt<W, 3> ldlt(best->sums.A);
+    if (step == 3 || !ldlt.ok()) return Status::ok;
+    previous = *theta;
+    *theta += ldlt.solve(best->sums.b);
+  }
 }
 
 }  // namespace detail
@@ -136,25 +158,9 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
   const Ldlt<W, 3> start(linear.A);
   if (fit.rank < 3 || !start.ok()) return detail::with_status(fit, Status::rank_deficient);
 
-  Vector3<W> theta = start.solve(linear.b), previous = theta;
-  const W epsilon = std::numeric_limits<W>::epsilon(), rounding = weight_sum * (W(64) * epsilon) * (W(64) * epsilon);
+  Vector3<W> theta = start.solve(linear.b);
   detail::MatchSystem<W> system;
-  fit.status = Status::behind_camera;
-  for (int step = 0;; ++step) {
-    detail::MatchSystem<W> trial;
-    const bool in_front = detail::match_system(host_m, target_m, weight, n, T, theta, &trial);
-    const bool better = in_front && is_finite(trial.chi2) && (step == 0 || trial.chi2 <= system.chi2 + rounding);
-    if (!better) {
-      theta = previous;
-      break;
-    }
-    fit.status = Status::ok;
-    system = trial;
-    const Ldlt<W, 3> ldlt(system.sums.A);
-    if (step == 3 || !ldlt.ok()) break;
-    previous = theta;
-    theta += ldlt.solve(system.sums.b);
-  }
+  fit.status = detail::refine_matches(host_m, target_m, weight, n, T, weight_sum, &theta, &system);
   if (!all_finite(theta)) return detail::failed_plane<S>(Status::non_finite);
   fit.value = theta.template cast<S>();
   if (fit.status != Status::ok) return fit;

@@ -173,9 +173,10 @@ class TextBatchResult {
   /// Visible pixels of object i.
   int visible(int i) const noexcept { return static_cast<int>(tail(i, simd::BatchEntry::visible)); }
 
-  /// P: that of the call.
-  template <int P>
-  NormalEquations<P> normal_equations(int i) const noexcept {
+  /// Of object i, after linearise_batch() of the same unknowns; otherwise zeros.
+  template <Parameters Unknowns>
+  NormalEquations<dof(Unknowns)> normal_equations(int i) const noexcept {
+    constexpr int P = dof(Unknowns);
     NormalEquations<P> n;
     n.status = status(i);
     if (parameters_ != P || !is_ok(n.status)) return n;
@@ -218,17 +219,11 @@ class TextBatchResult {
   int parameters_ = 0;
 };
 
-/// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega,
-/// theta). `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
-///
-/// Each object's result is that of reference::linearise() within the bounds of simd/batch.hpp; one whose geometry float
-/// does not hold (a number beyond 1e30) is non_finite. ok, or invalid_argument, and then all statuses are that: null
-/// poses, a target below 2 x 2, a camera that is not valid(), bad options, a result without room. The kernels compute
-/// all of it (Path::kernel).
+namespace detail {
+// Costs alone (P = 0), or with normal equations of P parameters.
 template <int P>
-Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
-                      const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
-  static_assert(P == 0 || P == 6 || P == 9, "costs, pose, or pose and theta");
+Status run_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera, const SE3d* T_t_h,
+                 const PhotometricOptions& options, TextBatchResult& result) noexcept {
   if (!result.fits(batch)) return Status::invalid_argument;
   simd::BatchArgs args;
   batch.fill(&args);
@@ -258,6 +253,29 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   for (int i = 0; i < batch.size(); ++i)
     if (!batch.valid(i)) args.status[i] = Status::invalid_argument;
   return Status::ok;
+}
+}  // namespace detail
+
+/// The cost of every object of the batch against one image. `T_t_h`: one pose an object. `camera`: the target's, of the
+/// target's level.
+///
+/// Results agree with reference::evaluate() within the bounds of simd/batch.hpp. An object whose geometry overflows
+/// float (a number beyond 1e30) is non_finite. Returns ok, or invalid_argument for null poses, a target below 2 x 2, a
+/// camera that is not valid(), bad options, or a result without room; all objects then have that status. The kernels
+/// compute all of it (Path::kernel). No allocation; thread-safe for distinct results.
+TEXTPLANE_DEFERRED
+Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
+                      const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
+  return detail::run_batch<0>(batch, target, camera, T_t_h, options, result);
+}
+
+/// As evaluate_batch(), with the normal equations of every object: by Parameters::pose or Parameters::pose_plane.
+template <Parameters Unknowns>
+Status linearise_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
+                       const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
+  static_assert(Unknowns == Parameters::pose || Unknowns == Parameters::pose_plane,
+                "textplane: linearise_batch() is by pose or pose_plane");
+  return detail::run_batch<dof(Unknowns)>(batch, target, camera, T_t_h, options, result);
 }
 
 TEXTPLANE_END_NAMESPACE
