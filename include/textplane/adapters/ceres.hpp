@@ -1,26 +1,26 @@
-// Ceres: the photometric residual of a text object and the reprojection error of a point as cost functions with
-// analytic derivatives. adapters/ceres_pose.hpp has the pose blocks and their manifold, adapters/ceres_window.hpp makes
-// a whole ceres::Problem of a Window.
+// Ceres: cost functions with analytic derivatives for text objects (photometric) and points (reprojection error).
+// adapters/ceres_pose.hpp has pose blocks and their manifold; adapters/ceres_window.hpp turns a Window into a
+// ceres::Problem.
 //
-// Blocks. A pose is seven numbers, camera to world; a plane is theta in its host frame, a point is in the world.
-// Derivatives are by these numbers, so any manifold of unit quaternions works: PoseManifold, that of Sophus, or
-// ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>. (Not parameterisations that read
-// the first six of the seven columns as those of the tangent space, as VINS-Mono's does.)
+// Blocks: a pose is seven numbers, camera to world; a plane is theta in its host frame; a point is in the world.
+// Derivatives are by these numbers, so any manifold of unit quaternions works: PoseManifold, Sophus's, or
+// ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>. A parameterisation that reads
+// the first six of the seven columns as the tangent space (VINS-Mono) does not.
 //
 // Residuals of a text observation, TextRows (docs/equations.md; c is the robust cost, H and b its normal equations):
 //   sums    P + 1 numbers, P = 3, 6 or 9 parameters: with H = L L^T the rows are J = L^T and r = L^-1 b, so that
 //           J^T J = H and J^T r = b. A last residual without derivatives makes r^T r the cost. Ceres gets the sums of
-//           the SIMD kernel, a hundred times less than a row a pixel. J is the derivative of the cost, not of r: give
-//           ceres::GradientChecker r^T r / 2, not r.
-//   pixels  one number a pixel of the patch, +-sqrt(rho(e^2) / N), e = r sqrt(N), 0 where it is not visible; by the
-//           slow double reference.
+//           the SIMD kernel, a hundredth of the rows of `pixels`. J belongs to the cost, not to r: give
+//           ceres::GradientChecker r^T r / 2.
+//   pixels  one number a pixel of the patch, +-sqrt(rho(e^2) / N), e = r sqrt(N), 0 for an invisible pixel; computed by
+//           the slow double reference.
 // Both have the same cost and gradient.
 //
-// Robust costs: PhotometricOptions::robust acts on every pixel, which no loss on a residual block can do. So pass
-// nullptr as the loss of a text: another one acts on the whole object. Points take an ordinary loss (ceres::HuberLoss).
+// Robust costs: PhotometricOptions::robust acts on every pixel. A ceres loss acts on a whole residual block, so pass
+// nullptr as the loss of a text. Points take an ordinary loss (ceres::HuberLoss).
 //
-// Evaluate() answers false where the kernels have no result (the object left the image, lies behind a camera): Ceres
-// rejects that step, or refuses to start. It may be called on many threads at a time. Tested with Ceres 2.1.
+// Evaluate() returns false where the kernels have no result (the object left the image or is behind a camera). Ceres
+// then rejects the step, or refuses to start. Thread-safe. Tested with Ceres 2.1.
 #ifndef TEXTPLANE_ADAPTERS_CERES_HPP
 #define TEXTPLANE_ADAPTERS_CERES_HPP
 
@@ -53,7 +53,7 @@ Eigen::Matrix<double, 6, 7> target_by_block(const double* block) {
   return -perturbation_by_block<Order>(block);
 }
 
-// rows times factor into a block of Ceres's.
+// Writes rows times factor to a Jacobian block, unless null.
 template <class Rows, int Inner, int Columns>
 void write_block(const Rows& rows, const Eigen::Matrix<double, Inner, Columns>& factor, double* out) {
   if (!out) return;
@@ -67,12 +67,12 @@ void write_plane(const Rows& rows, double* out) {
 
 }  // namespace detail
 
-/// A text object seen by a camera whose pose is unknown: block T_w_t. `input` is referred to, not copied: patch and
-/// image must outlive the problem; see photometric_input().
+/// A text object seen by a camera whose pose is unknown: block T_w_t. Patch and image of `input` must outlive the
+/// problem; see photometric_input().
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class TextPoseCost : public detail::TextRowsCost<Parameters::pose> {
  public:
-  /// T_w_h: pose of the host, camera to world; theta in its frame. Without a pool it has one of its own.
+  /// T_w_h: pose of the host, camera to world; theta in its frame. Without a pool it makes its own.
   TextPoseCost(const PhotometricInput& input, const SE3d& T_w_h, const Vector3<double>& theta,
                const TextCostOptions& options = {}, std::shared_ptr<WorkspacePool> pool = nullptr)
       : TextRowsCost(input, options, std::move(pool)), T_w_h_(T_w_h), theta_(theta) {
@@ -96,7 +96,7 @@ class TextPoseCost : public detail::TextRowsCost<Parameters::pose> {
 /// A text object whose plane is unknown, seen from a known pose: block theta. `input` as in TextPoseCost.
 class TextPlaneCost : public detail::TextRowsCost<Parameters::plane> {
  public:
-  /// T_t_h: host to target. Without a pool it has one of its own.
+  /// T_t_h: host to target. Without a pool it makes its own.
   TextPlaneCost(const PhotometricInput& input, const SE3d& T_t_h, const TextCostOptions& options = {},
                 std::shared_ptr<WorkspacePool> pool = nullptr)
       : TextRowsCost(input, options, std::move(pool)), T_t_h_(T_t_h) {
@@ -118,7 +118,7 @@ class TextPlaneCost : public detail::TextRowsCost<Parameters::plane> {
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class TextCost : public detail::TextRowsCost<Parameters::pose_plane> {
  public:
-  /// Without a pool it has one of its own.
+  /// Without a pool it makes its own.
   explicit TextCost(const PhotometricInput& input, const TextCostOptions& options = {},
                     std::shared_ptr<WorkspacePool> pool = nullptr)
       : detail::TextRowsCost<Parameters::pose_plane>(input, options, std::move(pool)) {
@@ -138,8 +138,7 @@ class TextCost : public detail::TextRowsCost<Parameters::pose_plane> {
   }
 };
 
-/// The reprojection error of a point, (pi(T_w_c^-1 p_w) - px) / sigma: blocks T_w_c and p_w. False where the point has
-/// less z than `min_depth`.
+/// The reprojection error of a point, (pi(T_w_c^-1 p_w) - px) / sigma: blocks T_w_c and p_w.
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class PointCost : public ceres::SizedCostFunction<2, kPoseSize, 3> {
  public:
@@ -147,7 +146,7 @@ class PointCost : public ceres::SizedCostFunction<2, kPoseSize, 3> {
   PointCost(const Pinhole<double>& camera, const Vector2<double>& px, double sigma = 1, double min_depth = 1e-6)
       : camera_(camera), px_(px), scale_(1 / sigma), min_depth_(min_depth) {}
 
-  /// As ceres::CostFunction; false behind min_depth.
+  /// As ceres::CostFunction; false where z <= min_depth.
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const SE3d T = pose_from_block<Order>(blocks[0]);
     const Vector3<double> p = T.R.transpose() * (Eigen::Map<const Vector3<double>>(blocks[1]) - T.t);

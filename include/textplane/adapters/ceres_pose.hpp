@@ -1,10 +1,10 @@
 // Ceres: pose blocks and their manifold.
 //
-// A pose is a block of seven numbers: unit quaternion x y z w, then translation, which is what Sophus::SE3d::data()
-// points to; or translation first (PoseOrder). PoseManifold moves it by T <- T Exp(xi), xi = (v, omega), as
-// solve_window() does (docs/conventions.md); with camera-to-world poses that is the right perturbation.
+// A pose is a block of seven numbers: unit quaternion x y z w and translation, as in Sophus::SE3d::data(), or
+// translation first (PoseOrder). PoseManifold moves it by T <- T Exp(xi), xi = (v, omega), as solve_window() does
+// (docs/conventions.md).
 //
-// Tested with Ceres 2.1. Other versions are untested: before 2.1 PoseManifold is a ceres::LocalParameterization.
+// Tested with Ceres 2.1 alone. Before 2.1 PoseManifold is a ceres::LocalParameterization.
 #ifndef TEXTPLANE_ADAPTERS_CERES_POSE_HPP
 #define TEXTPLANE_ADAPTERS_CERES_POSE_HPP
 
@@ -25,7 +25,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace adapters {
 
-/// Where the parts of a pose block lie.
+/// Order of the parts of a pose block.
 enum class PoseOrder {
   quaternion_translation,  ///< qx qy qz qw x y z: Sophus.
   translation_quaternion,  ///< x y z qx qy qz qw: TUM, VINS.

@@ -1,4 +1,4 @@
-// What the Ceres cost functions of a text share (ceres.hpp): options, scratch memory, residuals and derivatives.
+// Common parts of the texts' Ceres cost functions (ceres.hpp): options, scratch memory, residuals and derivatives.
 #ifndef TEXTPLANE_ADAPTERS_CERES_TEXT_ROWS_HPP
 #define TEXTPLANE_ADAPTERS_CERES_TEXT_ROWS_HPP
 
@@ -25,27 +25,27 @@ namespace adapters {
 /// How a text observation becomes residuals: see ceres.hpp.
 enum class TextRows { sums, pixels };
 
-/// Settings of a text observation. Its term of the cost is weight lambda_w c, lambda_w = text_weight() of its pixels.
+/// Settings of a text observation. It adds weight lambda_w c to the cost, lambda_w = text_weight() of its pixels.
 struct TextCostOptions {
-  PhotometricOptions photometric;             ///< Of every pixel; its robust cost acts inside.
+  PhotometricOptions photometric;             ///< Of every pixel, the robust cost included.
   Weighting weighting = Weighting::variance;  ///< How an object weighs against points: lambda_w.
   double sigma_rep = 1;                       ///< px.
   double sigma_photo = 0.3;                   ///< Per pixel, in units of 1/sqrt(N).
-  double weight = 1;                          ///< On top of lambda_w.
+  double weight = 1;                          ///< Multiplies lambda_w.
   TextRows rows = TextRows::sums;             ///< Sums of the kernel, or a residual a pixel.
 };
 
-/// Scratch memory for cost functions that are evaluated on several threads: as many workspaces as were in use at one
-/// time. The costs of a problem should share one; they keep it alive.
+/// Scratch memory for cost functions on several threads: one workspace for each that runs. The costs of a problem
+/// should share one pool; they keep it alive.
 class WorkspacePool {
  public:
-  /// What one evaluation needs.
+  /// Memory of one evaluation.
   struct Workspace {
     PhotometricWorkspace photometric;  ///< Of the kernels.
     std::vector<double> rows;          ///< Of TextRows::pixels.
   };
 
-  /// A workspace that nobody else has until it is given back. On any thread.
+  /// A workspace for the caller alone until give_back(). On any thread.
   std::unique_ptr<Workspace> take() {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (idle_.empty()) return std::make_unique<Workspace>();
@@ -53,7 +53,7 @@ class WorkspacePool {
     idle_.pop_back();
     return out;
   }
-  /// What take() gave, for the next one.
+  /// Returns a workspace of take().
   void give_back(std::unique_ptr<Workspace> workspace) {
     const std::lock_guard<std::mutex> lock(mutex_);
     idle_.push_back(std::move(workspace));
@@ -66,8 +66,8 @@ class WorkspacePool {
 
 namespace detail {
 
-// J = L^T and r = L^-1 b of the semi-definite H = L L^T. A pivot that is rounding alone gives a row of zeros: pose and
-// plane share a scale, so that one of nine always is.
+// J = L^T and r = L^-1 b of the semi-definite H = L L^T. A pivot within rounding of zero gives a row of zeros. With
+// pose and plane one of the nine always does: they share a scale.
 template <int P>
 void square_root(const NormalEquations<P>& sums, Eigen::Matrix<double, P, P>* J,
                  Eigen::Matrix<double, P, 1>* r) noexcept {
@@ -91,7 +91,7 @@ void square_root(const NormalEquations<P>& sums, Eigen::Matrix<double, P, P>* J,
   }
 }
 
-// What the cost functions of a text share: residuals and rows by the unknowns of T_t_h and theta.
+// Base of the texts' cost functions: residuals, and rows by the unknowns of T_t_h and theta.
 template <Parameters Unknowns>
 class TextRowsCost : public ceres::CostFunction {
  protected:
@@ -103,7 +103,7 @@ class TextRowsCost : public ceres::CostFunction {
     set_num_residuals(options.rows == TextRows::sums ? P + 1 : std::max(input.patch.n, 1));
   }
 
-  // Calls write(rows), rows being num_residuals() x P, after a success where `rows` is true.
+  // After a success, and where `rows` is true, calls write() with the num_residuals() x P rows.
   template <class Write>
   bool evaluate(const Vector3<double>& theta, const SE3d& T_t_h, double* residuals, bool rows,
                 const Write& write) const {

@@ -1,5 +1,5 @@
-// Ceres: a Window as a ceres::Problem, the same cost over the same variables as solve_window(), to be solved there
-// together with residuals of your own (odometry, inertial, loops).
+// Ceres: a Window as a ceres::Problem with the cost and variables of solve_window(), to which you can add residuals of
+// your own (odometry, inertial, loops).
 //
 //   WindowProblem problem(window, options);
 //   problem.problem().AddResidualBlock(my_cost, nullptr, problem.pose(3), problem.pose(4));
@@ -7,12 +7,12 @@
 //   ceres::Solve(solver, &problem.problem(), &summary);
 //   problem.write_back();
 //
-// Poses are blocks of the WindowProblem (T_w_c, PoseOrder::quaternion_translation, under PoseManifold); points and
-// planes are the window's own memory, which Ceres moves in place. What solve_window() leaves out at the start is left
-// out, and what is fixed is constant. Unlike there, a step that takes any observation out of view is rejected. The
-// gauge is the caller's: fix frames; WindowOptions::scale_frame_a is not carried over.
+// Poses are blocks of the WindowProblem (T_w_c, PoseOrder::quaternion_translation, under PoseManifold). Points and
+// planes are the window's own memory, which Ceres moves in place. Terms that solve_window() leaves out at the start are
+// left out; fixed ones are constant. Two differences: a step that takes any observation out of view is rejected, and
+// fixed frames alone fix the gauge, WindowOptions::scale_frame_a does not.
 //
-// Ceres reports half of the cost of solve_window(). Window, patches and images must outlive the WindowProblem.
+// Ceres reports half of solve_window()'s cost. Window, patches and images must outlive the WindowProblem.
 #ifndef TEXTPLANE_ADAPTERS_CERES_WINDOW_HPP
 #define TEXTPLANE_ADAPTERS_CERES_WINDOW_HPP
 
@@ -37,10 +37,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace adapters {
 
-/// A Window as a ceres::Problem: see the head of this file. Window, patches and images must outlive it.
+/// A Window as a ceres::Problem: see the head of this file.
 class WindowProblem {
  public:
-  /// The window's images and patches must outlive the problem.
+  /// Window, patches and images must outlive the problem.
   WindowProblem(Window& window, const WindowOptions& options, TextRows rows = TextRows::sums)
       : window_(window), options_(options), problem_(ownership()) {
     text_.photometric = options.photometric;
@@ -63,21 +63,21 @@ class WindowProblem {
   WindowProblem(const WindowProblem&) = delete;
   WindowProblem& operator=(const WindowProblem&) = delete;
 
-  /// ok, or that of solve_window() for a window or options that cannot be: the problem is then empty.
+  /// ok, or solve_window()'s status for an invalid window or options; the problem is then empty.
   Status status() const noexcept { return status_; }
-  ceres::Problem& problem() noexcept { return problem_; }  ///< To add costs of one's own to.
+  ceres::Problem& problem() noexcept { return problem_; }  ///< Add your own costs to it.
   /// The block of a frame's pose.
   double* pose(int frame) noexcept { return poses_[static_cast<std::size_t>(frame)].data(); }
   int left_out() const noexcept { return left_out_; }  ///< Observations that were left out.
 
-  /// Tolerances, damping and the limit of iterations of the WindowOptions; SPARSE_SCHUR, one thread, landmarks
-  /// eliminated first: blocks of your own go into linear_solver_ordering too, in group 1.
+  /// Tolerances, damping and iteration limit of the WindowOptions; SPARSE_SCHUR, one thread, landmarks eliminated
+  /// first. Add your own blocks to group 1 of linear_solver_ordering.
   ceres::Solver::Options solver_options() {
     ceres::Solver::Options out;
     out.linear_solver_type = ceres::SPARSE_SCHUR;
     out.max_num_iterations = options_.max_iterations;
     out.function_tolerance = options_.cost_tolerance;
-    out.gradient_tolerance = 0;  // Has no counterpart in solve_window().
+    out.gradient_tolerance = 0;  // solve_window() has none.
     out.parameter_tolerance = options_.step_tolerance;
     out.initial_trust_region_radius = 1 / options_.initial_lambda;
     out.num_threads = 1;
@@ -115,7 +115,7 @@ class WindowProblem {
     Robust robust;
   };
 
-  // Adds the landmark with its costs, unless they are too few.
+  // Adds the landmark and its costs, unless they are too few.
   template <class Add>
   void add_landmark(double* block, bool fixed, int usable, int least, const Add& add) {
     if (usable == 0 || (!fixed && usable < least)) {
@@ -197,7 +197,7 @@ class WindowProblem {
   std::vector<double*> landmarks_;
   PoseManifold<> manifold_;
   std::unique_ptr<ceres::LossFunction> loss_;
-  ceres::Problem problem_;  // Goes first: it refers to all of the above.
+  ceres::Problem problem_;  // Destroyed first: it refers to the members above.
 };
 
 }  // namespace adapters

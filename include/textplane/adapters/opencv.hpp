@@ -25,10 +25,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace adapters {
 
-/// A view of the pixels of `image`. T is std::uint8_t (CV_8UC1) or float (CV_32FC1), const or not. Regions of interest
-/// and padded rows are fine. Nothing is copied: the image must outlive the view and keep its buffer. invalid_argument,
-/// and *view empty, for any other type or number of channels (convert colour with cv::cvtColor), an empty image, or
-/// more than two dimensions.
+/// A view of the pixels of `image`, without a copy: the image must outlive the view and keep its buffer. T is
+/// std::uint8_t (CV_8UC1) or float (CV_32FC1), const or not. Regions of interest and padded rows are fine.
+/// invalid_argument, and *view empty, for any other type or number of channels (convert colour with cv::cvtColor), an
+/// empty image, or more than two dimensions.
 template <class T>
 Status view(const cv::Mat& image, ImageView<T>* view) noexcept {
   using Pixel = std::remove_const_t<T>;
@@ -42,8 +42,8 @@ Status view(const cv::Mat& image, ImageView<T>* view) noexcept {
   return Status::ok;
 }
 
-/// A cv::Mat header over the pixels of a view, without a copy, for cv::imwrite and the like. Empty for a view that is
-/// not valid(). cv::Mat has no constant pixels: do not write to those of a constant view.
+/// A cv::Mat of the pixels of a view, without a copy (for cv::imwrite). Empty for a view that is not valid(). cv::Mat
+/// has no constant pixels: do not write to those of a constant view.
 template <class T>
 cv::Mat to_mat(const ImageView<T>& view) {
   using Pixel = std::remove_const_t<T>;
@@ -54,7 +54,7 @@ cv::Mat to_mat(const ImageView<T>& view) {
           const_cast<Pixel*>(view.data()), static_cast<std::size_t>(view.stride())};
 }
 
-/// Points.
+/// A point of OpenCV.
 template <class S>
 Vector2<S> from_cv(const cv::Point_<S>& p) noexcept {
   return {p.x, p.y};
@@ -64,7 +64,7 @@ template <class S>
 Vector3<S> from_cv(const cv::Point3_<S>& p) noexcept {
   return {p.x, p.y, p.z};
 }
-/// As OpenCV's type.
+/// The point as OpenCV's type.
 template <class S>
 cv::Point_<S> to_cv(const Vector2<S>& p) noexcept {
   return {p[0], p[1]};
@@ -74,7 +74,7 @@ template <class S>
 cv::Point3_<S> to_cv(const Vector3<S>& p) noexcept {
   return {p[0], p[1], p[2]};
 }
-/// The position of a key point, px of level 0 as OpenCV's and ORB-SLAM's detectors give it.
+/// The position of a key point of OpenCV's and ORB-SLAM's detectors, px of level 0.
 inline Vector2<double> from_cv(const cv::KeyPoint& k) noexcept {
   return {static_cast<double>(k.pt.x), static_cast<double>(k.pt.y)};
 }
@@ -94,7 +94,7 @@ inline Status camera_from_cv(const cv::Mat& K, Pinhole<double>* camera) noexcept
   return Status::ok;
 }
 
-/// The pose of a rotation vector and a translation as cv::solvePnP gives them: T_c_w, world to camera.
+/// The pose of a rotation vector and a translation. cv::solvePnP gives T_c_w, world to camera.
 inline SE3d pose_from_cv(const cv::Vec3d& rotation, const cv::Vec3d& translation) noexcept {
   return {so3_exp(Vector3<double>(rotation[0], rotation[1], rotation[2])),
           Vector3<double>(translation[0], translation[1], translation[2])};
@@ -108,9 +108,9 @@ inline void pose_to_cv(const SE3d& T, cv::Vec3d* rotation, cv::Vec3d* translatio
 
 /// Four corners of either orientation, starting anywhere, as a quad: clockwise from the text's top left.
 ///
-/// Detectors that fit rectangles to blobs (cv::minAreaRect, and so cv::dnn's DB) do not know where a word begins. The
-/// top is the longer side that makes the text read to the right, or downwards where it is vertical. So an upside-down
-/// sign counts as upright. degenerate, and *out untouched, for corners that are not convex; non_finite for NaN.
+/// Detectors that fit rectangles to blobs (cv::minAreaRect, cv::dnn's DB) do not know where a word begins. The top is
+/// the longer side along which text reads to the right, or downwards if vertical; upside-down signs count as upright.
+/// degenerate for corners that are not convex, non_finite for NaN; *out is then untouched.
 inline Status reading_order(const Quad<double>& corners, Quad<double>* out) noexcept {
   if (!all_finite(corners)) return Status::non_finite;
   if (!is_convex(corners)) return Status::degenerate;
@@ -118,7 +118,7 @@ inline Status reading_order(const Quad<double>& corners, Quad<double>* out) noex
   if (area(q) < 0) q.corner = {corners.corner[0], corners.corner[3], corners.corner[2], corners.corner[1]};
   const auto side = [&q](std::size_t i) { return Vector2<double>(q.corner[(i + 1) % 4] - q.corner[i % 4]); };
   const std::size_t pair = side(0).norm() + side(2).norm() >= side(1).norm() + side(3).norm() ? 0 : 1;
-  // The mean direction of the two longer sides, seen from the first as the top.
+  // The mean direction of the two longer sides, with the first as the top.
   const Vector2<double> along = side(pair) - side(pair + 2);
   const bool steep = std::abs(along[0]) <= 1e-6 * std::abs(along[1]);
   const std::size_t first = (steep ? along[1] > 0 : along[0] > 0) ? pair : pair + 2;
@@ -147,7 +147,7 @@ Status quad_from_cv(const std::vector<cv::Point_<S>>& points, Quad<double>* out)
   return reading_order(corners, out);
 }
 
-/// The corners for cv::polylines and the like.
+/// The corners, for cv::polylines.
 inline std::vector<cv::Point2f> to_cv(const Quad<double>& quad) {
   std::vector<cv::Point2f> out;
   for (const Vector2<double>& c : quad.corner) out.emplace_back(static_cast<float>(c[0]), static_cast<float>(c[1]));

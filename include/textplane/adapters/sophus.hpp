@@ -1,4 +1,4 @@
-// Sophus, and pose types like it: to and from SE3. No Sophus header is included; a type needs
+// Sophus's poses and similar types, to and from SE3. No Sophus header is included. A type needs
 //
 //   rotationMatrix(), translation()              from_sophus(), and to_se3() of core/se3.hpp
 //   or so3().matrix(), translation()             from_sophus()
@@ -31,7 +31,7 @@ struct HasSo3Matrix<
     : std::true_type {};
 }  // namespace detail
 
-/// The pose as SE3, of the type's own scalar.
+/// The pose as SE3 of its own scalar.
 template <class Pose>
 SE3<typename Pose::Scalar> from_sophus(const Pose& T) noexcept {
   if constexpr (textplane::detail::HasRotationMatrix<Pose>::value) {
@@ -43,8 +43,7 @@ SE3<typename Pose::Scalar> from_sophus(const Pose& T) noexcept {
   }
 }
 
-/// The pose of an SE3. It goes through a normalised quaternion: Sophus aborts on a matrix that is not orthogonal to
-/// rounding.
+/// The pose of an SE3, by a normalised quaternion: Sophus aborts on a matrix that is not orthogonal to rounding.
 template <class Pose, class S>
 Pose to_sophus(const SE3<S>& T) {
   static_assert(std::is_constructible<Pose, const Eigen::Quaternion<S>&, const Vector3<S>&>::value,

@@ -9,8 +9,8 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// The numbers of a cache line of 64 bytes. A std::vector of lines begins at a line. One of plain numbers is aligned to
-/// 16 bytes alone, so a load of 64 bytes would touch two lines.
+/// The numbers of a cache line of 64 bytes. A std::vector of lines begins at a line. A vector of plain numbers is only
+/// aligned to 16 bytes: a load of 64 bytes would touch two lines.
 template <class T>
 struct alignas(64) CacheLine {
   static constexpr std::size_t kSize = 64 / sizeof(T);  ///< Numbers in a line.

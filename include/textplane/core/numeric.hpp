@@ -1,4 +1,4 @@
-// Small numeric tools of every folder: finite checks that survive -ffast-math, and symmetric solvers of fixed size.
+// Small numeric tools: finite checks that survive -ffast-math, and symmetric solvers of fixed size.
 // They do not use Eigen's out-of-line algorithms: translation units with different instruction sets would share Eigen's
 // weak symbols (see config.hpp).
 #ifndef TEXTPLANE_CORE_NUMERIC_HPP
@@ -36,8 +36,8 @@ template <class S>
 using Wide = typename WideScalar<S>::type;
 }  // namespace detail
 
-/// A B of fixed-size matrices, written out: Eigen's loop for it may become a weak symbol, with the instructions of
-/// whichever translation unit the linker chooses. Its expressions also take long to compile.
+/// A B of fixed-size matrices, written out: Eigen's loop may become a weak symbol, and the linker may keep the copy
+/// with another instruction set. Eigen's expressions also compile slowly.
 template <class S, int Rows, int Inner, int Columns>
 Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
                                         const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
@@ -113,8 +113,7 @@ inline bool is_finite(float x) noexcept {
   std::memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7f800000U) != 0x7f800000U;
 }
-/// The top bit of the result is set where x is not finite. To check many numbers, OR the results: cheaper than
-/// branches.
+/// Its top bit is set where x is not finite. To check many numbers without branches, OR the results.
 inline std::uint64_t not_finite_bit(double x) noexcept {
   std::uint64_t bits;
   std::memcpy(&bits, &x, sizeof bits);
@@ -134,7 +133,7 @@ bool all_finite(const Eigen::DenseBase<Derived>& m) noexcept {
   return true;
 }
 
-/// Cholesky factorisation A = L D L^T of a symmetric N x N matrix, of which the lower triangle is read.
+/// Cholesky factorisation A = L D L^T of a symmetric N x N matrix. Reads the lower triangle alone.
 ///
 /// The matrix counts as not positive definite where a pivot is at most `tolerance` times its diagonal entry of A. Then
 /// ok() is false, and solve() and inverse() must not be called.

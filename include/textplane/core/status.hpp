@@ -8,8 +8,8 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Outcome of a kernel or a solve. The first three come with a usable result, all others with the documented fallback:
-/// the input state of a solver, zeros for sums.
+/// Outcome of a kernel or a solve. The first three come with a usable result, all others with a documented fallback: a
+/// solver's input state, zeros for sums.
 enum class Status : std::uint8_t {
   ok,                ///< A single evaluation succeeded.
   converged,         ///< An iteration met its step or cost tolerance.
@@ -20,7 +20,7 @@ enum class Status : std::uint8_t {
   out_of_view,       ///< The projection falls outside the image.
   rank_deficient,    ///< The linear system does not determine all unknowns.
   degenerate,        ///< The geometry is degenerate: zero area, zero baseline, coincident points.
-  non_finite,        ///< A NaN or an infinity in the input, or one that arose from it.
+  non_finite,        ///< A NaN or an infinity in the input or in the result.
   invalid_argument,  ///< Null pointer, negative size, stride below the width, unknown option.
   diverged,          ///< No step lowered the cost although the gradient does not vanish.
   unsupported,       ///< This form of the computation cannot take the case; another one can.

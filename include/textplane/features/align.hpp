@@ -12,7 +12,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Parameters of track_klt() and align_point_patch(). Pixels are those of the current level unless said otherwise.
+/// Parameters of track_klt() and align_point_patch(). px of the current level unless said otherwise.
 struct KltOptions {
   int radius = 9;             ///< A patch has 2 radius + 1 pixels a side; in [1, kMaxPatchRadius]. track_klt() only.
   int levels = 4;             ///< Pyramid levels used, at most those that exist. track_klt() only.

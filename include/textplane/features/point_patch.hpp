@@ -23,8 +23,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 constexpr int kMaxPatchRadius = 10;  ///< Largest radius of a patch: 21 x 21 samples.
 
-/// A normalised patch with gradients, ready to be aligned: columns x rows samples. The sample at (left, top) is the
-/// point, up to (dx, dy). Fixed capacity (4 KB), no allocation, freely copied.
+/// A normalised patch of columns x rows samples with gradients, ready to be aligned. The point lies (dx, dy) from the
+/// sample at (left, top). Fixed capacity (4 KB), no allocation, freely copied.
 ///
 /// Samples are rounded to 1/32 grey level. Upright samples lie on a grid of 1/64 px, so (dx, dy) is at most 1/128 px.
 struct PointPatch {

@@ -1,7 +1,7 @@
 // theta (see plane.hpp) fitted to inverse depths, to matches of two views of known pose, and to points.
 //
-// The fits solve 3 x 3 systems by this library's own Cholesky, report rank, condition and covariance, and divide by no
-// coordinate. float input is summed in double. Outliers are not handled: run RANSAC outside.
+// The fits solve 3 x 3 systems by Ldlt, report rank, condition and covariance, and divide by no coordinate. float input
+// is summed in double. The fits do not handle outliers: run RANSAC around them.
 #ifndef TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 
@@ -122,10 +122,10 @@ Status refine_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, cons
 
 /// theta from n >= 3 matches between two views of known relative pose (paper, eq. 5; docs/equations.md).
 ///
-/// The linear system [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i gives the start; up to three Gauss-Newton steps on the
-/// target's reprojection error make it the maximum-likelihood estimate for isotropic noise on the target points.
+/// The start solves the linear system [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i. Up to three Gauss-Newton steps on the
+/// target's reprojection error then give the maximum-likelihood estimate for isotropic noise on the target points.
 /// host_m, target_m: homogeneous normalised points (third entry 1); T_t_h: host to target; weight: 1 / variance of one
-/// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` are those of the
+/// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` describe the
 /// linear system; degrees of freedom of sigma: 2 n - 3. Status: too_few, rank_deficient (collinear), degenerate (no
 /// baseline, or parallax below the rounding error, as after a pure rotation), behind_camera (a match ends behind a
 /// camera), non_finite, invalid_argument.

@@ -1,4 +1,4 @@
-// The result of a plane fit, and what all fits of plane_fit.hpp share: weights, normal equations, rank and covariance.
+// The result of a plane fit, and common parts of the fits: weights, normal equations, rank and covariance.
 #ifndef TEXTPLANE_GEOMETRY_PLANE_FIT_RESULT_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_FIT_RESULT_HPP
 
@@ -10,8 +10,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A fitted plane. `value` is usable where is_ok(status); with behind_camera it holds the algebraic solution, else
-/// zero.
+/// A fitted plane. `value` holds theta where is_ok(status), the algebraic solution with behind_camera, else zero.
 template <class S>
 struct PlaneFit {
   using Scalar = S;                       ///< Type of the numbers.

@@ -169,8 +169,8 @@ bool inside_image(const Quad<S>& quad, int width, int height, const S& margin = 
   return true;
 }
 
-/// Convex hull of the four corners, clockwise: the quad itself where it is convex. It repairs a detector's quad that is
-/// slightly concave or crosses itself. Empty where it has no area or a corner is not finite.
+/// Convex hull of the four corners, clockwise. It repairs a detector's quad that is slightly concave or crosses itself.
+/// Empty where it has no area or a corner is not finite.
 template <class S>
 ConvexPolygon<S> convex_hull(const Quad<S>& quad) noexcept {
   ConvexPolygon<S> hull;

@@ -99,7 +99,7 @@ Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3
     if (!ldlt.ok()) return Status::degenerate;
     const Vector3<W> step = ldlt.solve(system.b);
     PointSystem<W> trial;
-    // Near the optimum the cost is a rounding error: a step that raises it by no more than that is accepted.
+    // Near the optimum the cost is a rounding error: a step may raise it by that much.
     const W rounding = W(64) * epsilon * (system.cost + W(64) * epsilon);
     const bool accepted = point_system<W>(view, n, p + step, &trial) && trial.cost <= system.cost + rounding;
     if (accepted) {

@@ -1,7 +1,6 @@
-// BlockCholesky: a symmetric positive definite matrix of 6 x 6 blocks (one block row a camera), its Cholesky
-// factorisation in place and its solves. Written out here, not taken from Eigen, for the reasons in core/numeric.hpp;
-// and so it allocates nothing once grown, adds in one fixed order, and skips the empty blocks before the first one of
-// each row (a sequence without loops is a band).
+// BlockCholesky: Cholesky factorisation in place of a symmetric positive definite matrix of 6 x 6 blocks, one block row
+// a camera. It skips the empty blocks before the first one of each row (a sequence without loops is a band), sums in
+// one fixed order, and allocates only to grow. core/numeric.hpp says why it does not use Eigen's.
 #ifndef TEXTPLANE_SOLVER_BLOCK_CHOLESKY_HPP
 #define TEXTPLANE_SOLVER_BLOCK_CHOLESKY_HPP
 
@@ -16,7 +15,7 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-// c -= a b^T for column-major c (6 x 6), a and b (6 x n). Half of c at a time, which stays in registers over all of n.
+// c -= a b^T for column-major c (6 x 6), a and b (6 x n). Half of c at a time stays in registers.
 template <class S>
 void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
   using Column = Vector6<S>;
@@ -36,8 +35,7 @@ void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
   }
 }
 
-/// Lower block triangle of an n x n block matrix, blocks column-major. S is double: a template, so that including the
-/// header costs little.
+/// Lower block triangle of an n x n block matrix, blocks column-major. S is double, see BasicWindowSchur.
 template <class S>
 class BasicBlockCholesky {
  public:
@@ -54,7 +52,7 @@ class BasicBlockCholesky {
 
   int size() const noexcept { return n_; }
 
-  /// Block (i, j), i >= j, to add to. Of a diagonal block only the lower triangle is read.
+  /// Block (i, j), i >= j, to add to. A diagonal block needs its lower triangle alone.
   Block& at(int i, int j) noexcept {
     int& first = first_[static_cast<std::size_t>(i)];
     first = std::min(first, j);
@@ -63,15 +61,15 @@ class BasicBlockCholesky {
   const Block& at(int i, int j) const noexcept { return blocks_[index(i, j)]; }
 
   /// A = L L^T in place. `scale` has 6 n entries: a pivot of at most tolerance * scale counts as zero. Its parameter is
-  /// then held, as if its diagonal entry were infinite, and its block is marked deficient(). Returns the number of such
-  /// pivots; -1 where a pivot is not finite and the factor useless.
+  /// then held, as with an infinite diagonal entry, and its block is marked deficient(). Returns the number of zero
+  /// pivots, or -1 where a pivot is not finite; the factor is then useless.
   int factorise(const double* scale, double tolerance) noexcept {
     int zero_pivots = 0;
     for (int i = 0; i < n_; ++i) {
       const int first_i = first_[static_cast<std::size_t>(i)];
       for (int j = first_i; j <= i; ++j) {
         double* c = blocks_[index(i, j)].data();
-        // The blocks of a row follow one another, so that those of columns k to j are one 6 x 6 (j - k) matrix.
+        // The blocks of a row are contiguous: columns k to j are one 6 x 6 (j - k) matrix.
         const int k = std::max(first_i, first_[static_cast<std::size_t>(j)]);
         if (k < j) subtract_outer(blocks_[index(i, k)].data(), blocks_[index(j, k)].data(), 6 * (j - k), c);
         if (j < i) divide_by_transpose(blocks_[index(j, j)].data(), c);
@@ -84,7 +82,7 @@ class BasicBlockCholesky {
     return zero_pivots;
   }
 
-  /// After factorise(): the block row had a zero pivot.
+  /// After factorise(): whether the block row had a zero pivot.
   bool deficient(int i) const noexcept { return deficient_[static_cast<std::size_t>(i)] != 0; }
 
   /// x <- A^-1 x for 6 n entries, after factorise().
@@ -155,7 +153,7 @@ class BasicBlockCholesky {
     return zero_pivots;
   }
 
-  // Diagonal of L for a held parameter: so large that it neither moves nor couples to others.
+  // Diagonal of L for a held parameter, large enough that it neither moves nor couples to others.
   static constexpr double kHeld = 1e100;
 
   int n_ = 0;

@@ -1,7 +1,6 @@
-// minimise(): Gauss-Newton with Levenberg damping for small problems whose number of parameters is known at compile
-// time.
+// minimise(): Gauss-Newton with Levenberg damping for small problems with a fixed number of parameters.
 //
-// The cost is C(x) = sum_i rho(r_i^2) (no factor 1/2), rho'(0) = 1. A Problem says how to linearise and how to move:
+// The cost is C(x) = sum_i rho(r_i^2) (no factor 1/2), rho'(0) = 1. A Problem linearises, evaluates and moves:
 //
 //   struct Problem {
 //     using State = ...;                                 // copied; need not be a vector space
@@ -12,13 +11,13 @@
 //     State retract(const State& x, const Eigen::Matrix<double, P, 1>& step) const;
 //   };
 //
-// all of them noexcept. A residual may come and go with the state (a pixel that leaves the image). So a step is judged
-// on the set of residuals of its linearisation: evaluate() charges the problem's own price for what the trial loses and
-// reports the share, and a trial that loses more than `max_lost_fraction` is rejected. "The cost never rises" means:
-// every accepted trial costs less than the state it came from, both counted on that set.
+// All functions are noexcept. Residuals come and go with the state (a pixel leaves the image). So a trial is compared
+// on the residuals of its linearisation: evaluate() charges those that the trial loses and reports their share. A share
+// above `max_lost_fraction` rejects the trial. "The cost never rises" means: every accepted trial costs less than the
+// state before it, both on those residuals.
 //
-// The method: step = -(H + lambda D)^-1 b with D = max(diag H, floor), lambda ruled by the gain ratio of actual to
-// predicted decrease (Nielsen 1999). No allocation, no exception; the size of the stack frame is a few P x P matrices.
+// The step is -(H + lambda D)^-1 b with D = max(diag H, floor). lambda follows the gain ratio of actual to predicted
+// decrease (Nielsen 1999). No allocation, no exception; a few P x P matrices on the stack.
 #ifndef TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
 #define TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
 
@@ -30,17 +29,16 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// When to stop and how to damp. Tolerances of zero are allowed and mean "never by this test".
+/// When to stop and how to damp. A tolerance of zero turns its test off.
 struct SolveOptions {
   int max_iterations = 20;  ///< Trial steps, rejected ones included.
-  /// Converged when the norm of the step (in the units of the parameters) is at most this; that step is not taken any
-  /// more.
+  /// Converged when the norm of the step (in the units of the parameters) is at most this. That step is not taken.
   double step_tolerance = 1e-6;
   double cost_tolerance = 1e-6;  ///< Converged when an accepted step lowers the cost by at most this share of it.
-  /// Where no step lowers the cost: converged if the full step promised at most this share of it.
+  /// Where no step lowers the cost: converged if the full step predicted a decrease of at most this share.
   double stall_tolerance = 1e-3;
   double initial_lambda = 1e-4;   ///< First damping, a multiple of the diagonal of H.
-  double min_lambda = 1e-12;      ///< Damping never falls below.
+  double min_lambda = 1e-12;      ///< Smallest damping.
   double max_lambda = 1e8;        ///< Damping above this counts as a stall.
   double diagonal_floor = 1e-15;  ///< Entries of D are at least this share of the largest one.
   /// H is singular where a Cholesky pivot is at most this share of its diagonal entry.
@@ -57,15 +55,15 @@ struct Evaluation {
 
 /// What a solve did.
 ///
-/// status: converged; iteration_limit; diverged (no step lowered the cost although the full step promised more than
+/// status: converged; iteration_limit; diverged (no step lowered the cost although the full step predicted more than
 /// `stall_tolerance`); rank_deficient (H of the initial state is singular); non_finite (NaN or infinity in H, b or the
 /// cost of the initial state); invalid_argument (options); or the status of the failed first linearisation.
 struct SolveSummary {
   Status status = Status::invalid_argument;  ///< Why it ended.
   double initial_cost = 0;                   ///< At the initial state, on its own residuals.
-  /// At the returned state, on its own residuals: comparable with initial_cost if the set did not change.
+  /// At the returned state, on its own residuals. Comparable with initial_cost if both states have the same residuals.
   double final_cost = 0;
-  /// Sum of the decreases of the accepted steps, each on the set of its linearisation; never negative.
+  /// Sum of the accepted steps' decreases, each on the residuals of its linearisation. Never negative.
   double reduction = 0;
   int iterations = 0;    ///< Trials made.
   int accepted = 0;      ///< Trials accepted.
@@ -73,8 +71,7 @@ struct SolveSummary {
 };
 
 namespace detail {
-// A rejection multiplies the damping by this, the next in a row by twice as much, and so on: four reach a gradient
-// step.
+// A rejection multiplies the damping by this, the next one by twice as much: four in a row make a gradient step.
 constexpr double kFirstGrowth = 8.0;
 
 inline bool valid(const SolveOptions& o) noexcept {
@@ -86,8 +83,7 @@ inline bool valid(const SolveOptions& o) noexcept {
          o.rank_tolerance >= 0 && o.max_lost_fraction >= 0;
 }
 
-// Status of a linearisation: its own, or non_finite or rank_deficient as found here. The pivot test of Ldlt does not
-// depend on the units of the parameters.
+// Status of a linearisation: its own, non_finite or rank_deficient. Ldlt's pivot test is independent of units.
 template <int P, class Linearised>
 Status check(const Linearised& system, double rank_tolerance) noexcept {
   if (!is_ok(system.status)) return system.status;
@@ -95,13 +91,13 @@ Status check(const Linearised& system, double rank_tolerance) noexcept {
   return Ldlt<double, P>(system.H, rank_tolerance).ok() ? Status::ok : Status::rank_deficient;
 }
 
-// What an accepted step multiplies the damping by, from its gain ratio.
+// The factor of the damping after an accepted step, from its gain ratio.
 inline double damping_factor(double decrease, double predicted) noexcept {
   const double gain = predicted > 0.0 ? decrease / predicted : 1.0, x = 2.0 * gain - 1.0;
   return std::min(std::max(1.0 - x * x * x, 0.1), 2.0);
 }
 
-// -(H + lambda D)^-1 b and the decrease that the quadratic model promises for it.
+// -(H + lambda D)^-1 b and the decrease that the quadratic model predicts for it.
 template <int P>
 struct DampedStep {
   Eigen::Matrix<double, P, 1> step = Eigen::Matrix<double, P, 1>::Zero();
@@ -136,12 +132,12 @@ DampedStep<P> damped_step(const Linearised& system, double lambda, double diagon
 }
 }  // namespace detail
 
-/// Minimise `problem` from `state`, in place.
+/// Minimises `problem` from `state`, in place.
 ///
-/// `state` is always the best one seen: unchanged on failure at the start, otherwise the last accepted trial. A trial
-/// that lowers the cost but cannot be linearised (too few residuals left, singular, non-finite) is rejected too. Hence,
-/// unless the first linearisation fails, the last linearise() was made at the returned state (its visible sets are
-/// those of the result) and `*system`, if given, receives it: H is the information matrix of the result.
+/// `state` becomes the best one found: the last accepted trial, or the initial state. A trial that lowers the cost but
+/// cannot be linearised (too few residuals, singular, non-finite) is rejected too. So, unless the first linearisation
+/// fails, the last linearise() is at the returned state, and `*system`, unless null, receives it: H is the information
+/// matrix of the result.
 template <class Problem>
 SolveSummary minimise(Problem& problem, typename Problem::State& state, const SolveOptions& options = {},
                       decltype(problem.linearise(state))* system = nullptr) noexcept {
@@ -161,7 +157,7 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
   };
 
   double lambda = options.initial_lambda, growth = detail::kFirstGrowth;
-  double promise = -1.0;  // Decrease predicted for the first trial of this linearisation; negative before it.
+  double promise = -1.0;  // Predicted decrease of the first trial of this linearisation; negative before it.
   while (summary.iterations < options.max_iterations) {
     const auto [step, predicted, norm, usable] = detail::damped_step<P>(current, lambda, options.diagonal_floor);
     const bool first = promise < 0.0;
@@ -194,7 +190,7 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
           if (flat) return finish(Status::converged);
           continue;
         }
-        current = problem.linearise(state);  // The problem's sets were those of the trial.
+        current = problem.linearise(state);  // The problem has the trial's residuals.
       }
     }
     lambda *= growth;

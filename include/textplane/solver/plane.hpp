@@ -1,5 +1,5 @@
-// Plane parameters theta of a text object from one or many target images with known poses: refine_plane() and
-// align_plane(). The cost is in plane_problem.hpp; coarse to fine over pyramid levels.
+// refine_plane() and align_plane(): theta of a text object from targets with known poses, coarse to fine. The cost is
+// in plane_problem.hpp.
 #ifndef TEXTPLANE_SOLVER_PLANE_HPP
 #define TEXTPLANE_SOLVER_PLANE_HPP
 
@@ -7,20 +7,20 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Result of refine_plane(); the numbers are those of the finest level and of the returned theta.
+/// Result of refine_plane(). All numbers belong to the finest level and the returned theta.
 ///
 /// status: converged or iteration_limit; diverged where no step lowered the cost; rank_deficient where the targets do
-/// not determine theta (no parallax: covariance stays zero); where no target could be used, the status of the first
-/// that failed (too_few, out_of_view, behind_camera, no_contrast, ...); non_finite for a NaN theta or camera;
-/// invalid_argument for no targets, null pointers, bad options, a camera that is not valid() or a workspace without
-/// room. Poses that are not finite make their target unusable.
+/// not determine theta (no parallax: covariance stays zero); non_finite for a NaN theta or camera; invalid_argument for
+/// no targets, null pointers, bad options, a camera that is not valid() or a workspace without room. Where no target
+/// can be used, it is the status of the first one (too_few, out_of_view, behind_camera, no_contrast, ...). A target
+/// with a non-finite pose cannot be used.
 struct PlaneRefinement {
-  Vector3<double> theta = Vector3<double>::Zero();  ///< The best seen; the initial one if nothing could be improved.
-  /// residual_variance times the inverse of sum N J^T W J. It knows the noise of the targets, not what all of them
-  /// share: the noise of the host pixels and errors of the poses.
+  Vector3<double> theta = Vector3<double>::Zero();  ///< The best one found; the initial one after a failure.
+  /// residual_variance times the inverse of sum N J^T W J. It covers the noise of the targets, but not errors that all
+  /// targets share: noise of the host pixels and errors of the poses.
   Matrix3<double> covariance = Matrix3<double>::Zero();
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
-  /// Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and norm costing two.
+  /// Of a pixel on patches of unit variance: C / (sum N - 2 targets - 3). A target's mean and norm take two degrees.
   double residual_variance = 0;
   double cost = 0;                           ///< C(theta).
   double zncc = 0;                           ///< Mean over the targets used.
@@ -52,24 +52,15 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   PlaneProblem<View> problem(patch, targets, count, camera, options, workspace);
   PlaneSystem system;
   fit.status = Status::invalid_argument;
-  for (int level = range.coarsest; level >= range.finest; --level) {
-    problem.set_level(level);
-    system = PlaneSystem();
-    const SolveOptions solve = level == range.finest ? options.solve : coarse_options(options.solve);
-    const SolveSummary summary = minimise(problem, fit.theta, solve, &system);
-    fit.iterations += summary.iterations;
-    fit.status = summary.status;
-    fit.cost = summary.final_cost;
-  }
-  fit.path = problem.path();
+  minimise_levels(problem, fit.theta, range, options.solve, &system, &fit);
   if (!is_ok(system.status)) return fit;
 
   fit.zncc = problem.mean_zncc();
   fit.targets_used = problem.targets_used();
   fit.visible_pixels = problem.visible_pixels();
   const int freedom = std::max(1, fit.visible_pixels - 2 * fit.targets_used - 3);
-  // A perfect match would claim no uncertainty at all. The floor lies below what the rounding of 8-bit images leaves
-  // (1/6 of a grey level squared for both sides) on a patch of any contrast.
+  // A perfect match would have no uncertainty. The floor is below the rounding error of two 8-bit images (1/6 of a grey
+  // level squared) on a patch of any contrast.
   fit.residual_variance = std::max(fit.cost / freedom, 1e-6);
   const Ldlt<double, 3> factor(system.H, options.solve.rank_tolerance);
   if (!factor.ok()) return fit;
@@ -83,12 +74,11 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 }
 }  // namespace detail
 
-/// Refine theta (plane in the host frame) of a text object against `count` target images with known poses, coarse to
-/// fine.
+/// Refines theta (plane in the host frame) of a text object on `count` targets with known poses, coarse to fine.
 ///
-/// `camera`: of the targets, level 0; the host's is in the patch. Targets that do not see enough of the patch are
-/// skipped, decided anew at every linearisation. No allocation: `workspace` must have been reserved for this patch and
-/// count. Thread-safe for distinct workspaces.
+/// `camera`: of the targets, level 0; the patch holds the host's. Every linearisation skips the targets that see too
+/// little of the patch. No allocation: reserve `workspace` for this patch and count. Thread-safe for distinct
+/// workspaces.
 TEXTPLANE_DEFERRED
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets,
                              int count, const Pinhole<double>& camera, const PlaneOptions& options,

@@ -1,8 +1,8 @@
-// The cost of theta over target images with known poses, as a problem for minimise(); its targets, options and memory.
+// The cost of theta over targets with known poses, as a problem for minimise(); its targets, options and memory.
 //
-//   C(theta) = sum_targets N c,    c the robust photometric cost (residual.hpp), N its visible pixels:
+//   C(theta) = sum_targets N c,    c: robust photometric cost (residual.hpp), N: its visible pixels
 //
-// the paper's text object refinement. The cost of a pixel is then of unit scale on a patch of unit variance.
+// This is the paper's text object refinement. N scales a pixel's cost to a patch of unit variance.
 #ifndef TEXTPLANE_SOLVER_PLANE_PROBLEM_HPP
 #define TEXTPLANE_SOLVER_PLANE_PROBLEM_HPP
 
@@ -22,9 +22,9 @@ template <class View>
 struct BasicPlaneTarget {
   View image;           ///< Pyramid of the undistorted image.
   SE3d T_t_h;           ///< Host to target.
-  int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
-  /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to
-  /// refine_plane(), whose levels and numbers of pixels it must have: a target with another is not used.
+  int scale_shift = 0;  ///< Of photometric_input(), for targets that see the object at another size.
+  /// The host's patch for this target alone (blur.hpp), or null for the patch of refine_plane(). A target whose patch
+  /// differs from that one in levels or numbers of pixels is not used.
   const TextPatch* patch = nullptr;
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;    ///< Of 8-bit images.
@@ -33,10 +33,10 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
 /// Settings of refine_plane() and align_plane().
 struct PlaneOptions {
   PhotometricOptions photometric;  ///< Of every pixel.
-  /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  /// Of the finest level. Coarser levels stop at a relative gain of 1e-3 or a step of 1e-5, or earlier.
   SolveOptions solve;
-  int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
-  int finest_level = 0;    ///< Where it ends; 0 is the image itself.
+  int coarsest_level = 2;  ///< Lowered to the levels that images and patch have.
+  int finest_level = 0;    ///< The last level; 0 is the image itself.
 };
 
 namespace detail {
@@ -51,7 +51,7 @@ template <class View>
 class PlaneProblem;
 }  // namespace detail
 
-/// Memory of refine_plane(). Not to be shared by two threads at a time.
+/// Memory of refine_plane(), for one thread at a time.
 class PlaneWorkspace {
  public:
   /// Makes room for a patch (every level) seen in `targets` images. The only member that allocates; never shrinks.
@@ -63,7 +63,7 @@ class PlaneWorkspace {
     if (counts_.size() < count) counts_.resize(count);
   }
 
-  /// reserve() was called for at least this.
+  /// Whether it has room for this patch and number of targets.
   bool fits(const TextPatch& patch, int targets) const noexcept {
     const int n = patch.max_pixels();
     const auto count = static_cast<std::size_t>(targets);
@@ -77,7 +77,7 @@ class PlaneWorkspace {
 
   PhotometricWorkspace photometric_;
   std::vector<std::uint8_t> visible_;  // Visible sets of the last linearisation, target after target.
-  std::vector<int> counts_;            // Visible pixels of each; 0: the target took no part.
+  std::vector<int> counts_;            // Visible pixels of each target; 0: not used.
 };
 
 namespace detail {
@@ -132,7 +132,7 @@ class PlaneProblem {
       if (visible == 0) continue;
       const PhotometricCost c = textplane::evaluate(request(i, theta), memory_.photometric_, visible_set(i));
       path_ = std::max(path_, c.path);
-      // A target that is lost as a whole costs what an uncorrelated patch would.
+      // A target that fails as a whole costs as much as an uncorrelated patch.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost += is_ok(c.status) ? c.lost : visible;
     }

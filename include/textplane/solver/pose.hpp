@@ -1,7 +1,7 @@
 // Camera pose from text objects and points: refine_pose() for a tracker's frame, align_pose() for one object.
 //
-// The cost is in pose_problem.hpp, the iteration in gauss_newton.hpp, run once a pyramid level from coarse to fine
-// (points count on every level, in px of level 0). Points alone and text alone both work.
+// The cost is in pose_problem.hpp, the iteration in gauss_newton.hpp. It runs once a pyramid level, coarse to fine.
+// Points count on every level, in px of level 0. Points alone and text alone both work.
 #ifndef TEXTPLANE_SOLVER_POSE_HPP
 #define TEXTPLANE_SOLVER_POSE_HPP
 
@@ -9,30 +9,28 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// What a pose solve found out besides the pose; all of it of the finest level and of the returned pose.
+/// The result of a pose solve without the pose. All numbers belong to the finest level and the returned pose.
 ///
 /// status: converged or iteration_limit; diverged where no step lowered the cost on the finest level; rank_deficient
-/// where the terms do not determine the pose (one or two points); where no term could be used: too_few, or the status
-/// of the first text that failed (out_of_view, behind_camera, no_contrast, invalid_argument, non_finite); non_finite
-/// for a NaN pose or camera; invalid_argument for null pointers, bad options, a camera that is not valid() or a
-/// workspace without room.
+/// where the terms do not determine the pose (one or two points); non_finite for a NaN pose or camera; invalid_argument
+/// for null pointers, bad options, a camera that is not valid() or a workspace without room. Where no term can be used,
+/// it is too_few, or the status of the first text that failed (out_of_view, behind_camera, no_contrast, ...).
 struct PoseResult {
   /// Of xi = (v, omega), left: H / sigma_rep^2. Its inverse is the covariance under Weighting::variance.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   double cost = 0;           ///< C(T_t_w) of the finest level.
   double zncc = 0;           ///< Mean over the texts that took part.
   int texts = 0;             ///< Texts that took part.
-  int visible_pixels = 0;    ///< Theirs.
-  int inlier_points = 0;     ///< Points with |e|^2 <= 5.99 (sigma sigma_rep)^2.
+  int visible_pixels = 0;    ///< Of these texts.
+  int inlier_points = 0;     ///< Points within the 95 % bound of chi-square: |e|^2 <= 5.991 (sigma sigma_rep)^2.
   int iterations = 0;        ///< Trials over all levels.
-  Path path = Path::kernel;  ///< Path::reference where any evaluation of a text ran on the slow reference.
+  Path path = Path::kernel;  ///< Path::reference where the slow reference evaluated any text.
   Status status = Status::invalid_argument;  ///< Why it ended: see above.
 };
 
-/// Result of refine_pose(). T_t_w is the best pose seen, the initial one if nothing could be improved; finite whenever
-/// the initial one is.
+/// Result of refine_pose().
 struct PoseFit : PoseResult {
-  SE3d T_t_w;  ///< World to target camera.
+  SE3d T_t_w;  ///< World to target: the best pose found, or the initial one after a failure. Finite if that one is.
 };
 
 /// Result of align_pose().
@@ -50,7 +48,7 @@ inline bool valid(const PoseOptions& o) noexcept {
          o.policy <= LinearisePolicy::automatic && valid(o.solve);
 }
 
-// Levels to walk: those of the target that some text has too. Without any, one pass for the points on the finest level.
+// The levels that the target and any text have. Without any, one pass on the finest level, for the points.
 inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int target_levels,
                               const PoseOptions& options) noexcept {
   int patch_levels = 0;
@@ -78,16 +76,7 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
   PoseProblem<View> problem(texts, text_count, points, point_count, target, camera, options, workspace);
   const LevelRange range = pose_levels(texts, text_count, target.levels, options);
   PoseSystem system;
-  for (int level = range.coarsest; level >= range.finest; --level) {
-    problem.set_level(level);
-    system = PoseSystem();
-    const SolveOptions solve = level == range.finest ? options.solve : coarse_options(options.solve);
-    const SolveSummary summary = minimise(problem, fit.T_t_w, solve, &system);
-    fit.iterations += summary.iterations;
-    fit.status = summary.status;
-    fit.cost = summary.final_cost;
-  }
-  fit.path = problem.path();
+  minimise_levels(problem, fit.T_t_w, range, options.solve, &system, &fit);
 
   const double scale = 1.0 / (options.sigma_rep * options.sigma_rep);
   for (int i = 0; i < 6; ++i)
@@ -128,14 +117,14 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
 }
 }  // namespace detail
 
-/// Refine the pose T_t_w (world to target) of one image from text objects and points, coarse to fine.
+/// Refines the pose T_t_w (world to target) of one image from text objects and points, coarse to fine.
 ///
-/// `texts`, `points`: may be null where their count is 0. `target`: pyramid of the undistorted image; levels may be 0
-/// where there are no texts. `camera`: of the target, level 0. A text that is out of view, behind a camera, without
-/// contrast, on a missing level or not finite, and a point that is behind the camera or not finite, is skipped, not
-/// fatal; which ones is decided anew at every linearisation. `text_zncc` (text_count values) and `point_chi2`
-/// (point_count values, |e|^2 / (sigma sigma_rep)^2), if given, receive the final values, -1 where the term was
-/// skipped. No allocation: `workspace` must have been reserved for these terms. Thread-safe for distinct workspaces.
+/// `texts`, `points`: may be null where their count is 0. `target`: pyramid of the undistorted image; may have no level
+/// where there are no texts. `camera`: of the target, level 0. `text_zncc` (text_count values) and `point_chi2`
+/// (point_count values, |e|^2 / (sigma sigma_rep)^2) may be null; they receive the final values, -1 for skipped terms.
+/// Every linearisation skips texts that are out of view, behind a camera, without contrast, on a missing level or not
+/// finite, and points that are behind the camera or not finite. No allocation: reserve `workspace` for these terms.
+/// Thread-safe for distinct workspaces.
 TEXTPLANE_DEFERRED
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
                     const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,

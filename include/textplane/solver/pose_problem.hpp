@@ -2,9 +2,9 @@
 //
 //   C(T_t_w) = sum_points rho(|e|^2 / sigma^2) + sum_texts lambda_w c,    e = reprojection error in px
 //
-// with c the robust photometric cost of a text object (residual.hpp) and lambda_w as in weighting.hpp: the paper's
-// equation E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega),
-// which is also the left perturbation of every T_t_h = T_t_w T_w_h.
+// c is the robust photometric cost of a text object (residual.hpp); weighting.hpp has lambda_w. This is the paper's
+// E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega), and with it
+// every T_t_h = T_t_w T_w_h.
 #ifndef TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 #define TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 
@@ -25,8 +25,7 @@ struct PoseSystem {
   Status status = Status::too_few;
 };
 
-/// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than
-/// 89.9 degrees off the optical axis).
+/// Reprojection error e (px) of p_w. False for a point that is not finite or over 89.9 degrees off the optical axis.
 template <class S>
 bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const Pinhole<S>& camera, Vector3<S>* p,
                Vector2<S>* e) noexcept {
@@ -94,7 +93,7 @@ class PoseProblem {
       const PhotometricCost c =
           textplane::evaluate(request(texts_[i], T_t_w), memory_.photometric_, memory_.visible_.data() + state.offset);
       path_ = std::max(path_, c.path);
-      // An object that is lost as a whole costs what two uncorrelated patches would.
+      // An object that fails as a whole costs as much as an uncorrelated patch.
       e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost_pixels += is_ok(c.status) ? c.lost : state.visible;
     }
@@ -105,8 +104,7 @@ class PoseProblem {
       if (reproject(points_[i], T_t_w, camera_, &p, &r)) {
         e.cost += options_.point_robust.rho(r.squaredNorm() / (points_[i].sigma * points_[i].sigma));
       } else {
-        // Behind the camera: as wrong as a point can be that projects into an image about as wide as the focal length
-        // is long.
+        // Behind the camera: the largest error in an image about as wide as the focal length.
         e.cost += options_.point_robust.rho(camera_.fx * camera_.fx / (points_[i].sigma * points_[i].sigma));
         ++lost_points;
       }
@@ -147,7 +145,7 @@ class PoseProblem {
     NormalEquations<6> n = textplane::linearise<Parameters::pose>(q, workspace);
     path_ = std::max(path_, n.path);
     if (!is_ok(n.status)) return n.status;
-    // Trials are compared with this cost: it must be the one that evaluate() computes, to the last digit.
+    // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
     if (q.prepared && q.policy != LinearisePolicy::forward) {
       const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
       if (is_ok(c.status)) n.cost = c.cost;

@@ -15,19 +15,18 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A text object whose host pose and plane are held fixed. Its pixels come from `patch` (not owned).
+/// A text object whose host pose and plane are held fixed.
 struct PoseTextTerm {
   const TextPatch* patch = nullptr;                 ///< Its pixels in the host; not owned.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_w_h;                                       ///< Host camera to world.
-  double weight = 1;                                ///< On top of lambda_w.
-  int scale_shift = 0;  ///< Of photometric_input(): where the target sees it at another size.
-  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done
-  /// without.
+  double weight = 1;                                ///< Multiplies lambda_w.
+  int scale_shift = 0;  ///< Of photometric_input(), for targets that see it at another size.
+  /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian, or null.
   const TemplatePatch* prepared = nullptr;
 };
 
-/// A known 3D point and where it was seen.
+/// A known 3D point and its pixel.
 struct PosePointTerm {
   Vector3<double> p_w = Vector3<double>::Zero();  ///< In the world.
   Vector2<double> px = Vector2<double>::Zero();   ///< Undistorted, level 0.
@@ -37,37 +36,36 @@ struct PosePointTerm {
 /// Settings of refine_pose() and align_pose().
 struct PoseOptions {
   PhotometricOptions photometric;  ///< Of every pixel of the texts.
-  /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's
-  /// residual in units of 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the
-  /// paper's E_text.
+  /// How lambda_w follows from sigma_rep and sigma_photo. sigma_photo is the standard deviation of a pixel's residual
+  /// in units of 1/sqrt(N) for `variance` (0.3: ZNCC 0.955), and of an object's error (the paper's E_text) for `paper`.
   Weighting weighting = Weighting::variance;
-  double sigma_photo = 0.3;  ///< See `weighting`.
+  double sigma_photo = 0.3;  ///< Its unit depends on `weighting`.
   double sigma_rep = 1;      ///< px, of a point with sigma 1.
-  /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
+  /// On |e| / sigma: root of the 95 % bound of chi-square with 2 degrees of freedom.
   Robust point_robust{RobustKind::huber, 2.4477};
-  /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  /// Of the finest level. Coarser levels stop at a relative gain of 1e-3 or a step of 1e-5, or earlier.
   SolveOptions solve;
-  int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
-  int finest_level = 0;    ///< Where it ends; 0 is the image itself.
-  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take
-  /// forward. Whatever the policy, steps are judged by the cost.
+  int coarsest_level = 2;  ///< Lowered to the levels that target and patches have.
+  int finest_level = 0;    ///< The last level; 0 is the image itself.
+  /// Whose gradients linearise the texts (docs/policy.md, policy_at_level()). Patches without gradients take forward.
+  /// The cost alone accepts or rejects a step.
   LinearisePolicy policy = LinearisePolicy::forward;
 };
 
 namespace detail {
-// What the last linearisation found out about a text.
+// A text in the last linearisation.
 struct PoseTextState {
   std::size_t offset = 0;  // Of its visible set.
   double weight = 0;       // lambda_w times the term's weight, for the visible set.
   double zncc = 0;
-  int visible = 0;  // 0: it took no part.
+  int visible = 0;  // 0: not used.
 };
 
 template <class View>
 class PoseProblem;
 }  // namespace detail
 
-/// Memory of refine_pose(), to be reused from frame to frame. Not to be shared by two threads at a time.
+/// Memory of refine_pose(), to be reused from frame to frame; for one thread at a time.
 class PoseWorkspace {
  public:
   /// Makes room for these terms (every level of their patches). The only member that allocates; never shrinks.
@@ -87,7 +85,7 @@ class PoseWorkspace {
       points_.resize(static_cast<std::size_t>(point_count));
   }
 
-  /// reserve() was called for at least these terms.
+  /// Whether it has room for these terms.
   bool fits(const PoseTextTerm* texts, int text_count, int point_count) const noexcept {
     std::size_t pixels = 0;
     for (int i = 0; i < text_count; ++i) {

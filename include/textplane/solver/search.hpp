@@ -1,5 +1,4 @@
-// A coarse search before a pose is refined: ZNCC of one text object under shifts and turns of its image, where the
-// guess may be further off than the basin of refine_pose().
+// A coarse search for guesses outside the basin of refine_pose(): ZNCC of one text object under shifts and rotations.
 #ifndef TEXTPLANE_SOLVER_SEARCH_HPP
 #define TEXTPLANE_SOLVER_SEARCH_HPP
 
@@ -12,26 +11,25 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// How far and how finely search_pose() looks, in px of the level it works on.
+/// Range and resolution of search_pose(), in px of its level.
 struct SearchOptions {
-  int level = 2;      ///< Pyramid level; lowered to the coarsest that patch and target have with enough pixels.
+  int level = 2;      ///< Pyramid level; search_level() may lower it.
   int radius = 4;     ///< Shifts -radius .. radius along x and along y, at most 8.
   double step = 1.0;  ///< Between shifts.
-  /// Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
+  /// rad: then rotates the best by this and half of it to both sides, at half steps; 0: does not.
   double roll = 0.1;
   PhotometricOptions photometric;  ///< Of every pixel.
 };
 
 namespace detail {
 
-// Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was
-// there.
+// Tries rotations of the target camera about its centre, row by row, and keeps the first best one.
 TEXTPLANE_DEFERRED
 class PoseSearch {
  public:
   static constexpr int kMost = 8;
 
-  // `centre`: of the patch in the target, normalised.
+  // `centre`: of the patch in the target, normalised coordinates.
   PoseSearch(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& guess, const Vector2<double>& centre,
              const SearchOptions& options, PhotometricWorkspace& workspace, const TemplatePatch* prepared) noexcept
       : in_(in),
@@ -44,7 +42,7 @@ class PoseSearch {
     try_row(guess, 0, 0, 0, 0, 0);
   }
 
-  // Shifts of -radius .. radius steps of `from`, rolled about the ray of the centre before.
+  // Shifts of -radius .. radius steps from `from`, after a roll about the ray of the centre.
   void shifts(const SE3d& from, int radius, double step, double roll) noexcept {
     for (int y = -radius; y <= radius; ++y) try_row(from, -radius, radius, y, step, roll);
   }
@@ -58,7 +56,7 @@ class PoseSearch {
     float zncc[2 * kMost + 1];
     const double u = centre_[0], v = centre_[1], n = 1 + u * u + v * v, about = roll / std::sqrt(n);
     for (int x = first; x <= last; ++x) {
-      // The rotation that takes the ray of the centre to the shifted one, to first order, and one about that ray.
+      // The rotation of the centre's ray to the shifted one, to first order, and the roll about that ray.
       const double du = x * step / in_.target_camera.fx, dv = y * step / in_.target_camera.fy;
       Vector6<double> xi;
       xi << 0.0, 0.0, 0.0, -dv / n + about * u, du / n + about * v, (u * dv - v * du) / n + about;
@@ -85,8 +83,8 @@ class PoseSearch {
 
 }  // namespace detail
 
-/// The level that search_pose() searches on in a target of `levels` levels: options.level, or the next finer one that
-/// is there and has twice the pixels that must be visible; 0 where none has, -1 where there is no level.
+/// The level that search_pose() searches in a target of `levels` levels: the coarsest, up to options.level, that patch
+/// and target have and that holds at least 2 min_visible pixels. 0 where none does, -1 where there is no level.
 inline int search_level(const TextPatch& patch, int levels, const SearchOptions& options) noexcept {
   int level = std::min({options.level, patch.level_count() - 1, levels - 1});
   while (level > 0 &&
@@ -95,11 +93,10 @@ inline int search_level(const TextPatch& patch, int levels, const SearchOptions&
   return level;
 }
 
-/// The pose T_t_h, out of those that turn the target camera so that the patch's centre moves by the shifts of a grid,
-/// with the best ZNCC of the patch in the target, and then turned a little about that centre where this is better
-/// still; the guess itself where nothing is better or nothing can be compared. `zncc`, if given, receives the best
-/// value, -1 where none. `prepared`: one TemplatePatch a level, or null. No allocation; `workspace` must have room for
-/// the patch.
+/// The pose T_t_h with the best ZNCC among rotations of the target camera from the guess `T_t_h`. They shift the
+/// patch's centre over a grid, then roll about it. Returns the guess where none is better. `zncc`, unless null,
+/// receives the best value, -1 where nothing can be compared. `prepared`: one TemplatePatch a level, or null. No
+/// allocation; `workspace` must have room for the patch.
 TEXTPLANE_DEFERRED
 SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
                  const Pinhole<double>& camera, const SearchOptions& options, PhotometricWorkspace& workspace,

@@ -1,20 +1,18 @@
 // Windowed bundle adjustment: Levenberg-Marquardt over key-frame poses, points and text planes with the Schur
 // complement.
 //
-// window_problem.hpp says what is minimised, what must be fixed, and what comes back. The method: every iteration
-// linearises all terms (window_terms.hpp), damps by lambda times the diagonal (Marquardt), eliminates points and
-// planes, and solves the cameras' system by a block Cholesky factorisation of our own (block_cholesky.hpp). lambda
-// follows the gain ratio (Nielsen 1999). The gauge is the caller's: frames flagged fixed stay constant bit for bit, and
-// the distance of two frames can be held; a gauge that is missing is counted from the graph of observations and
-// reported, never left to the damping.
+// window_problem.hpp has the cost, the gauge and the results. Every iteration linearises all terms (window_terms.hpp),
+// damps by lambda times the diagonal (Marquardt), eliminates points and planes, and solves the cameras' system by a
+// block Cholesky factorisation (block_cholesky.hpp). lambda follows the gain ratio (Nielsen 1999). The caller fixes the
+// gauge: fixed frames keep every bit, and the distance of two frames can be held. The solver finds a missing gauge from
+// the graph of observations and reports it.
 //
-// No decomposition of Eigen's is instantiated, and products are written out (core/numeric.hpp), but sums of fixed-size
-// matrices and std::vector members are, and the compiler may keep them as weak symbols outside of our ABI namespace:
-// include this header in translation units of one instruction set only.
+// Include this header in translation units of one instruction set only: the compiler may keep Eigen's sums of
+// fixed-size matrices and members of std::vector as weak symbols outside our ABI namespace.
 //
-// A text term is judged on the visible set of its linearisation, lost pixels charged (docs/equations.md). An
-// observation that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted
-// state drops out with its status.
+// A trial counts the pixels that its linearisation saw, and charges those that it loses (docs/equations.md). An
+// observation that fails in a trial costs as much as uncorrelated patches; one that fails at an accepted state drops
+// out with its status.
 #ifndef TEXTPLANE_SOLVER_WINDOW_HPP
 #define TEXTPLANE_SOLVER_WINDOW_HPP
 
@@ -28,12 +26,12 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Memory of solve_window(), to be reused from call to call: a call allocates only where its window exceeds every
-/// earlier one, and then in its set-up. Not to be shared by two threads at a time.
+/// Memory of solve_window(), to be reused from call to call; for one thread at a time. A call allocates only in its
+/// set-up, where its window exceeds every earlier one.
 struct WindowWorkspace {
   detail::WindowState current;        ///< The estimate.
-  detail::WindowState trial;          ///< The one that a step leads to.
-  detail::WindowStructure structure;  ///< Which unknowns there are and how they meet.
+  detail::WindowState trial;          ///< The estimate after a step.
+  detail::WindowStructure structure;  ///< The unknowns and their couplings.
   detail::WindowTerms terms;          ///< The linearised texts.
   detail::WindowSchur system;         ///< The normal equations.
 };
@@ -107,7 +105,7 @@ class WindowSolver {
     return Status::iteration_limit;
   }
 
-  // y = x moved by the step of the system. Returns the largest move relative to the scale of its parameter.
+  // y = x moved by the step. Returns the largest move relative to the scale of its parameter.
   double move() {
     y_.T_w_c = x_.T_w_c;
     y_.landmark = x_.landmark;
@@ -150,7 +148,7 @@ class WindowSolver {
     cost_ = terms_.accumulate(w_, o_, x_, structure_, system_);
   }
 
-  // Costs below this are rounding: 1e-10 sigma an observation, and of texts the single precision of the kernels.
+  // Costs below this are rounding errors: 1e-10 sigma an observation, and for texts the kernels' float.
   double noise() const noexcept {
     const int texts = count(w_.text_observations);
     const double rounding = 1e-20 * (count(w_.point_observations) + texts);
@@ -190,9 +188,9 @@ class WindowSolver {
     ++sum_.undetermined;
   }
 
-  // Where no step lowers the cost: converged if the first one promised at most this share of it.
+  // Where no step lowers the cost: converged if the first one predicted a decrease of at most this share.
   static constexpr double kStall = 1e-3;
-  // Share of the cost that rounding makes in kernels that sum in float.
+  // Rounding error of kernels that sum in float, as a share of the cost.
   static constexpr double kSinglePrecision = 1e-7;
 
   Window& w_;
@@ -207,11 +205,10 @@ class WindowSolver {
 
 }  // namespace detail
 
-/// Adjusts the window in place: free poses, points and planes move, and the fields marked "out" are written. See
-/// WindowSummary for the statuses; unless is_ok(status) or diverged, poses, points and planes are as they were.
-/// Deterministic: the same window gives the same bits, whatever the workspace held before. Allocates as WindowWorkspace
-/// says (and throws std::bad_alloc like any container); never throws otherwise. One thread; calls on different windows
-/// and workspaces may run at the same time. (S is double: a template, so that including the header costs little.)
+/// Adjusts free poses, points and planes of the window in place, and writes the fields marked "out". Statuses: see
+/// WindowSummary; unless is_ok(status) or diverged, poses, points and planes stay as they were. Deterministic: the same
+/// window gives the same bits, with any workspace. Throws only std::bad_alloc, where it allocates as WindowWorkspace
+/// says. Thread-safe for distinct windows and workspaces. S is double, see BasicWindowSchur.
 template <class S = double>
 WindowSummary solve_window(Window& window, const WindowOptions& options, WindowWorkspace& workspace) {
   return detail::WindowSolver<S>(window, options, workspace).run();

@@ -1,11 +1,11 @@
 // Window: the data of a windowed bundle adjustment over key-frame poses, world points and text planes, its options and
 // its summary.
 //
-// The cost that solve_window() (window.hpp) lowers is
-//   E = sum_points rho(|px - pi(T_w_c^-1 p_w)|^2 / sigma^2)  +  sum_text weight lambda_w sum_pixels rho(r^2),
-// the paper's joint cost of section V, with T_w_c <- T_w_c Exp(xi) (right perturbation, xi = (v, omega)), p_w in the
-// world and theta in the text's host frame. r is the normalised photometric residual of photometry/residual.hpp through
-// T_t_h = T_w_t^-1 T_w_h, and lambda_w is text_weight() of solver/weighting.hpp.
+// solve_window() (window.hpp) minimises the paper's joint cost of section V:
+//   E = sum_points rho(|px - pi(T_w_c^-1 p_w)|^2 / sigma^2)  +  sum_text weight lambda_w sum_pixels rho(r^2)
+// p_w is in the world, theta in the text's host frame. Poses move by T_w_c <- T_w_c Exp(xi) (right perturbation,
+// xi = (v, omega)). r is the normalised photometric residual of photometry/residual.hpp through T_t_h = T_w_t^-1 T_w_h,
+// lambda_w is text_weight() of solver/weighting.hpp.
 //
 // Structs hold inputs first, then what the solver writes back ("out"). Nothing here owns pixels: images and patches
 // must outlive the call. Indices refer to the vectors of the same Window.
@@ -26,16 +26,15 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A key frame. A frame that is not fixed needs observations that determine its pose: at least six equations from
-/// points that are seen elsewhere too and from text (two a point, six a text observation). Otherwise it is left where
-/// it is, its observations are left out, and `status` says too_few.
+/// A key frame. A free frame needs at least six equations: two from each point that other frames see too, six from each
+/// text observation. With fewer it stays where it is, its observations are left out, and `status` is too_few.
 struct WindowFrame {
   SE3<double> T_w_c;   ///< Camera to world.
   bool fixed = false;  ///< Constant: part of the gauge.
-  PyramidView image;   ///< May stay empty where no text observation has this frame as its target.
+  PyramidView image;   ///< May be empty where this frame is no text's target.
 
-  /// Out. ok: adjusted, or fixed. too_few: see above. rank_deficient: adjusted, but the system at the final state
-  /// leaves a direction of this pose undetermined (it moved by damping alone).
+  /// Out. ok: adjusted, or fixed. too_few: see above. rank_deficient: adjusted, but a direction of this pose is
+  /// undetermined at the final state (damping alone moved it).
   Status status = Status::ok;
 };
 
@@ -44,24 +43,24 @@ struct WindowPoint {
   Vector3<double> p_w = Vector3<double>::Zero();  ///< World.
   bool fixed = false;                             ///< Constant: its observations act on the frames alone.
 
-  /// Out. ok; too_few: fewer than two usable observations (of a point that is not fixed), left alone; non_finite: p_w
-  /// is, left alone; rank_deficient: its observations have no parallax, so that its depth moved by damping alone.
+  /// Out. ok; too_few: a free point with fewer than two usable observations, unchanged; non_finite: p_w is, unchanged;
+  /// rank_deficient: its observations have no parallax (damping alone moved its depth).
   Status status = Status::ok;
 };
 
 /// A point seen in a frame.
 struct WindowPointObservation {
-  int frame = -1;                                ///< Index into Window::frames: the one that sees it.
+  int frame = -1;                                ///< Index into Window::frames.
   int point = -1;                                ///< Index into Window::points.
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
   /// Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
   double sigma = 1;
 
-  /// Out: |e|^2 / sigma^2 at the final state, without the robust function, for observations that were left out too.
+  /// Out: |e|^2 / sigma^2 at the final state, without the robust function, also of observations that were left out.
   /// The largest double where there is no projection.
   double chi2 = 0;
-  /// Out. ok; behind_camera: at the start (left out of the solve) or at the end; non_finite or invalid_argument (sigma
-  /// <= 0): left out; too_few: left out because its point or frame was.
+  /// Out. ok; behind_camera: at the start (left out) or at the end; non_finite or invalid_argument (sigma <= 0): left
+  /// out; too_few: left out with its point or frame.
   Status status = Status::ok;
 };
 
@@ -72,16 +71,15 @@ struct WindowText {
   const TextPatch* patch = nullptr;                 ///< Null counts as invalid_argument.
   bool fixed = false;                               ///< Constant: its observations act on the frames alone.
 
-  /// Out: 3 x 3 covariance of theta with every free pose and point uncertain too, under the gauge of the solve.
-  /// Proportional to the truth only where the weights are inverse variances (Weighting::variance). Zero for fixed and
-  /// left-out texts, or where it does not exist.
+  /// Out: marginal covariance of theta under the gauge of the solve. Proportional to the truth only where weights are
+  /// inverse variances (Weighting::variance). Zero for fixed and left-out texts, or where it does not exist.
   Matrix3<double> covariance = Matrix3<double>::Zero();
-  /// Out: theta's own 3 x 3 block of J^T W J, that is the information with all poses held.
+  /// Out: theta's own block of J^T W J, the information with all poses held.
   Matrix3<double> information = Matrix3<double>::Zero();
-  double zncc = 0;            ///< Out: mean over the observations that could be evaluated at the final state.
-  int used_observations = 0;  ///< Out: how many took part to the end.
-  /// Out. ok; too_few: no usable observation, left alone; non_finite, invalid_argument (patch or its camera), left
-  /// alone; rank_deficient: its observations do not determine theta.
+  double zncc = 0;            ///< Out: mean over its used observations.
+  int used_observations = 0;  ///< Out: observations used to the end.
+  /// Out. ok; too_few: no usable observation, unchanged; non_finite, invalid_argument (patch or its camera): unchanged;
+  /// rank_deficient: its observations do not determine theta.
   Status status = Status::ok;
 };
 
@@ -89,86 +87,84 @@ struct WindowText {
 struct WindowTextObservation {
   int text = -1;        ///< Index into Window::texts.
   int frame = -1;       ///< Target frame, other than the host.
-  double weight = 1;    ///< Of this observation, on top of lambda_w.
-  int scale_shift = 0;  ///< Of photometric_input(): where the target sees the text at another size than its host.
+  double weight = 1;    ///< Of this observation; multiplies lambda_w.
+  int scale_shift = 0;  ///< Of photometric_input(), for targets that see the text at another size.
 
-  double zncc = 0;  ///< Out: at the final state; 0 if it could not be evaluated.
+  double zncc = 0;  ///< Out: at the final state; 0 where it could not be evaluated.
   int visible = 0;  ///< Out: visible pixels at the final state.
-  /// Out. ok; the status of linearise() at the start, or where the observation dropped out later (too_few,
-  /// no_contrast, behind_camera, ...); degenerate: target is host; invalid_argument: no image or no patch on this
-  /// level, weight not positive; too_few also where its text or a frame was left out.
+  /// Out. ok; the failure of linearise() at the start or where it dropped out later (too_few, no_contrast, ...);
+  /// degenerate: target is host; invalid_argument: no image or no patch on this level, weight not positive; too_few
+  /// also where its text or a frame was left out.
   Status status = Status::ok;
 };
 
 /// The whole problem. One pinhole camera for all frames (level 0).
 struct Window {
   Pinhole<double> camera;                                  ///< Of all frames, level 0.
-  std::vector<WindowFrame> frames;                         ///< Poses, the unknown ones and those held.
+  std::vector<WindowFrame> frames;                         ///< Poses, free and fixed.
   std::vector<WindowPoint> points;                         ///< Points in the world.
-  std::vector<WindowPointObservation> point_observations;  ///< Who sees which point where.
-  std::vector<WindowText> texts;                           ///< Text objects, by host and plane.
-  std::vector<WindowTextObservation> text_observations;    ///< Who sees which text.
+  std::vector<WindowPointObservation> point_observations;  ///< Pixels of points in frames.
+  std::vector<WindowText> texts;                           ///< Text objects.
+  std::vector<WindowTextObservation> text_observations;    ///< Frames that see texts.
 };
 
 /// Settings of solve_window().
 struct WindowOptions {
   PhotometricOptions photometric;  ///< Of every pixel of the texts.
-  Robust point_robust{RobustKind::huber,
-                      std::sqrt(5.99)};  ///< On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom.
+  Robust point_robust{
+      RobustKind::huber,
+      std::sqrt(5.99)};  ///< On |e| / sigma: root of the 95 % bound of chi-square, 2 degrees of freedom.
   Weighting weighting = Weighting::variance;  ///< How texts weigh against points: lambda_w.
   double sigma_rep = 1;                       ///< px.
   double sigma_photo = 0.3;                   ///< Per pixel, in units of 1/sqrt(N).
-  /// Pyramid level of patches and images; for coarse to fine call solve_window() once a level, same workspace.
+  /// Pyramid level of patches and images. Coarse to fine: call solve_window() once a level, with one workspace.
   int text_level = 0;
 
   int max_iterations = 10;  ///< Steps tried, rejected ones included.
-  /// Converged where a step lowers (or is predicted to lower) the cost by no more than this fraction.
+  /// Converged where a step lowers the cost, or is predicted to, by at most this fraction.
   double cost_tolerance = 1e-6;
-  /// Converged where no parameter moves by more than this fraction of its scale (rotation: rad; others: relative to
-  /// distances).
+  /// Converged where all parameters move by at most this fraction of their scale (1 rad; the mean depth; |theta|).
   double step_tolerance = 1e-9;
   double initial_lambda = 1e-5;    ///< Marquardt damping, relative to the diagonal.
   double max_lambda = 1e10;        ///< diverged beyond.
   double max_lost_fraction = 0.1;  ///< A step that loses more of the visible text pixels is rejected.
-  double min_depth = 1e-6;         ///< A point with less z than this is behind the camera (world units).
+  double min_depth = 1e-6;         ///< World units: a point with less z is behind the camera.
 
-  /// Scale gauge: hold the distance between the centres of these two frames at its initial value, exactly. Needed where
-  /// just one frame is fixed; allowed with more (a known baseline). Ignored where both frames are fixed; -1: no such
-  /// constraint.
+  /// Scale gauge: the distance between the centres of frames a and b keeps its initial value exactly. Needed where only
+  /// one frame is fixed; ignored where both frames are. -1: no such constraint.
   int scale_frame_a = -1;
-  int scale_frame_b = -1;  ///< Index into Window::frames of the other frame of that distance; -1: none.
+  int scale_frame_b = -1;  ///< The other frame; -1: none.
 
   bool covariance = true;  ///< Compute WindowText::covariance and information, and the rank_deficient statuses.
 };
 
 /// What solve_window() did. `status`:
 /// - converged, iteration_limit: the window holds the best state.
-/// - too_few: nothing to adjust (no frame, or no usable observation that acts on anything free); window unchanged.
+/// - too_few: nothing to adjust (no frame, or no usable observation of anything free); window unchanged.
 /// - rank_deficient: the gauge is missing (`gauge_freedom` > 0); window unchanged.
 /// - degenerate: the two scale frames coincide; window unchanged.
 /// - non_finite: camera, an option or a frame's pose; invalid_argument: index out of range, option out of its domain;
 /// window unchanged.
-/// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state (the start,
-/// perhaps).
+/// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state.
 struct WindowSummary {
   Status status = Status::too_few;  ///< Why it ended: see above.
-  double initial_cost = 0;          ///< E over what took part at the start.
-  /// E at the final state. It can exceed the initial cost only where patches gained visible pixels meanwhile.
+  double initial_cost = 0;          ///< E of the terms used at the start.
+  /// E at the final state. It exceeds initial_cost only where patches gained visible pixels.
   double final_cost = 0;
   int iterations = 0;  ///< Steps tried.
   /// Steps taken; none raised the cost on the visible set of its linearisation, lost pixels charged.
   int accepted = 0;
   double last_step = 0;  ///< Scaled size of the last step taken, as step_tolerance measures it.
 
-  /// Degrees of freedom that no fixed frame or scale takes away: 7 a free-floating component, 1 a missing scale.
+  /// Degrees of freedom that nothing fixes: 7 for each set of connected frames without a gauge, 1 for a missing scale.
   int gauge_freedom = 0;
   int free_frames = 0;         ///< Frames adjusted.
   int free_points = 0;         ///< Points solved for.
   int free_texts = 0;          ///< Texts solved for.
-  int point_observations = 0;  ///< Took part.
-  int text_observations = 0;   ///< Took part to the end.
+  int point_observations = 0;  ///< Used.
+  int text_observations = 0;   ///< Used to the end.
   int undetermined = 0;        ///< Frames, points and texts with status rank_deficient.
-  Path path = Path::kernel;    ///< Path::reference where any evaluation of a text ran on the slow reference.
+  Path path = Path::kernel;    ///< Path::reference where the slow reference evaluated any text.
 };
 
 TEXTPLANE_END_NAMESPACE

@@ -1,10 +1,10 @@
 // The linear algebra of a window: normal equations in blocks, the Schur complement that eliminates the landmarks,
-// back-substitution, and the covariance of landmarks. Knows nothing of images or projections.
+// back-substitution, and the covariance of landmarks.
 //
 //   [ H_cc  W  ] [x_c]     [g_c]
 //   [ W^T   V  ] [x_l] = - [g_l],   S = H_cc - W V^-1 W^T,   S x_c = -(g_c - W V^-1 g_l),   x_l = -V^-1 (g_l + W^T x_c)
 //
-// with V block diagonal, 3 x 3 a landmark. All sums run in the order of the window's vectors.
+// V is block diagonal: 3 x 3 a landmark. All sums run in the order of the window's vectors.
 #ifndef TEXTPLANE_SOLVER_WINDOW_SCHUR_HPP
 #define TEXTPLANE_SOLVER_WINDOW_SCHUR_HPP
 
@@ -19,7 +19,7 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-/// S is double: a template, so that a file which only includes the header pays for none of it.
+/// S is double. It is a template so that files that do not call it do not compile it.
 template <class S>
 class BasicWindowSchur {
  public:
@@ -43,8 +43,7 @@ class BasicWindowSchur {
     scale_row_.clear();
   }
 
-  /// The equality sum of row . x = 0 on the translations of two cameras (-1: a fixed frame, no entries): the scale
-  /// gauge.
+  /// The scale gauge: row_a . x_a + row_b . x_b = 0 for the translations of two cameras (-1: a fixed frame).
   void set_scale_row(int camera_a, const Vector3<S>& row_a, int camera_b, const Vector3<S>& row_b) {
     scale_row_.assign(camera_gradient_.size(), 0.0);
     for (int i = 0; i < 3; ++i) {
@@ -72,8 +71,8 @@ class BasicWindowSchur {
   }
   void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
 
-  /// The same of two residuals e, whose derivatives are `rows`; `weighted` are derivatives times the weight, for a
-  /// coupling those by the camera.
+  /// The same from two residuals e with derivatives `rows`. `weighted`: derivatives times weight, by the camera for a
+  /// coupling.
   void add_camera(int camera, const Matrix26& weighted, const Matrix26& rows, const Vector2<S>& e) noexcept {
     add_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
     add_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
@@ -86,9 +85,9 @@ class BasicWindowSchur {
     add_rows<6, 3>(weighted.data(), rows.data(), at(coupling_, slot).data());
   }
 
-  /// Builds and factorises S of the system damped by lambda times its diagonal. False where numbers overflowed. With
-  /// lambda 0 landmarks and cameras that the system does not determine are marked (landmark_deficient(),
-  /// camera_deficient()) and held in those directions.
+  /// Builds and factorises S of the system, damped by lambda times its diagonal. False where numbers overflow. With
+  /// lambda 0 it marks undetermined landmarks and cameras (landmark_deficient(), camera_deficient()) and holds them in
+  /// those directions.
   bool reduce(double lambda) {
     const BasicWindowStructure<S>& s = *structure_;
     const int cameras = s.cameras(), landmarks = s.landmarks();
@@ -146,7 +145,7 @@ class BasicWindowSchur {
   Vector6<S> camera_step(int camera) const noexcept { return six(camera_step_, camera); }
   const Vector3<S>& landmark_step(int landmark) const noexcept { return at(landmark_step_, landmark); }
 
-  /// What the quadratic model says the step takes off the cost: -g.x + lambda x.D x.
+  /// The decrease of the quadratic model's cost: -g.x + lambda x.D x.
   double predicted_decrease() const noexcept {
     double sum = 0;
     for (std::size_t i = 0; i < camera_step_.size(); ++i)
@@ -171,8 +170,8 @@ class BasicWindowSchur {
 
   const Matrix3<S>& information(int landmark) const noexcept { return at(landmark_, landmark); }
 
-  /// After reduce(0): the landmark's 3 x 3 block of the inverse of the whole system (under the scale gauge):
-  /// V^-1 + V^-1 W^T S^-1 W V^-1.
+  /// After reduce(0): the landmark's 3 x 3 block of the system's inverse, V^-1 + V^-1 W^T S^-1 W V^-1, under the scale
+  /// gauge.
   Matrix3<S> covariance(int landmark) {
     const BasicWindowStructure<S>& s = *structure_;
     const int begin = at(s.slot_begin, landmark), end = at(s.slot_begin, landmark + 1);
@@ -216,7 +215,7 @@ class BasicWindowSchur {
     return v;
   }
 
-  // Marquardt's diagonal of the cameras, never zero.
+  // The cameras' Marquardt diagonal, never zero.
   void read_diagonal(int cameras) {
     diagonal_.resize(6 * static_cast<std::size_t>(cameras));
     double largest = 0;
@@ -234,8 +233,8 @@ class BasicWindowSchur {
     return d.cwiseMax(1e-9 * d.sum());
   }
 
-  // (V + lambda D)^-1. A landmark without parallax keeps a trace of damping even where lambda is 0; one without
-  // information does not move.
+  // (V + lambda D)^-1. A landmark without parallax is damped a little even where lambda is 0. One without information
+  // does not move.
   void invert(int l) noexcept {
     Matrix3<S> v = at(landmark_, l);
     v.diagonal() += lambda_ * damping(l);
@@ -250,8 +249,7 @@ class BasicWindowSchur {
     if (damped.ok()) at(inverse_, l) = damped.inverse();
   }
 
-  // With n the scale row, S + w n n^T has the same solutions under n.x = 0 and is regular where n carries the only
-  // missing direction.
+  // S <- S + w n n^T, n the scale row. Solutions with n.x = 0 stay, and the missing direction n is filled.
   void add_scale_weight() noexcept {
     if (scale_row_.empty()) return;
     double weight = 0;

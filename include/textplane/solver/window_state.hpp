@@ -1,4 +1,4 @@
-// WindowState: the parameters of a window. Landmarks are the points, then the texts: both are three numbers that the
+// WindowState: the parameters of a window. Landmarks are the points, then the texts: three numbers each, which the
 // Schur complement eliminates.
 #ifndef TEXTPLANE_SOLVER_WINDOW_STATE_HPP
 #define TEXTPLANE_SOLVER_WINDOW_STATE_HPP
@@ -11,7 +11,7 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-// Indices and sizes as the int that Window uses.
+// Elements and sizes by int, as Window uses it.
 template <class Vector>
 auto& at(Vector& v, int i) noexcept {
   return v[static_cast<std::size_t>(i)];
@@ -21,7 +21,7 @@ int count(const Vector& v) noexcept {
   return static_cast<int>(v.size());
 }
 
-/// Poses and landmarks, apart from the Window so that trials cost nothing to take back.
+/// Poses and landmarks. They are apart from the Window so that a rejected trial costs nothing.
 struct WindowState {
   std::vector<SE3<double>> T_w_c;
   std::vector<Vector3<double>> landmark;

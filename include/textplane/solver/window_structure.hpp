@@ -1,5 +1,4 @@
-// What of a Window takes part in the solve: usable observations, free frames and landmarks, the gauge, and the block
-// pattern.
+// The parts of a Window that a solve uses: observations, free frames and landmarks, gauge, and block pattern.
 #ifndef TEXTPLANE_SOLVER_WINDOW_STRUCTURE_HPP
 #define TEXTPLANE_SOLVER_WINDOW_STRUCTURE_HPP
 
@@ -14,7 +13,7 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-/// S is double: a template, so that including the header costs little.
+/// S is double, see BasicWindowSchur.
 template <class S>
 class BasicWindowStructure {
  public:
@@ -24,8 +23,8 @@ class BasicWindowStructure {
   std::vector<std::uint8_t> landmark_free;  ///< Used and not fixed.
   std::vector<int> camera_of_frame;         ///< Index among the free cameras, or -1.
   std::vector<int> frame_of_camera;
-  std::vector<int>
-      slot_begin;  ///< Landmark l couples to the cameras slot_camera[slot_begin[l] .. slot_begin[l + 1]), ascending.
+  /// Landmark l couples to the cameras slot_camera[slot_begin[l] .. slot_begin[l + 1]), ascending.
+  std::vector<int> slot_begin;
   std::vector<int> slot_camera;
   std::vector<int> point_slot;  ///< A slot each point observation, -1 where landmark or camera is not free.
   std::vector<int> host_slot;   ///< A slot each text observation, as above.
@@ -37,7 +36,7 @@ class BasicWindowStructure {
   int cameras() const noexcept { return count(frame_of_camera); }
   int landmarks() const noexcept { return count(landmark_free); }
 
-  /// Indices and options in their domain, camera and poses finite. Otherwise the status to return.
+  /// ok, or the status for an index or option outside its domain, or a non-finite camera or pose.
   static Status check(const Window& w, const WindowOptions& o) noexcept {
     const auto inside = [](int i, std::size_t n) { return i >= 0 && static_cast<std::size_t>(i) < n; };
     for (const WindowPointObservation& k : w.point_observations)
@@ -65,8 +64,8 @@ class BasicWindowStructure {
     return w.camera.valid() ? Status::ok : Status::invalid_argument;
   }
 
-  /// From the observations whose own status is ok: prunes what cannot be determined (writing statuses), measures the
-  /// gauge and lays out the blocks. Allocates where the window exceeds every earlier one.
+  /// Leaves out what the observations with status ok do not determine (and writes statuses), measures the gauge and
+  /// lays out the blocks. Allocates where the window exceeds every earlier one.
   Status build(Window& w, const WindowOptions& o) {
     landmark_used.assign(w.points.size() + w.texts.size(), 0);
     camera_of_frame.assign(w.frames.size(), -1);
@@ -97,7 +96,7 @@ class BasicWindowStructure {
   }
 
  private:
-  // One pass of leaving out what the rest does not determine; true if it left out anything.
+  // One pass of leaving out what the rest does not determine. Whether it left out anything.
   bool prune(Window& w) {
     observations_.assign(landmark_used.size(), 0);
     equations_.assign(w.frames.size(), 0);
@@ -160,7 +159,7 @@ class BasicWindowStructure {
     at(parent_, std::max(ra, rb)) = std::min(ra, rb);
   }
 
-  // Counts the degrees of freedom that nothing takes away, for each set of frames that are connected through landmarks.
+  // Counts the degrees of freedom that nothing fixes, for each set of frames that landmarks connect.
   void measure_gauge(const Window& w, const WindowOptions& o) {
     const int frames = count(w.frames), points = count(w.points);
     parent_.resize(static_cast<std::size_t>(frames) + landmark_used.size());
@@ -172,7 +171,7 @@ class BasicWindowStructure {
     for (int k = 0; k < count(text_active); ++k)
       if (at(text_active, k)) join(at(w.text_observations, k).frame, at(w.texts, at(w.text_observations, k).text).host);
 
-    // A root is the smallest index of its set, and every set of interest holds a frame: roots index frames.
+    // A root is the smallest index of its set. Every set of interest holds a frame, so roots index frames.
     for (int f = 0; f < frames; ++f) {
       Anchor& anchor = at(anchors_, root(f));
       if (at(camera_of_frame, f) >= 0) anchor.free = true;
@@ -187,8 +186,7 @@ class BasicWindowStructure {
     }
     for (int t = 0; t < count(w.texts); ++t)
       if (at(w.texts, t).fixed && at(landmark_used, points + t)) at(anchors_, root(at(w.texts, t).host)).scale = true;
-    // Fixed points anchor each set that sees them; three leave no freedom (unless they are collinear, which the
-    // factorisation tells).
+    // Fixed points anchor each set that sees them. Three leave no freedom; the factorisation finds collinear ones.
     for (int k = 0; k < count(point_active); ++k)
       if (at(point_active, k) && at(w.points, at(w.point_observations, k).point).fixed)
         at(anchors_, root(at(w.point_observations, k).frame)).note_fixed_point(at(w.point_observations, k).point);
@@ -220,7 +218,7 @@ class BasicWindowStructure {
     host_slot.assign(text_active.size(), -1);
     target_slot.assign(text_active.size(), -1);
 
-    // First with duplicates, by counting; then each landmark's range is sorted, made unique and closed up.
+    // Counts and fills the ranges with duplicates, then sorts each, removes duplicates and closes the gaps.
     for_each_coupling(w, points, [&](int landmark, int, int&) { ++at(slot_begin, landmark + 1); });
     for (std::size_t l = 1; l < slot_begin.size(); ++l) slot_begin[l] += slot_begin[l - 1];
     slot_camera.assign(static_cast<std::size_t>(slot_begin.back()), -1);
@@ -245,7 +243,7 @@ class BasicWindowStructure {
     });
   }
 
-  // f(landmark, camera, slot to fill in) for each active observation of a free landmark by a free camera.
+  // Calls f(landmark, camera, its slot) for each active observation of a free landmark by a free camera.
   template <class F>
   void for_each_coupling(const Window& w, int points, F f) {
     for (int k = 0; k < count(point_active); ++k) {

@@ -1,5 +1,5 @@
-// The terms of a window's cost: reprojection errors of points and photometric errors of texts, their derivatives by
-// poses and landmarks, and their values at a trial state.
+// The terms of a window's cost, reprojection errors of points and photometric errors of texts: derivatives by poses and
+// landmarks, and values at a trial state.
 #ifndef TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
 #define TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
 
@@ -14,18 +14,18 @@
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-/// Cost of a trial on the visible sets of the last linearisation.
+/// Cost of a trial on the pixels that the last linearisation saw.
 struct WindowTrial {
   double cost = 0;
   double lost_fraction = 0;
   bool possible = false;  ///< False where a point went behind a camera or the cost is not finite.
 };
 
-/// S is double, as in BasicWindowSchur.
+/// S is double, see BasicWindowSchur.
 template <class S>
 class BasicWindowTerms {
  public:
-  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates for the largest window so far.
+  /// Resets the out fields, marks unusable elements, linearises the texts. Allocates for the largest window so far.
   void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
     path_ = Path::kernel;
     for (WindowFrame& f : w.frames) f.status = Status::ok;
@@ -72,8 +72,7 @@ class BasicWindowTerms {
         at(w.text_observations, k).status = linearise_text(w, o, x, k);
   }
 
-  /// Text normal equations at x, for the active observations; those that fail are taken out for good, with their
-  /// status.
+  /// Linearises the active texts at x. Those that fail are left out from now on, with their status.
   void linearise_texts(Window& w, const WindowOptions& o, const WindowState& x, BasicWindowStructure<S>& s) {
     for (int k = 0; k < count(s.text_active); ++k) {
       if (!at(s.text_active, k)) continue;
@@ -82,7 +81,7 @@ class BasicWindowTerms {
     }
   }
 
-  /// All sums at x, with the texts as linearised last. Returns the cost.
+  /// Sums all terms at x, texts as last linearised. Returns the cost.
   double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                     BasicWindowSchur<S>& out) const {
     out.begin(s);
@@ -100,8 +99,8 @@ class BasicWindowTerms {
     return cost;
   }
 
-  /// Cost of the trial y. A point that would go behind one of its cameras takes back its position in x: one such point
-  /// must not spoil the step of all others.
+  /// Cost of the trial y. A point that goes behind a camera returns to its position in x, so that it does not spoil the
+  /// step of all others.
   WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                        WindowState& y) {
     WindowTrial trial;
@@ -138,7 +137,7 @@ class BasicWindowTerms {
     return trial;
   }
 
-  /// Writes chi2, zncc and visible counts of all observations at x; texts as linearised last.
+  /// Writes chi2, zncc and visible counts of all observations at x, texts as last linearised.
   void report(Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s) {
     for (WindowPointObservation& k : w.point_observations) {
       Vector3<S> p_c;
@@ -162,7 +161,7 @@ class BasicWindowTerms {
 
   Path path() const noexcept { return path_; }  ///< What computed the texts since prepare().
 
-  /// Mean distance from the cameras of what the active observations see: the length that steps are compared with.
+  /// Mean depth of the active observations, the unit of length for step_tolerance.
   double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x,
                     const BasicWindowStructure<S>& s) const {
     double sum = 0;
@@ -258,7 +257,7 @@ class BasicWindowTerms {
     return o.point_robust.rho(r2);
   }
 
-  // The 9 parameters (xi of T_t_h, left; theta) seen from the two world poses: host = Ad(T_t_h), target = -1.
+  // From xi of T_t_h (left) to the world poses: d xi / d xi_host = Ad(T_t_h), d xi / d xi_target = -1.
   double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                   int k, BasicWindowSchur<S>& out) const noexcept {
     const WindowTextObservation& ob = at(w.text_observations, k);

@@ -10,7 +10,7 @@
 //   unproject(px, &m)   the ray of a pixel. Status::degenerate where there is none, non_finite for NaN; m stays as it
 //                       was
 //   pinhole()           the camera of the undistorted image. Every kernel takes this one.
-//   is_pinhole()        there is nothing to undistort: project() is that of pinhole()
+//   is_pinhole()        there is nothing to undistort: project() equals pinhole().project()
 //   at_level(l)         the camera of pyramid level l, whose pixels are (x + 0.5)/2^l - 0.5
 //
 // None of them throws or allocates. Threads may share a camera.

@@ -106,7 +106,7 @@ struct RadialTangential {
   /// Whether the lens distorts nothing.
   bool is_pinhole() const noexcept { return k1 == S(0) && k2 == S(0) && p1 == S(0) && p2 == S(0) && k3 == S(0); }
 
-  /// The same camera for pyramid level l: the lens is that of level 0.
+  /// The same camera for pyramid level l: the lens stays the same.
   RadialTangential at_level(int level) const noexcept { return {intrinsics.at_level(level), k1, k2, p1, p2, k3}; }
 
   /// The same of another scalar.
