@@ -85,11 +85,9 @@ struct ResidualRequest {
   BasicPhotometricInput<T> input;                   ///< Patch, target and cameras.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_t_h = {};                                  ///< Host to target.
-  PhotometricOptions options = {};
-  /// For Parameters::host_target_plane alone, see world_request(): target to world, with T_w_h = T_w_t T_t_h, and the
-  /// side that both world poses are perturbed on, T_w_x <- Exp(xi_x) T_w_x or T_w_x <- T_w_x Exp(xi_x).
-  SE3d T_w_t = {};
-  PerturbationSide side = PerturbationSide::right;
+  PhotometricOptions options = {};                  ///< Of every pixel.
+  SE3d T_w_t = {};                                  ///< Target to world; see world_request().
+  PerturbationSide side = PerturbationSide::right;  ///< Of both world poses; see world_request().
 
   /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if
   /// given, is of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
@@ -97,6 +95,7 @@ struct ResidualRequest {
     return {*this, policy, prepared};
   }
 };
+/// Deduces T from the input.
 template <class T>
 ResidualRequest(BasicPhotometricInput<T>, Vector3<double> = {}, SE3d = {}, PhotometricOptions = {})
     -> ResidualRequest<T>;
@@ -105,11 +104,12 @@ ResidualRequest(BasicPhotometricInput<T>, Vector3<double> = {}, SE3d = {}, Photo
 /// the forward kernels alone.
 template <class T>
 struct PolicyRequest : ResidualRequest<T> {
-  LinearisePolicy policy = LinearisePolicy::forward;
-  const TemplatePatch* prepared = nullptr;
+  LinearisePolicy policy = LinearisePolicy::forward;  ///< Whose gradients it takes.
+  const TemplatePatch* prepared = nullptr;            ///< Of input.patch, or null.
 };
 
-/// The request for Parameters::host_target_plane: by the world poses (camera to world) of host and target.
+/// The request for Parameters::host_target_plane: by the world poses (camera to world) of host and target. `side`: both
+/// poses move by T_w_x <- Exp(xi_x) T_w_x (left) or T_w_x <- T_w_x Exp(xi_x) (right).
 template <class T>
 ResidualRequest<T> world_request(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_w_h,
                                  const SE3d& T_w_t, PerturbationSide side,
