@@ -3,7 +3,7 @@
 # The adjustment and the detector beside tracking, with the files that they need and no more: ThreadSanitizer takes a
 # minute for each.
 if(TEXTPLANE_TEST_TIER STREQUAL "threads")
-  set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread map/map map/observations
+  set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread map/observations
     map/text_geometry map/text_words text/text_plane track/feature_tracks track/point_search track/rotation_prior track/track
     track/tracker)
   list(TRANSFORM alone REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/examples/textslam/\\1.cpp")
@@ -28,7 +28,7 @@ textplane_add_tests(renderer LIBRARIES textplane_renderer TIERS first_look sanit
 textplane_add_tests(planar LIBRARIES textplane_textslam TIERS first_look sanitizers)
 textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS first_look sanitizers EXCEPT
   sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms")
-textplane_add_tests(textslam LIBRARIES textplane_plugins TIERS first_look sanitizers EXCEPT
+textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map TIERS first_look sanitizers EXCEPT
   sanitizers "LateDetections\\." first_look "LateDetections\\.")
 
 add_test(NAME examples.rooms COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/examples/textslam

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "textslam/common/algorithms.hpp"
 #include "textslam/common/geometry.hpp"
-#include "textslam/common/statistics.hpp"
 
 namespace textslam {
 namespace {

@@ -26,6 +26,12 @@ struct Similarity {
   /// A camera pose of the source world in the target world; the rotation stays a rotation.
   SE3d operator*(const SE3d& T_w_c) const { return {R * T_w_c.R, *this * T_w_c.t}; }
 };
+inline Similarity similarity_of(const SE3d& T) { return {1, T.R, T.t}; }
+/// A after B.
+inline Similarity compose(const Similarity& A, const Similarity& B) { return {A.scale * B.scale, A.R * B.R, A * B.t}; }
+inline Similarity inverse(const Similarity& S) {
+  return {1 / S.scale, S.R.transpose(), -(1 / S.scale) * (S.R.transpose() * S.t)};
+}
 
 /// Indices of an estimated pose and of the true pose nearest in time.
 struct PosePair {

@@ -5,13 +5,13 @@
 #include <map>
 #include <string>
 
+#include "cli/detector_options.hpp"
+#include "cli/progress.hpp"
+#include "cli/sequence_options.hpp"
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "plugins/plugins.hpp"
 #include "renderer/render_sequence.hpp"
-#include "textslam/detect/detector_options.hpp"
-#include "textslam/input/sequence_options.hpp"
-#include "textslam/report/progress.hpp"
 #include "textslam/run.hpp"
 
 namespace {

@@ -5,18 +5,18 @@
 #include <memory>
 #include <thread>
 
+#include "cli/progress.hpp"
+#include "io/clock.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "io/output_file.hpp"
 #include "textslam/common/bounded_sampler.hpp"
-#include "textslam/common/clock.hpp"
 #include "textslam/detect/detection_thread.hpp"
 #include "textslam/detect/text_detector.hpp"
 #include "textslam/input/undistorter.hpp"
 #include "textslam/report/frame_line.hpp"
 #include "textslam/report/outputs.hpp"
-#include "textslam/report/progress.hpp"
 #include "textslam/report/report.hpp"
 #include "textslam/report/report_frames.hpp"
 
@@ -43,18 +43,10 @@ class FrameSource {
   std::vector<Detection> detect(int index, const Image<std::uint8_t>& raw) {
     return undistort_(detector_->detect(sequence_.frames[at(index)], raw.view()));
   }
-  Frame frame(int index, const Image<std::uint8_t>& raw) const {
-    Frame frame;
-    frame.index = index;
-    frame.timestamp = timestamp(index);
-    frame.image = pyramid(raw);
-    return frame;
-  }
-
+  Frame frame(int index, const Image<std::uint8_t>& raw) const { return {index, timestamp(index), pyramid(raw), {}}; }
   void read_texts(System& system) const {
     if (reader_) system.read_texts(*reader_);
   }
-
   std::shared_ptr<const Pyramid> image(int index) { return pyramid(load_frame(sequence_, at(index))); }
 
  private:
@@ -72,8 +64,7 @@ class FrameSource {
   std::unique_ptr<TextReader> reader_;
 };
 
-// Real time: frames come at their time stamps, counted from the first. A late one is processed at once; none is
-// skipped.
+// Real time: frames come at their time stamps, counted from the first. A late frame is processed at once, none skipped.
 class Clock {
  public:
   explicit Clock(bool real_time) : real_time_(real_time) {}
@@ -91,7 +82,7 @@ class Clock {
   void done() {
     if (real_time_) latency_ms_.push_back(now_ms() - due_ms_);
   }
-  /// From when each frame came to when its pose was known.
+  /// Of each frame: from its arrival to its pose.
   std::vector<double> latency_ms() { return std::move(latency_ms_); }
 
  private:
@@ -100,20 +91,16 @@ class Clock {
   std::vector<double> latency_ms_;
 };
 
-// Detection before each frame, or, in real time, on a thread beside tracking. Reading files takes no time and stays in
-// step.
+// Detection before each frame or, in real time, on a thread beside tracking. Files are always read before the frame.
 class Detections {
  public:
   Detections(FrameSource& source, const RunOptions& options) : source_(source) {
     const Parameters& parameters = options.parameters;
     if (parameters.mode == Mode::points) return;
-    const bool in_no_time = !options.own_detector && options.detector.name == "files";
-    if (!parameters.real_time || in_no_time) {
-      in_step_ = true;
-    } else {
-      thread_ = std::make_unique<DetectionThread>(
-          [&source](int index, const Image<std::uint8_t>& raw) { return source.detect(index, raw); });
-    }
+    in_step_ = !parameters.real_time || (!options.own_detector && options.detector.name == "files");
+    if (in_step_) return;
+    thread_ = std::make_unique<DetectionThread>(
+        [&source](int index, const Image<std::uint8_t>& raw) { return source.detect(index, raw); });
   }
 
   /// Before the frame is processed. Returns the ms it took.
@@ -230,20 +217,14 @@ RunResult run(const RunOptions& options) {
   }
   if (options.report)
     keep_going(result, [&] {
-      const ReportInput input{system,
-                              options.parameters,
-                              sequence,
-                              summary,
-                              signs,
-                              detections.of_frames(),
-                              [&](int index) { return source.image(index); },
-                              options.command,
-                              options.first};
+      const auto picture = [&](int index) { return source.image(index); };
+      const ReportInput input{system,  options.parameters, sequence,     summary, signs, detections.of_frames(),
+                              picture, options.command,    options.first};
       const std::string path = options.output + "/report.html";
       write_file(path, report_html(input));
       result.report = path;
     });
-  if (options.json_lines) print_line(summary_line(summary));
+  if (options.json_lines) print_line(Json{{"summary", describe(summary).file}}.dump());
   if (failure) std::rethrow_exception(failure);
   return result;
 }

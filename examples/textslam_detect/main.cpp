@@ -5,13 +5,13 @@
 #include <exception>
 #include <filesystem>
 
+#include "cli/detector_options.hpp"
+#include "cli/progress.hpp"
 #include "io/evaluate_detections.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
 #include "plugins/plugins.hpp"
-#include "textslam/detect/detector_options.hpp"
-#include "textslam/report/progress.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/input_error.hpp"
-#include "textslam/report/text_index.hpp"
+#include "textslam_map/text_query.hpp"
 
 namespace {
 

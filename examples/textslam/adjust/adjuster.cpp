@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "textslam/common/clock.hpp"
+#include "io/clock.hpp"
 
 namespace textslam {
 

@@ -1,11 +1,10 @@
 // Adjuster: the adjustment that follows a key frame, in step with the frames or on a thread of its own.
 //
-// Local around the newest key frame, or, whenever the map has grown by a share, of the whole map: a local one keeps the
-// errors of the key frames that it holds fixed, and live poses inherit them.
+// It is local, around the newest key frame. Whenever the map has grown by whole_growth, it takes the whole map: a local
+// adjustment keeps the errors of its fixed key frames, and live poses inherit them.
 //
 // In step, keyframe_added() does it all, and the same frames give the same bytes. In real time it runs beside the
-// tracker; collect() takes the result over between two frames. Key frames that come meanwhile share the next
-// adjustment.
+// tracker, and collect() takes over the result between two frames. Key frames that come meanwhile share the next one.
 //
 // Threads: all members are called from one thread, which alone touches the map.
 #ifndef TEXTSLAM_ADJUST_ADJUSTER_HPP

@@ -4,7 +4,7 @@
 
 #include "textplane/solver/window.hpp"
 #include "textslam/adjust/adjustment_selection.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/text/text_plane.hpp"
@@ -98,12 +98,8 @@ class Adjustment {
   void add_frame(const Map& map, int id, bool fixed) {
     slot_of_[static_cast<std::size_t>(id)] = static_cast<int>(frames_.size());
     frames_.push_back(id);
-    textplane::WindowFrame frame;
-    frame.T_w_c = map.keyframe(id).T_w_c;
-    frame.fixed = fixed;
     images_.push_back(map.keyframe(id).frame.image);
-    frame.image = images_.back()->view();
-    window_.frames.push_back(frame);
+    window_.frames.push_back({map.keyframe(id).T_w_c, fixed, images_.back()->view()});
   }
 
   void add_point(const Map& map, int id) {
@@ -114,16 +110,10 @@ class Adjustment {
     for (const PointObservation& o : point.observations) {
       const int slot = slot_of_[static_cast<std::size_t>(o.keyframe)];
       if (slot < 0) continue;
-      textplane::WindowPointObservation observation;
-      observation.frame = slot;
-      observation.point = static_cast<int>(points_.size());
-      observation.px = o.px;
-      observation.sigma = parameters_.window_point_sigma;
-      window_.point_observations.push_back(observation);
+      window_.point_observations.push_back(
+          {slot, static_cast<int>(points_.size()), o.px, parameters_.window_point_sigma});
     }
-    textplane::WindowPoint window_point;
-    window_point.p_w = point.p_w;
-    window_.points.push_back(window_point);
+    window_.points.push_back({point.p_w});
     points_.push_back(id);
   }
 
@@ -134,20 +124,13 @@ class Adjustment {
       if (slot_of_[static_cast<std::size_t>(id)] >= 0) usable.push_back(id);
     if (usable.empty()) return;
     for (const int id : evenly_spaced(usable, text_views_)) {
-      textplane::WindowTextObservation observation;
-      observation.text = static_cast<int>(texts_.size());
-      observation.frame = slot_of_[static_cast<std::size_t>(id)];
       Quad<double> quad;
-      if (project_text(map, text, map.keyframe(id).T_w_c.inverse(), &quad))
-        observation.scale_shift = scale_shift(text, quad);
-      window_.text_observations.push_back(observation);
+      const int shift = project_text(map, text, map.keyframe(id).T_w_c.inverse(), &quad) ? scale_shift(text, quad) : 0;
+      const int slot = slot_of_[static_cast<std::size_t>(id)];
+      window_.text_observations.push_back({static_cast<int>(texts_.size()), slot, 1, shift});
     }
-    textplane::WindowText window_text;
-    window_text.host = slot_of_[static_cast<std::size_t>(text.host)];
-    window_text.theta = text.theta;
     patches_.push_back(text.patch);
-    window_text.patch = &patches_.back();
-    window_.texts.push_back(window_text);
+    window_.texts.push_back({slot_of_[static_cast<std::size_t>(text.host)], text.theta, &patches_.back()});
     texts_.push_back(text.id);
   }
 
@@ -223,9 +206,7 @@ void adjust_all(Map& map, const Parameters& parameters, int iterations) {
     adjustment.write_back(map);
     adjustment.write_back_texts(map);
     if (adjustment.remove_outliers(map) == 0) break;
-    selection.points.erase(
-        std::remove_if(selection.points.begin(), selection.points.end(), [&](int id) { return map.point(id).bad; }),
-        selection.points.end());
+    erase_if(selection.points, [&](int id) { return map.point(id).bad; });
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
 
 namespace textslam {
@@ -52,8 +53,7 @@ AdjustmentSelection local_selection(const Map& map, const Parameters& parameters
   AdjustmentSelection selection;
   selection.free_frames =
       strongest(shared, parameters.local_min_shared, static_cast<std::size_t>(parameters.window_frames));
-  selection.free_frames.erase(std::remove(selection.free_frames.begin(), selection.free_frames.end(), 0),
-                              selection.free_frames.end());
+  erase(selection.free_frames, 0);
   selection.points = points_of(map, selection.free_frames);
 
   shared = shared_points(map, selection.points);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "io/input_error.hpp"
+#include "textslam/common/algorithms.hpp"
 
 namespace textslam {
 namespace {
@@ -83,21 +84,14 @@ TextPlugin missing_plugin(const std::string& name, const std::string& option, co
     return InputError(asked + name, 0,
                       "this build lacks the plug-in; configure with -D" + option + "=ON (Debian: " + packages + ")");
   };
-  TextPlugin plugin;
-  plugin.name = name;
-  plugin.detector = [=](auto&&...) -> std::unique_ptr<TextDetector> { throw refuse("--detector "); };
-  plugin.reader = [=](auto&&...) -> std::unique_ptr<TextReader> { throw refuse("--words "); };
-  plugin.ready = [](const DetectorOptions&) { return false; };
-  return plugin;
+  return {name, [=](auto&...) -> std::unique_ptr<TextDetector> { throw refuse("--detector "); },
+          [=](auto&) -> std::unique_ptr<TextReader> { throw refuse("--words "); },
+          [](const DetectorOptions&) { return false; }};
 }
 
 void register_plugin(TextPlugin plugin) {
-  const auto same = find(plugin.name);
-  if (same != plugins().end()) {
-    *same = std::move(plugin);
-  } else {
-    plugins().push_back(std::move(plugin));
-  }
+  erase_if(plugins(), [&](const TextPlugin& other) { return other.name == plugin.name; });
+  plugins().push_back(std::move(plugin));
 }
 
 std::vector<std::string> detector_names() { return names(&TextPlugin::detector); }

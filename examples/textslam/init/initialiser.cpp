@@ -4,7 +4,7 @@
 
 #include "textplane/geometry/quad.hpp"
 #include "textslam/adjust/adjustment.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/init/two_view.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/track/feature_tracks.hpp"

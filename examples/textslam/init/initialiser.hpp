@@ -17,7 +17,7 @@ class Initialiser {
   /// Takes the next frame. True when `map` now holds two key frames (the reference and this frame) and their points,
   /// with a median depth of 1, and `tracks` the corners in this frame.
   bool add(const Frame& frame, Map& map, std::vector<Track>* tracks);
-  /// Of a frame added before: they matter if it is the reference.
+  /// Late detections of a frame added before; used if it is the reference.
   void add_detections(int frame, std::vector<Detection> detections);
   /// The next frame begins anew.
   void forget() {

@@ -40,25 +40,13 @@ textplane::Window window_of(const std::vector<Track>& tracks, const Pinhole<doub
                             const std::vector<SE3d>& T_c_a, const std::vector<Corner>& points, double sigma) {
   textplane::Window window;
   window.camera = camera;
-  for (const SE3d& T : T_c_a) {
-    textplane::WindowFrame frame;
-    frame.T_w_c = T.inverse();
-    frame.fixed = window.frames.empty();
-    window.frames.push_back(frame);
-  }
+  for (const SE3d& T : T_c_a) window.frames.push_back({T.inverse(), window.frames.empty(), {}});
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (!points[i].ok) continue;
-    for (std::size_t v = 0; v < T_c_a.size(); ++v) {
-      textplane::WindowPointObservation observation;
-      observation.frame = static_cast<int>(v);
-      observation.point = static_cast<int>(window.points.size());
-      observation.px = tracks[i].observations[v].px;
-      observation.sigma = sigma;
-      window.point_observations.push_back(observation);
-    }
-    textplane::WindowPoint point;
-    point.p_w = points[i].p_a;
-    window.points.push_back(point);
+    const int point = static_cast<int>(window.points.size());
+    for (std::size_t v = 0; v < T_c_a.size(); ++v)
+      window.point_observations.push_back({static_cast<int>(v), point, tracks[i].observations[v].px, sigma});
+    window.points.push_back({points[i].p_a});
   }
   return window;
 }
@@ -71,11 +59,7 @@ double clear_ratio(double degrees_of_freedom, double sigmas) {
 
 void MotionHypotheses::begin(const std::vector<SE3d>& T_b_a) {
   hypotheses_.clear();
-  for (const SE3d& T : T_b_a) {
-    Hypothesis hypothesis;
-    hypothesis.T_c_a = {SE3d{}, T};
-    hypotheses_.push_back(std::move(hypothesis));
-  }
+  for (const SE3d& T : T_b_a) hypotheses_.push_back({{SE3d{}, T}, 0, {}});
 }
 
 void MotionHypotheses::judge(const std::vector<Track>& tracks, const Pinhole<double>& camera, bool replaced) {

@@ -6,7 +6,7 @@
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/geometry/plane_fit.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 
 namespace textslam {
 namespace {
@@ -218,23 +218,20 @@ TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b
                           const Parameters& parameters) {
   TwoView best;
   if (static_cast<int>(a.size()) < parameters.init_least_points || a.size() != b.size()) return best;
-  const std::vector<Hypothesis> found = TwoViewSearch(a, b, focal, parameters).minima();
+  std::vector<Hypothesis> found = TwoViewSearch(a, b, focal, parameters).minima();
   const int enough = static_cast<int>(parameters.init_in_front * static_cast<double>(a.size()));
-  const Hypothesis* chosen = nullptr;
-  for (const Hypothesis& h : found) {
-    if (h.in_front < enough) continue;
-    if (!chosen) chosen = &h;
-    best.motions.push_back({SE3d{h.R, h.t}, h.cost});
-  }
-  if (!chosen) return best;
+  erase_if(found, [&](const Hypothesis& h) { return h.in_front < enough; });
+  if (found.empty()) return best;
 
-  best.T_b_a = SE3d{chosen->R, chosen->t};
+  for (const Hypothesis& h : found) best.motions.push_back({SE3d{h.R, h.t}, h.cost});
+  best.T_b_a = best.motions.front().T_b_a;
+  const Hypothesis& chosen = found.front();
   best.inlier.assign(a.size(), 0);
   std::vector<double> parallaxes;
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double r = sampson(*chosen, a[i], b[i], focal, nullptr, nullptr);
-    const Vec3 q = chosen->R * a[i];
+    const double r = sampson(chosen, a[i], b[i], focal, nullptr, nullptr);
+    const Vec3 q = chosen.R * a[i];
     if (std::abs(r) > parameters.init_inlier) continue;
     best.inlier[i] = 1;
     sum += r * r;
@@ -244,8 +241,8 @@ TwoView estimate_two_view(const std::vector<Vec3>& a, const std::vector<Vec3>& b
   if (best.inliers < parameters.init_least_points) return best;
   best.rms = std::sqrt(sum / best.inliers);
   best.parallax = median(parallaxes);
-  best.direction_sigma = direction_sigma(
-      *chosen, std::max(chosen->cost / (static_cast<double>(a.size()) - kTwoViewFreedom), kMinVariance));
+  best.direction_sigma =
+      direction_sigma(chosen, std::max(chosen.cost / (static_cast<double>(a.size()) - kTwoViewFreedom), kMinVariance));
   best.ok = true;
   return best;
 }

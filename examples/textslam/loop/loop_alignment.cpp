@@ -60,7 +60,7 @@ LoopAlignment align_loop(const Map& map, const Parameters& parameters, const Map
     if (!step.allFinite()) return out;
     moved_by += step;
     out.S_w_k = moved(out.S_w_k, step);
-    // The error of an old point is the same in every key frame: together they tell as much as one.
+    // An old point has the same error in every key frame, so that all sightings inform as much as one.
     out.information = equations.H / static_cast<double>(link.sightings.size());
     if (step.norm() < kSettledStep) break;
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "textplane/geometry/quad.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/track/pose_refit.hpp"
 
@@ -17,10 +17,7 @@ Map part_of(const Map& map, const LocalMap& local, bool inside) {
     part.points[i].bad = true;
     part.points[i].observations.clear();
   }
-  for (KeyFrame& keyframe : part.keyframes)
-    keyframe.points.erase(
-        std::remove_if(keyframe.points.begin(), keyframe.points.end(), [&](int id) { return part.point(id).bad; }),
-        keyframe.points.end());
+  for (KeyFrame& keyframe : part.keyframes) erase_if(keyframe.points, [&](int id) { return part.point(id).bad; });
   for (TextObject& text : part.texts)
     if (local.has_text(text.id) != inside) text.state = TextState::dropped;
   return part;
@@ -96,7 +93,6 @@ double path_length_between(const Map& map, int a, int b) {
 }
 
 Map old_part(const Map& map, const LocalMap& local) { return part_of(map, local, false); }
-
 Map recent_part(const Map& map, const LocalMap& local) { return part_of(map, local, true); }
 
 Loop find_loop(const Map& map, const LocalMap& local, const Parameters& parameters) {

@@ -13,15 +13,15 @@
 
 namespace textslam {
 
-/// The map in two, with the ids of the whole: what is not in the one part is flagged bad or dropped there.
+/// The two parts of the map, with the ids of the whole: what is in the other part is flagged bad or dropped.
 Map old_part(const Map& map, const LocalMap& local);     ///< Points and texts outside the local map.
 Map recent_part(const Map& map, const LocalMap& local);  ///< Those of the local map.
 
 /// The recent part lies `link.S_a_b` away from where the old part says it is.
 struct Loop {
   bool ok = false;
-  int keyframe = -1;    ///< The newest: it met the old part
-  int met = -1;         ///< in the view of this key frame, which shows most of what both know.
+  int keyframe = -1;    ///< The newest, which shows the old part again.
+  int met = -1;         ///< The key frame of the old part that shares most points with it.
   MapLink link;         ///< From the recent part (b) to the old one (a).
   Relocalisation seen;  ///< The newest key frame, as recognised in the old part.
 };
@@ -39,9 +39,9 @@ struct Drift {
 /// What a loop changed.
 struct LoopCorrection {
   bool corrected = false;      ///< The drift was large enough to be corrected.
-  Drift found;                 ///< Of the newest key frame against the one that it met, as the whole graph has it.
-  std::vector<double> scales;  ///< Of each key frame: what lengths in its frame were multiplied by.
-  std::vector<int> points;     ///< What each point became: its own id, or that of the one it was merged into.
+  Drift found;                 ///< Of the newest key frame against the one that it met, by the pose graph.
+  std::vector<double> scales;  ///< Of each key frame: the factor on lengths in its frame.
+  std::vector<int> points;     ///< New id of each point: its own, or that of the point it was merged into.
 };
 
 /// Closes the loop: distributes the drift over the pose graph where it shifts the old points by more than

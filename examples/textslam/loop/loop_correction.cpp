@@ -1,7 +1,7 @@
 // Loop closure, the part that changes the map.
 #include <algorithm>
 
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/loop/loop_alignment.hpp"
 #include "textslam/loop/loop_closure.hpp"
 #include "textslam/loop/pose_graph.hpp"
@@ -121,12 +121,9 @@ void merge_points(Map& map, int kept, int other) {
   MapPoint& from = map.point(other);
   map.point(kept).visible += from.visible;
   map.point(kept).found += from.found;
-  const std::vector<PointObservation> moved = std::move(from.observations);
-  from.observations.clear();
   from.bad = true;
-  for (const PointObservation& o : moved) {
-    auto& points = map.keyframe(o.keyframe).points;
-    points.erase(std::remove(points.begin(), points.end(), other), points.end());
+  for (const PointObservation& o : std::exchange(from.observations, {})) {
+    erase(map.keyframe(o.keyframe).points, other);
     if (!observes(map, kept, o.keyframe)) add_observation(map, kept, o.keyframe, o.px);
   }
 }

@@ -4,7 +4,7 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/map/text_words.hpp"
@@ -52,11 +52,9 @@ class Linker {
       const double depth = (T_c_b * pair.in_b).z();
       if (depth > 0 && pair.keyframe == id) ratios.push_back(pair.depth / depth);
     }
-    Similarity S;
-    S.scale = median(std::move(ratios));
-    S.R = T_c_a.R.transpose() * T_b_c.R.transpose();
-    S.t = T_c_a.inverse().t - S.scale * (S.R * T_b_c.t);
-    return S;
+    const double scale = median(std::move(ratios));
+    const Eigen::Matrix3d R = T_c_a.R.transpose() * T_b_c.R.transpose();
+    return {scale, R, T_c_a.inverse().t - scale * (R * T_b_c.t)};
   }
 
   // The similarity that most pairs agree with.
@@ -86,12 +84,11 @@ class Linker {
       const double turn = degrees(expected.R.transpose() * sighting.T_a_c.R);
       const double shift = (expected.t - sighting.T_a_c.t).norm();
       if (turn > parameters_.join_max_turn || shift > parameters_.join_tolerance * depth) continue;
-      ++link->keyframes;
       link->sightings.push_back({sighting.keyframe, sighting.tracks});
     }
     link->ok = static_cast<int>(count) >= parameters_.join_min_pairs &&
                static_cast<double>(count) >= parameters_.join_min_agreement * static_cast<double>(pairs_.size()) &&
-               link->keyframes >= parameters_.join_min_keyframes;
+               static_cast<int>(link->sightings.size()) >= parameters_.join_min_keyframes;
     for (std::size_t i = 0; i < pairs_.size(); ++i)
       if (agrees[i] && pairs_[i].point_a >= 0) link->points.emplace_back(pairs_[i].point_a, pairs_[i].point_b);
     link->texts = texts_;
@@ -178,8 +175,7 @@ JoinedIds join_maps(Map& a, const Map& b, const MapLink& link, const Parameters&
     if (point.bad) continue;
     if (id < 0) {
       id = static_cast<int>(a.points.size());
-      a.points.emplace_back();
-      a.points.back().p_w = link.S_a_b * point.p_w;
+      a.points.push_back({link.S_a_b * point.p_w});
     }
     a.point(id).visible += point.visible;
     a.point(id).found += point.found;

@@ -24,14 +24,13 @@ struct MapLink {
   Similarity S_a_b;                         ///< World of b to world of a.
   std::vector<std::pair<int, int>> points;  ///< Ids in a and in b of what is one point; each id once.
   std::vector<std::pair<int, int>> texts;   ///< Of what is one text.
-  int keyframes = 0;                        ///< Of b, that agree with the similarity.
-  std::vector<LinkSighting> sightings;      ///< These.
+  std::vector<LinkSighting> sightings;      ///< The key frames of b that agree with the similarity.
 };
 
 /// Where map b lies in map a. `seen` is b's newest key frame as recognised in a; the others are looked for from there.
 MapLink link_maps(const Map& a, const Map& b, const Parameters& parameters, const Relocalisation& seen);
 
-/// What became of b's ids in a.
+/// The new ids, in a, of what was in b.
 struct JoinedIds {
   int first_keyframe = 0;   ///< Key frame k of b is first_keyframe + k.
   std::vector<int> points;  ///< -1 for those that were bad.

@@ -70,36 +70,10 @@ class Relaxation {
 }  // namespace
 
 Similarity moved(const Similarity& S, const Vector7& step) {
-  Similarity by;
-  by.scale = std::exp(step[6]);
-  by.R = textplane::so3_exp<double>(Vec3(step.segment<3>(3)));
-  by.t = step.head<3>();
-  Similarity out = compose(S, by);
+  Similarity out =
+      compose(S, {std::exp(step[6]), textplane::so3_exp<double>(Vec3(step.segment<3>(3))), step.head<3>()});
   out.R = textplane::renormalised(SE3d{out.R, out.t}).R;
   return out;
-}
-
-Similarity compose(const Similarity& A, const Similarity& B) {
-  Similarity out;
-  out.scale = A.scale * B.scale;
-  out.R = A.R * B.R;
-  out.t = A * B.t;
-  return out;
-}
-
-Similarity inverse(const Similarity& S) {
-  Similarity out;
-  out.scale = 1 / S.scale;
-  out.R = S.R.transpose();
-  out.t = -out.scale * (out.R * S.t);
-  return out;
-}
-
-Similarity similarity_of(const SE3d& T) {
-  Similarity S;
-  S.R = T.R;
-  S.t = T.t;
-  return S;
 }
 
 bool relax(std::vector<Similarity>& nodes, const std::vector<GraphEdge>& edges, int fixed,

@@ -10,11 +10,6 @@
 
 namespace textslam {
 
-/// A after B.
-Similarity compose(const Similarity& A, const Similarity& B);
-Similarity inverse(const Similarity& S);
-Similarity similarity_of(const SE3d& T);
-
 /// Translation, rotation (radians) and logarithm of the scale.
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;

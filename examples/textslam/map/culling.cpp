@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/map/text_geometry.hpp"
 
@@ -83,8 +84,7 @@ int keyframe_before(const Map& map, int id) {
 void cull_keyframe(Map& map, int id) {
   const std::vector<int> points = map.keyframe(id).points;
   for (const int point : points) remove_observation(map, point, id);
-  for (TextObject& text : map.texts)
-    text.views.erase(std::remove(text.views.begin(), text.views.end(), id), text.views.end());
+  for (TextObject& text : map.texts) erase(text.views, id);
   KeyFrame& keyframe = map.keyframe(id);
   keyframe.culled = true;
   keyframe.frame.image.reset();

@@ -1,7 +1,7 @@
 // Culling: all rules by which points, texts and key frames leave the map, and by which a text becomes part of it.
 //
-// A camera that stays in place would fill the map with views that it has already. So a key frame goes where nearly all
-// its points, and each of its texts, are seen by many others. The first one, the newest ones, and hosts of texts stay.
+// A camera that stays in place would fill the map with views that it already has. So a key frame is culled if many
+// others see nearly all its points and each of its texts. The first one, the newest ones and hosts of texts stay.
 #ifndef TEXTSLAM_MAP_CULLING_HPP
 #define TEXTSLAM_MAP_CULLING_HPP
 
@@ -20,7 +20,7 @@ bool is_overdue(const TextObject& text, const Parameters& parameters, int newest
 bool is_contradicted(const TextObject& text, const Parameters& parameters);
 /// The direction of its normal is not known well enough for the final map.
 bool is_uncertain(const TextObject& text, const Parameters& parameters);
-/// Takes a text out of the map and frees its patch and what was seen of it. Its id stays.
+/// Takes a text out of the map and frees its patch, views and readings. Its id stays.
 void drop(TextObject& text);
 
 /// The first redundant key frame of the local map with an id of at least `from`; -1 where there is none.

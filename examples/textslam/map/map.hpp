@@ -22,9 +22,9 @@ struct PointObservation {
 
 struct MapPoint {
   Vec3 p_w;
-  std::vector<PointObservation> observations;  ///< The first is the host.
-  int visible = 0;                             ///< Frames that should have seen it.
-  int found = 0;                               ///< Frames that did.
+  std::vector<PointObservation> observations = {};  ///< The first is the host.
+  int visible = 0;                                  ///< Frames that should have seen it.
+  int found = 0;                                    ///< Frames that did.
   bool bad = false;
 };
 
@@ -57,7 +57,7 @@ struct TextObject {
   double zncc = 0;                      ///< Mean over its last refinement.
 
   bool has_plane() const { return state == TextState::tentative || state == TextState::mapped; }
-  /// See consensus() in text_words.hpp; kUnreadText where none was read.
+  /// See consensus() in text_words.hpp, where it is defined; kUnreadText where none was read.
   std::string word() const;
 };
 
@@ -74,14 +74,23 @@ struct Map {
   KeyFrame& keyframe(int id) { return keyframes[static_cast<std::size_t>(id)]; }
   const KeyFrame& keyframe(int id) const { return keyframes[static_cast<std::size_t>(id)]; }
   /// Ids of the key frames, without those culled.
-  std::vector<int> keyframe_ids() const;
+  std::vector<int> keyframe_ids() const {
+    std::vector<int> ids;
+    for (std::size_t i = 0; i < keyframes.size(); ++i)
+      if (!keyframes[i].culled) ids.push_back(static_cast<int>(i));
+    return ids;
+  }
   int newest_keyframe() const { return static_cast<int>(keyframes.size()) - 1; }
   MapPoint& point(int id) { return points[static_cast<std::size_t>(id)]; }
   const MapPoint& point(int id) const { return points[static_cast<std::size_t>(id)]; }
   TextObject& text(int id) { return texts[static_cast<std::size_t>(id)]; }
   const TextObject& text(int id) const { return texts[static_cast<std::size_t>(id)]; }
   /// Removes key frames, points and texts.
-  void clear();
+  void clear() {
+    keyframes.clear();
+    points.clear();
+    texts.clear();
+  }
 };
 
 }  // namespace textslam

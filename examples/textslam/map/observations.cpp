@@ -1,8 +1,6 @@
 #include "textslam/map/observations.hpp"
 
-#include <algorithm>
-
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 
 namespace textslam {
 
@@ -13,21 +11,15 @@ void add_observation(Map& map, int point, int keyframe, const Vec2& px) {
 
 void remove_observation(Map& map, int point, int keyframe) {
   auto& observations = map.point(point).observations;
-  observations.erase(std::remove_if(observations.begin(), observations.end(),
-                                    [&](const PointObservation& o) { return o.keyframe == keyframe; }),
-                     observations.end());
-  auto& points = map.keyframe(keyframe).points;
-  points.erase(std::remove(points.begin(), points.end(), point), points.end());
+  erase_if(observations, [&](const PointObservation& o) { return o.keyframe == keyframe; });
+  erase(map.keyframe(keyframe).points, point);
   if (observations.size() < 2) drop_point(map, point);
 }
 
 void drop_point(Map& map, int point) {
   MapPoint& dropped = map.point(point);
   dropped.bad = true;
-  for (const PointObservation& o : dropped.observations) {
-    auto& points = map.keyframe(o.keyframe).points;
-    points.erase(std::remove(points.begin(), points.end(), point), points.end());
-  }
+  for (const PointObservation& o : dropped.observations) erase(map.keyframe(o.keyframe).points, point);
   dropped.observations.clear();
   dropped.observations.shrink_to_fit();  // most points of a long run are bad in the end
 }

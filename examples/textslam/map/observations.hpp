@@ -1,4 +1,4 @@
-// Observations: which key frame sees which point. Point and key frame both know; these functions keep the two in step.
+// Observations: which key frame sees which point. Both store it; these functions keep the two consistent.
 #ifndef TEXTSLAM_MAP_OBSERVATIONS_HPP
 #define TEXTSLAM_MAP_OBSERVATIONS_HPP
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "io/detections.hpp"
+#include "textslam/map/map.hpp"
 
 namespace textslam {
 namespace {
@@ -56,5 +56,7 @@ std::string consensus(const std::map<std::string, double>& votes) {
   }
   return best;
 }
+
+std::string TextObject::word() const { return consensus(votes); }
 
 }  // namespace textslam

@@ -9,15 +9,6 @@
 namespace textslam {
 namespace {
 
-Relocalisation relocalisation_of(Tracker& tracker, TrackReport report) {
-  Relocalisation out;
-  out.ok = report.ok;
-  out.T_c_w = report.T_c_w;
-  out.tracks = std::move(tracker.tracks());
-  out.report = std::move(report);
-  return out;
-}
-
 // Inlier points that lie on no mapped text.
 int points_off_texts(const Map& map, const Relocalisation& found) {
   std::vector<Quad<double>> quads;
@@ -37,10 +28,10 @@ int points_off_texts(const Map& map, const Relocalisation& found) {
 
 // A wrong pose would spoil the map, and another lost frame costs little.
 bool holds(const Map& map, const Parameters& parameters, const Relocalisation& found) {
-  const int expected = std::min(static_cast<int>(found.report.visible.size()), parameters.max_reobserved);
-  if (!found.ok || found.report.inliers < parameters.relocalise_min_share * expected) return false;
-  return found.report.texts >= parameters.enough_texts ||
-         (found.report.inliers >= parameters.relocalise_inlier_factor * parameters.min_inliers &&
+  const int expected = std::min(static_cast<int>(found.visible.size()), parameters.max_reobserved);
+  if (!found.ok || found.inliers < parameters.relocalise_min_share * expected) return false;
+  return found.texts >= parameters.enough_texts ||
+         (found.inliers >= parameters.relocalise_inlier_factor * parameters.min_inliers &&
           points_off_texts(map, found) >= parameters.min_inliers);
 }
 
@@ -66,13 +57,12 @@ Relocalisation relocalise_by_keyframes(const Map& map, const Parameters& paramet
     Tracker tracker(map, parameters);
     tracker.start(keyframe.frame, keyframe.T_w_c.inverse(), tracks_of_keyframe(map, candidate.keyframe));
     TrackReport report = tracker.track(frame);
-    if (!report.ok || report.inliers <= best.report.inliers) continue;
-    best = relocalisation_of(tracker, std::move(report));
+    if (!report.ok || report.inliers <= best.inliers) continue;
+    best = {std::move(report), std::move(tracker.tracks())};
   }
   // From so far away many tracks go wrong together; a search from the pose alone does not inherit that.
   if (best.ok) best = observe_from(map, parameters, frame, best.T_c_w);
-  if (!holds(map, parameters, best)) return {};
-  return best;
+  return holds(map, parameters, best) ? best : Relocalisation();
 }
 
 }  // namespace
@@ -84,17 +74,16 @@ Relocalisation observe_from(const Map& map, const Parameters& parameters, const 
     Tracker tracker(map, parameters);
     tracker.start(frame, guess, {});
     TrackReport report = tracker.track(frame);
-    if (!report.ok || report.inliers + report.texts <= best.report.inliers + best.report.texts) break;
+    if (!report.ok || report.inliers + report.texts <= best.inliers + best.texts) break;
     guess = report.T_c_w;
-    best = relocalisation_of(tracker, std::move(report));
+    best = {std::move(report), std::move(tracker.tracks())};
   }
   return best;
 }
 
 Relocalisation recognise_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w) {
   Relocalisation found = observe_from(map, parameters, frame, T_c_w);
-  if (!holds(map, parameters, found)) return {};
-  return found;
+  return holds(map, parameters, found) ? found : Relocalisation();
 }
 
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,

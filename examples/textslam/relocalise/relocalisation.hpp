@@ -10,11 +10,9 @@
 
 namespace textslam {
 
-struct Relocalisation {
-  bool ok = false;  ///< The frame was recognised; else nothing below counts.
-  SE3d T_c_w;
+/// How the frame was tracked from there. Unless ok, nothing else counts.
+struct Relocalisation : TrackReport {
   std::vector<Track> tracks;  ///< Map points found in the frame: what a tracker that starts there follows.
-  TrackReport report;
 };
 
 /// The frame as seen from about T_c_w: texts and map points are looked for where that pose expects them, and the pose

@@ -12,16 +12,6 @@ std::array<Vec3, 4> world_corners(const Map& map, const TextObject& text) {
   return corners;
 }
 
-std::vector<MappedText> mapped_texts(const Map& map) {
-  std::vector<MappedText> texts;
-  for (const TextObject& text : map.texts) {
-    if (text.state != TextState::mapped) continue;
-    const Vec3 normal = map.keyframe(text.host).T_w_c.R * textplane::plane_normal(text.theta);
-    texts.push_back({text.id, text.word(), world_corners(map, text), normal});
-  }
-  return texts;
-}
-
 std::vector<TrueSign> read_true_signs(const Sequence& sequence) {
   std::vector<std::string> stems;
   for (const FrameRef& frame : sequence.frames) stems.push_back(frame.stem);
@@ -29,7 +19,13 @@ std::vector<TrueSign> read_true_signs(const Sequence& sequence) {
 }
 
 TextEvaluation evaluate_text(const Map& map, const std::vector<TrueSign>& signs, const Similarity& alignment) {
-  return evaluate_texts(mapped_texts(map), signs, alignment);
+  std::vector<MappedText> texts;
+  for (const TextObject& text : map.texts) {
+    if (text.state != TextState::mapped) continue;
+    const Vec3 normal = map.keyframe(text.host).T_w_c.R * textplane::plane_normal(text.theta);
+    texts.push_back({text.id, text.word(), world_corners(map, text), normal});
+  }
+  return evaluate_texts(texts, signs, alignment);
 }
 
 }  // namespace textslam

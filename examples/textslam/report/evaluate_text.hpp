@@ -15,9 +15,6 @@ namespace textslam {
 /// World positions of the corners of a text that has a plane.
 std::array<Vec3, 4> world_corners(const Map& map, const TextObject& text);
 
-/// The mapped texts of the map, in the order of their ids.
-std::vector<MappedText> mapped_texts(const Map& map);
-
 /// The signs in the folder truth of a sequence; see read_true_signs() in io/evaluate_signs.hpp.
 std::vector<TrueSign> read_true_signs(const Sequence& sequence);
 

@@ -24,8 +24,6 @@ std::string frame_line(int index, const FrameRecord& record, const Map& map) {
       .dump();
 }
 
-std::string summary_line(const RunSummary& summary) { return Json{{"summary", describe(summary).file}}.dump(); }
-
 void print_line(const std::string& line) {
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);

@@ -16,9 +16,6 @@ const char* to_string(FrameState state);
 /// in the output files.
 std::string frame_line(int index, const FrameRecord& record, const Map& map);
 
-/// {"summary": metrics.json}, without a line end.
-std::string summary_line(const RunSummary& summary);
-
 /// Writes the line to standard output at once.
 void print_line(const std::string& line);
 

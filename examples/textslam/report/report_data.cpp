@@ -1,18 +1,12 @@
 #include "textslam/report/report_data.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "textslam/common/statistics.hpp"
-#include "textslam/loop/pose_graph.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/report/report_frames.hpp"
 
 namespace textslam {
 namespace {
-
-Vec3 to_map(const Similarity& map_to_truth, const Vec3& p) {
-  return map_to_truth.R.transpose() * (p - map_to_truth.t) / map_to_truth.scale;
-}
 
 // The true position of each frame, as far as it is known.
 std::vector<const StampedPose*> truth_of_frames(const System& system, const Sequence& sequence) {
@@ -54,12 +48,12 @@ Json world_json(const System& system, const Sequence& sequence, const RunSummary
   for (const FrameRecord& record : system.records())
     trajectory.push_back(record.state == FrameState::tracked ? short_pose(system.final_pose(record)) : Json(nullptr));
   if (is_aligned(summary)) {
-    const Similarity& alignment = summary.trajectory.alignment;
+    const Similarity to_map = inverse(summary.trajectory.alignment);
     for (const StampedPose* pose : truth_of_frames(system, sequence))
-      truth.push_back(pose ? short_vector(to_map(alignment, pose->T_w_c.t)) : Json(nullptr));
+      truth.push_back(pose ? short_vector(to_map * pose->T_w_c.t) : Json(nullptr));
     for (const TrueSign& sign : signs) {
       std::array<Vec3, 4> corners;
-      for (std::size_t i = 0; i < 4; ++i) corners[i] = to_map(alignment, sign.corners[i]);
+      for (std::size_t i = 0; i < 4; ++i) corners[i] = to_map * sign.corners[i];
       true_signs.push_back({{"id", sign.id}, {"word", sign.word}, {"corners", short_corners(corners)}});
     }
   }

@@ -5,11 +5,10 @@
 
 #include "io/data_uri.hpp"
 #include "io/image_file.hpp"
-#include "textplane/geometry/homography.hpp"
+#include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/sample.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/text_geometry.hpp"
-#include "textslam/report/evaluate_text.hpp"
 #include "textslam/text/text_plane.hpp"
 
 namespace textslam {

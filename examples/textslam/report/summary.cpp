@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "io/text_file.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 
 namespace textslam {
 namespace {

@@ -26,7 +26,7 @@ struct RunSummary {
   TrajectoryEvaluation trajectory, live;
   TextEvaluation text;
   double median_ms = 0;            ///< A frame, detection aside.
-  std::vector<double> latency_ms;  ///< Real time: of each frame, from when it came to when its pose was known.
+  std::vector<double> latency_ms;  ///< Real time: of each frame, from its arrival to its pose.
 };
 
 /// Whether the trajectory was aligned with ground truth.

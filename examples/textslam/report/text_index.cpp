@@ -1,39 +1,11 @@
 #include "textslam/report/text_index.hpp"
 
-#include <algorithm>
-#include <cctype>
-
-#include "io/json_file.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/common/report_json.hpp"
 #include "textslam/map/text_geometry.hpp"
-#include "textslam/map/text_words.hpp"
 #include "textslam/report/evaluate_text.hpp"
 
 namespace textslam {
-namespace {
-
-constexpr int kNoMatch = 4;
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-// 0 is best.
-int rank(const IndexedText& text, const std::string& word) {
-  const auto holds = [&](const std::string& reading) { return lower(reading).find(word) != std::string::npos; };
-  if (lower(text.text) == word) return 0;
-  if (is_read(text.text) && holds(text.text)) return 1;
-  for (const auto& [reading, votes] : text.readings)
-    if (holds(reading)) return 2;
-  for (const auto& [reading, votes] : text.readings)
-    if (word_similarity(lower(reading), word) >= Parameters{}.same_word) return 3;
-  return kNoMatch;
-}
-
-}  // namespace
-
 int best_view(const Map& map, const TextObject& text, Quad<double>* quad) {
   std::vector<int> views = {text.host};
   views.insert(views.end(), text.views.begin(), text.views.end());
@@ -98,39 +70,5 @@ std::string text_index_json(const std::vector<IndexedText>& texts) {
   }
   return Json{{"texts", list}}.dump(1) + "\n";
 }
-
-std::vector<IndexedText> read_text_index(const std::string& path) {
-  std::vector<IndexedText> texts;
-  for_each_entry(read_json(path), "texts", path, [&](const nlohmann::json& entry) {
-    IndexedText text;
-    text.id = to_int(entry.at("id"));
-    entry.at("text").get_to(text.text);
-    entry.at("score").get_to(text.score);
-    entry.at("readings").get_to(text.readings);
-    text.position = to_vector3(entry.at("position"));
-    text.normal = to_vector3(entry.at("normal"));
-    entry.at("image").get_to(text.image);
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 2; ++k)
-        text.quad.corner[i][static_cast<int>(k)] = entry.at("quad").at(i).at(k).get<double>();
-    entry.at("timestamp").get_to(text.timestamp);
-    texts.push_back(text);
-  });
-  return texts;
-}
-
-std::vector<IndexedText> query(const std::vector<IndexedText>& texts, const std::string& word) {
-  const std::string wanted = lower(word);
-  std::vector<IndexedText> found;
-  for (const IndexedText& text : texts)
-    if (!wanted.empty() && rank(text, wanted) < kNoMatch) found.push_back(text);
-  std::stable_sort(found.begin(), found.end(), [&](const IndexedText& a, const IndexedText& b) {
-    const int rank_a = rank(a, wanted), rank_b = rank(b, wanted);
-    return rank_a != rank_b ? rank_a < rank_b : a.score > b.score;
-  });
-  return found;
-}
-
-double angle_between(const IndexedText& a, const IndexedText& b) { return degrees_between(a.normal, b.normal); }
 
 }  // namespace textslam

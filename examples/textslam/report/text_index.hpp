@@ -1,4 +1,4 @@
-// The texts of a map to be searched by their words: text_index.json of an output folder, and `textslam-map query`.
+// The texts of a map to be searched by their words, as `textslam-map` does: text_index.json of an output folder.
 //
 //   {"texts": [{"id", "text", "score", "readings": {word: votes}, "position", "normal", "image", "quad", "timestamp"}]}
 //
@@ -35,16 +35,6 @@ int best_view(const Map& map, const TextObject& text, Quad<double>* quad);
 std::vector<IndexedText> index_texts(const Map& map, const std::function<std::string(int)>& image);
 
 std::string text_index_json(const std::vector<IndexedText>& texts);
-/// Throws InputError where the file is missing or not such a text.
-std::vector<IndexedText> read_text_index(const std::string& path);
-
-/// Texts that match `word`, whatever the case of letters: first texts of that word, then texts whose word holds it,
-/// then texts with a reading that holds it, then texts with a similar reading (word_similarity() of same_word). Equals
-/// are ordered by score.
-std::vector<IndexedText> query(const std::vector<IndexedText>& texts, const std::string& word);
-
-/// Between the normals of two texts, degrees.
-double angle_between(const IndexedText& a, const IndexedText& b);
 
 }  // namespace textslam
 

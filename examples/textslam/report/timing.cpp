@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 
 namespace textslam {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "io/clock.hpp"
 #include "textslam/adjust/adjustment.hpp"
-#include "textslam/common/clock.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/culling.hpp"
 #include "textslam/relocalise/relocalisation.hpp"
 #include "textslam/text/loose_planes.hpp"

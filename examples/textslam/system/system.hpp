@@ -27,8 +27,8 @@ namespace textslam {
 
 /// A loop that was closed.
 struct LoopRecord {
-  int frame = -1;          ///< Index of the frame at which it was closed,
-  int met_frame = -1;      ///< and of the key frame that it met.
+  int frame = -1;          ///< Index of the frame at which it was closed.
+  int met_frame = -1;      ///< Index of the key frame that it met.
   std::string word;        ///< Of a text that is in both parts; empty where points alone closed it.
   bool corrected = false;  ///< Else there was too little drift.
   Drift found, left;
@@ -40,11 +40,11 @@ enum class FrameState {
   lost,
 };
 
-/// What became of a frame.
+/// The result of a frame.
 struct FrameRecord {
   double timestamp = 0;
   FrameState state = FrameState::waiting;
-  int map = -1;  ///< Number of the map that it was tracked in; in the end those of other maps than the result are lost.
+  int map = -1;       ///< Number of the map that it was tracked in. In the end only frames of map() are not lost.
   int keyframe = -1;  ///< The key frame that the pose is relative to.
   SE3d T_k_c;         ///< Camera to that key frame.
   SE3d T_w_c_live;    ///< Camera to the live world as known when the frame was processed; tracked frames alone.
@@ -80,8 +80,8 @@ class System {
   std::vector<std::size_t> map_frames() const;
   const std::deque<FrameRecord>& records() const { return records_; }
   const std::vector<LoopRecord>& loops() const { return loops_; }
-  /// Map to live world, in which live poses are given. Adjustments move the oldest key frames, which fix a monocular
-  /// map; this similarity fits today's poses of all frames to the live ones, so that the live world stays where it is.
+  /// Map to the live world, in which live poses are given. Adjustments move all of a monocular map. This similarity
+  /// fits the poses of all frames, as the map has them now, to their live poses, so that the live world stays in place.
   const Similarity& live_world() const { return live_world_; }
   /// Final pose of a tracked frame.
   SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "textslam/adjust/adjustment.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/loop/map_join.hpp"
 #include "textslam/relocalise/relocalisation.hpp"
 #include "textslam/system/system.hpp"
@@ -31,17 +32,17 @@ void System::take_map(std::size_t stored) {
 bool System::recover(const Frame& frame, FrameRecord& record) {
   Relocalisation found;
   if (!map_.keyframes.empty()) found = relocalise(map_, parameters_, frame);
-  // The map left last is the likeliest.
+  // The map that was left last is the likeliest.
   for (std::size_t i = stored_.size(); i > 0 && !found.ok; --i) {
     found = relocalise(stored_[i - 1], parameters_, frame);
     if (found.ok) take_map(i - 1);
   }
   if (!found.ok) return false;
-  record.points = found.report.inliers;
-  record.texts = found.report.texts;
-  last_keyframe_points_ = found.report.inliers;
+  record.points = found.inliers;
+  record.texts = found.texts;
+  last_keyframe_points_ = found.inliers;
   // The motion since the last frame is not known: the tracker starts without a velocity.
-  local_ = local_map(map_, parameters_, found.report.found);
+  local_ = local_map(map_, parameters_, found.found);
   begin_tracking(frame, found.T_c_w, std::move(found.tracks));
   return true;
 }
@@ -73,9 +74,7 @@ void System::join(std::size_t stored, const MapLink& link) {
     record.T_k_c.t *= link.S_a_b.scale;
     record.live = false;
     for (SeenPoint& seen : record.seen) seen.point = point_in_joined(seen.point);
-    record.seen.erase(
-        std::remove_if(record.seen.begin(), record.seen.end(), [](const SeenPoint& seen) { return seen.point < 0; }),
-        record.seen.end());
+    erase_if(record.seen, [](const SeenPoint& seen) { return seen.point < 0; });
   }
   std::vector<Track>& tracks = tracker_->tracks();
   for (Track& track : tracks) {

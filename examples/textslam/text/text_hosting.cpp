@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "textplane/geometry/quad.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/text/text_plane.hpp"
 

@@ -1,8 +1,8 @@
 // A better host for a mapped text: a new key frame that shows it whole, much larger than its host does, and as sharp.
 //
-// A sign is first detected from afar, often aslant: the poorest view of all is then compared with every later image. So
-// the plane and its covariance move to the better view and are refined there; the quad is where the plane puts it in
-// the new image; the old host becomes a view. Each change asks for a view larger by a pyramid level, so there are few.
+// A sign is first detected from afar, often aslant, so its first host is its poorest view. The plane and its covariance
+// move to the better view and are refined there; the plane gives the quad in the new image; the old host becomes a
+// view. Each change needs a view that is larger by a pyramid level, so changes are few.
 #ifndef TEXTSLAM_TEXT_TEXT_HOSTING_HPP
 #define TEXTSLAM_TEXT_TEXT_HOSTING_HPP
 

@@ -7,7 +7,7 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/plane_fit.hpp"
 #include "textplane/photometry/residual.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/culling.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/map/text_geometry.hpp"
@@ -31,9 +31,7 @@ double overlap(const Quad<double>& a, const Quad<double>& b) {
 // A text with a plane is where the plane says; a candidate is carried along by the median motion of its corners.
 bool TextMapper::locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks,
                         Quad<double>* quad) const {
-  if (text.has_plane()) {
-    return facing(map_, text, T_c_w) > 0 && project_text(map_, text, T_c_w, quad);
-  }
+  if (text.has_plane()) return facing(map_, text, T_c_w) > 0 && project_text(map_, text, T_c_w, quad);
   std::vector<double> dx, dy;
   for (const Track& track : tracks) {
     const Vec2* host_px = observed_in(observations_of(map_, track), text.host);
@@ -163,13 +161,6 @@ bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& 
   return true;
 }
 
-// By the map points round a text whose own corners did not suffice. No view need agree yet.
-bool TextMapper::surface_plane(TextObject& text, int id) {
-  if (!plane_from_surface(map_, parameters_, text)) return false;
-  observe_until(text, id);
-  return true;
-}
-
 // The key frames from the host to `id` that agree with a text's new plane. Failures of the old plane are forgotten.
 void TextMapper::observe_until(TextObject& text, int id) {
   text.views.clear();
@@ -206,8 +197,7 @@ void TextMapper::observe_again() {
     if (text.state != TextState::mapped) continue;
     // Where loops are to stay open, a text met again far away must not close them.
     const LocalMap near = parameters_.loop_closure ? LocalMap() : local_map(map_, parameters_, text.host);
-    std::vector<int> before = std::move(text.views);
-    text.views.clear();
+    std::vector<int> before = std::exchange(text.views, {});
     for (const int id : map_.keyframe_ids())
       if (id != text.host && near.has_keyframe(id)) observe(text, id, parameters_.text_min_share);
     if (static_cast<int>(text.views.size()) + 1 < parameters_.text_min_observations) text.views = std::move(before);
@@ -225,10 +215,12 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
         text.state = TextState::tentative;
       } else if (is_overdue(text, parameters_, id) ||
                  static_cast<int>(corners(text, id, tracks).host.size()) < parameters_.text_min_corners) {
-        if (near && surface_plane(text, id))
+        if (near && plane_from_surface(map_, parameters_, text)) {
+          observe_until(text, id);  // no view need agree yet
           text.state = TextState::tentative;
-        else
-          drop(text);  // where it is seen again, another candidate has new corners
+        } else {
+          drop(text);  // if it is seen again, another candidate starts with new corners
+        }
       }
     } else if (near) {
       observe(text, id, 1);

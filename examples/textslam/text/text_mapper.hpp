@@ -40,7 +40,6 @@ class TextMapper {
   };
   Corners corners(const TextObject& text, int keyframe, const std::vector<Track>& tracks) const;
   bool find_plane(TextObject& text, int id, const std::vector<Track>& tracks);
-  bool surface_plane(TextObject& text, int id);
   bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
   void observe(TextObject& text, int keyframe, double min_share);
   void observe_until(TextObject& text, int id);

@@ -5,6 +5,7 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/culling.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/map/text_words.hpp"
@@ -59,7 +60,7 @@ void merge_texts(Map& map, const Parameters& parameters, int a, int b) {
   add_observations_of(from, 0, parameters, to);
   std::sort(to.views.begin(), to.views.end());
   to.views.erase(std::unique(to.views.begin(), to.views.end()), to.views.end());
-  to.views.erase(std::remove(to.views.begin(), to.views.end(), to.host), to.views.end());
+  erase(to.views, to.host);
   to.failures = 0;
   drop(from);
 }

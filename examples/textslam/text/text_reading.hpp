@@ -1,7 +1,7 @@
 // Reading of the mapped texts once their planes are known.
 //
-// A detector's box round a slanted text is a crop as the camera saw it: sheared, foreshortened, often blurred. With its
-// plane a text is seen squarely and read there, in its sharpest views. The readings vote for its word.
+// A detector's box round a slanted text is sheared, foreshortened and often blurred. By its plane the text is rectified,
+// and it is read in its sharpest views. The readings vote for its word.
 #ifndef TEXTSLAM_TEXT_TEXT_READING_HPP
 #define TEXTSLAM_TEXT_TEXT_READING_HPP
 
@@ -10,7 +10,7 @@
 
 namespace textslam {
 
-/// A text squarely from the front, with its base line level, in the upright rectangle around its quad.
+/// A text rectified: seen from the front, with a level base line, in the upright rectangle around its quad.
 struct SquareView {
   Image<std::uint8_t> picture;
   Quad<double> quad;     ///< The rectangle, px of the picture; around it is a margin.

@@ -7,7 +7,7 @@
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/residual.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/culling.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/text/jackknife.hpp"
@@ -171,10 +171,8 @@ void TextRefiner::refine(TextObject& text) {
   // A host that is blurred itself is similar to none of its targets.
   double most = 0;
   for (const Estimate& e : estimates) most = std::max(most, e.zncc);
-  estimates.erase(
-      std::remove_if(estimates.begin(), estimates.end(),
-                     [&](const Estimate& e) { return 1 - e.zncc > parameters_.refine_max_dissimilarity * (1 - most); }),
-      estimates.end());
+  const double limit = parameters_.refine_max_dissimilarity * (1 - most);
+  erase_if(estimates, [&](const Estimate& e) { return 1 - e.zncc > limit; });
   const double n = static_cast<double>(estimates.size());
   Vec3 mean = Vec3::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

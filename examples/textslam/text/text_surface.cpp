@@ -7,7 +7,7 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
 #include "textplane/geometry/quad_projection.hpp"
-#include "textslam/common/statistics.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/text_geometry.hpp"
 
 namespace textslam {

@@ -1,4 +1,4 @@
-// The surface that a text lies on, as a page or a board. Map points beside a small text tell more of it than the text.
+// The surface that a text lies on, as a page or a board. Beside a small text, map points determine the plane best.
 #ifndef TEXTSLAM_TEXT_TEXT_SURFACE_HPP
 #define TEXTSLAM_TEXT_TEXT_SURFACE_HPP
 
@@ -11,7 +11,7 @@ namespace textslam {
 /// A map point in or beside a text, in the frame of the text's host.
 struct SurfacePoint {
   Vec3 p = Vec3::Zero();
-  double sigma = 0;  ///< Across the plane: of the point, and of how far the surface may be off the plane there.
+  double sigma = 0;  ///< Across the plane: of the point and of the relief of the surface there.
 };
 
 /// The map points within surface_reach of a text with a plane, whose observations tell how far they are.

@@ -5,6 +5,7 @@
 #include "textplane/features/fast.hpp"
 #include "textplane/features/klt.hpp"
 #include "textplane/features/select.hpp"
+#include "textslam/common/algorithms.hpp"
 
 namespace textslam {
 namespace {
@@ -67,40 +68,26 @@ void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double
   textplane::detect_fast(image, std::min(parameters.fast_threshold, lowest), true, corners);
   textplane::keep_enough(&corners, std::max(parameters.fast_threshold, lowest), lowest,
                          parameters.corner_choice * parameters.max_tracks, [](int threshold) { return threshold / 2; });
-  const auto inside = [&](const Vec2f& px) {
-    return px.x() >= static_cast<float>(border) && px.y() >= static_cast<float>(border) &&
-           px.x() < static_cast<float>(image.width() - border) && px.y() < static_cast<float>(image.height() - border);
+  const auto outside = [&](const textplane::Corner& c) {
+    return c.x < static_cast<float>(border) || c.y < static_cast<float>(border) ||
+           c.x >= static_cast<float>(image.width() - border) || c.y >= static_cast<float>(image.height() - border);
   };
-  const auto add = [&](const Vec2f& px) {
-    Track track;
-    track.px = px;
-    track.observations.push_back({keyframe, px.cast<double>()});
-    tracks.push_back(std::move(track));
+  erase_if(corners, outside);
+  const auto add = [&](std::vector<textplane::Corner>& candidates, int cell, int most) {
+    std::vector<Vec2f> occupied;
+    for (const Track& track : tracks) occupied.push_back(track.px);
+    textplane::select_spread(candidates, image.width(), image.height(), cell, most, occupied, candidates);
+    for (const textplane::Corner& c : candidates) tracks.push_back({{c.x, c.y}, -1, {{keyframe, Vec2(c.x, c.y)}}});
   };
 
   // Text first, and more densely: its plane is solved for from these corners.
   for (const Quad<double>& quad : quads) {
-    std::vector<Vec2f> occupied;
-    for (const Track& track : tracks) occupied.push_back(track.px);
     std::vector<textplane::Corner> in_quad;
     for (const textplane::Corner& corner : corners)
-      if (inside({corner.x, corner.y}) && textplane::contains(quad, Vec2(corner.x, corner.y)))
-        in_quad.push_back(corner);
-    textplane::select_spread(in_quad, image.width(), image.height(), parameters.text_corner_cell,
-                             parameters.text_corners, occupied, in_quad);
-    for (const textplane::Corner& corner : in_quad) add({corner.x, corner.y});
+      if (textplane::contains(quad, Vec2(corner.x, corner.y))) in_quad.push_back(corner);
+    add(in_quad, parameters.text_corner_cell, parameters.text_corners);
   }
-
-  std::vector<Vec2f> occupied;
-  for (const Track& track : tracks) occupied.push_back(track.px);
-  corners.erase(std::remove_if(corners.begin(), corners.end(),
-                               [&](const textplane::Corner& c) {
-                                 return !inside({c.x, c.y});
-                               }),
-                corners.end());
-  textplane::select_spread(corners, image.width(), image.height(), parameters.corner_cell,
-                           parameters.max_tracks - static_cast<int>(tracks.size()), occupied, corners);
-  for (const textplane::Corner& corner : corners) add({corner.x, corner.y});
+  add(corners, parameters.corner_cell, parameters.max_tracks - static_cast<int>(tracks.size()));
 }
 
 }  // namespace textslam

@@ -5,7 +5,6 @@
 
 #include "textplane/features/klt.hpp"
 #include "textplane/geometry/homography.hpp"
-#include "textplane/geometry/quad.hpp"
 
 namespace textslam {
 namespace {

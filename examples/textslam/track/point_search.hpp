@@ -8,7 +8,7 @@ namespace textslam {
 
 /// A map point as a frame should see it.
 struct PointPrediction {
-  const PointObservation* host = nullptr;  ///< In the key frame that saw the point most nearly from here.
+  const PointObservation* host = nullptr;  ///< In the key frame with the most similar direction of view.
   Vec2 px;
   Eigen::Matrix2f A;  ///< px displacement in the host per px in the frame, of a fronto-parallel patch.
 };

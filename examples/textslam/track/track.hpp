@@ -10,12 +10,12 @@ namespace textslam {
 
 struct Track {
   Vec2f px = Vec2f::Zero();
-  int point = -1;                              ///< Id of its map point, -1 while it has none.
-  std::vector<PointObservation> observations;  ///< In key frames, while it has no point.
-  bool inlier = true;                          ///< Of the last pose.
+  int point = -1;                                   ///< Id of its map point, -1 while it has none.
+  std::vector<PointObservation> observations = {};  ///< In key frames, while it has no point.
+  bool inlier = true;                               ///< Of the last pose.
 };
 
-/// Those of its point, or its own.
+/// The observations of its point, or its own while it has none.
 inline const std::vector<PointObservation>& observations_of(const Map& map, const Track& track) {
   return track.point >= 0 ? map.point(track.point).observations : track.observations;
 }

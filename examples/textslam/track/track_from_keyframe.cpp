@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "textplane/geometry/quad.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/track/feature_tracks.hpp"
 
@@ -39,10 +40,7 @@ std::vector<Track> tracks_in_keyframe(const Map& map, int id, const std::vector<
   for (const Track& track : tracks)
     if (add(track)) now->push_back(track.px);
   for (const int point : map.keyframe(id).points) {
-    if (taken[static_cast<std::size_t>(point)] != 0) continue;
-    Track track;
-    track.point = point;
-    add(track);
+    if (taken[static_cast<std::size_t>(point)] == 0) add({Vec2f::Zero(), point});
   }
   return in_keyframe;
 }
@@ -58,7 +56,7 @@ std::vector<Track> track_from_keyframe(const Frame& then, int keyframe, const st
       return textplane::contains(quad, corner.observations.front().px);
     });
   };
-  corners.erase(std::remove_if(corners.begin(), corners.end(), outside), corners.end());
+  erase_if(corners, outside);
   std::vector<Vec2f> guesses;
   for (const Track& corner : corners) guesses.push_back(guess(corner.px, tracks, now));
   advance_tracks(then, newest, guesses, parameters, corners);

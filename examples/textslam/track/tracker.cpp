@@ -1,7 +1,7 @@
 #include "textslam/track/tracker.hpp"
 
+#include "io/clock.hpp"
 #include "textplane/solver/pose.hpp"
-#include "textslam/common/clock.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/track/feature_tracks.hpp"
 #include "textslam/track/pose_refit.hpp"
@@ -28,21 +28,16 @@ TrackReport Tracker::track(const Frame& frame) {
   const SE3d predicted = follow_corners(frame);
   const double t1 = now_ms();
   SE3d pose = predicted;
-  Fit fit = fit_pose(frame, false, &pose);
-  if (!fit.ok) pose = predicted;
+  if (!fit_pose(frame, false, &pose, &report)) pose = predicted;
   const double t2 = now_ms();
   reobserve(frame, pose, &report);
   const double t3 = now_ms();
-  fit = fit_pose(frame, parameters_.mode == Mode::text, &pose);
+  report.ok = fit_pose(frame, parameters_.mode == Mode::text, &pose, &report);
   const double t4 = now_ms();
   report.klt_ms = t1 - t0;
   report.reobserve_ms = t3 - t2;
   report.pose_ms = (t2 - t1) + (t4 - t3);
-  report.ok = fit.ok;
-  report.points = fit.points;
-  report.inliers = fit.inliers;
-  report.texts = fit.texts;
-  if (!fit.ok) pose = predicted;
+  if (!report.ok) pose = predicted;
   report.T_c_w = pose;
 
   for (const Track& track : tracks_)
@@ -131,12 +126,11 @@ void Tracker::relocate(const Frame& frame, const Candidate& candidate) {
     }
     return;
   }
-  tracks_.emplace_back();
-  tracks_.back().px = px;
-  tracks_.back().point = candidate.point;
+  tracks_.push_back({px, candidate.point});
 }
 
-Tracker::Fit Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w) {
+// False where the pose does not hold. The report gets what it rests on.
+bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report) {
   std::vector<textplane::PosePointTerm> points;
   std::vector<std::size_t> track_of;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -153,10 +147,10 @@ Tracker::Fit Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w) 
       texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)});
     }
 
-  Fit fit;
   const int text_count = static_cast<int>(texts.size()), point_count = static_cast<int>(points.size());
-  fit.points = point_count;
-  if (point_count < parameters_.pose_min_points && texts.empty()) return fit;
+  report->points = point_count;
+  report->inliers = report->texts = 0;
+  if (point_count < parameters_.pose_min_points && texts.empty()) return false;
   textplane::PoseWorkspace workspace;
   workspace.reserve(texts.data(), text_count, point_count);
   textplane::PoseOptions options;
@@ -165,20 +159,19 @@ Tracker::Fit Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w) 
   std::vector<float> zncc(texts.size()), chi2(points.size());
   const auto result = textplane::refine_pose(texts.data(), text_count, points.data(), point_count, frame.image->view(),
                                              map_.camera, *T_c_w, options, workspace, zncc.data(), chi2.data());
-  if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return fit;
+  if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return false;
   *T_c_w = textplane::renormalised(result.T_t_w);
   for (std::size_t k = 0; k < points.size(); ++k) {
     Track& track = tracks_[track_of[k]];
     track.inlier = is_pose_inlier(parameters_, chi2[k]);
-    fit.inliers += track.inlier ? 1 : 0;
+    report->inliers += track.inlier ? 1 : 0;
   }
-  for (const float z : zncc) fit.texts += z >= parameters_.text_min_zncc ? 1 : 0;
+  for (const float z : zncc) report->texts += z >= parameters_.text_min_zncc ? 1 : 0;
+  const int inliers = report->inliers;
   const bool enough_points =
-      fit.inliers >= parameters_.min_inliers && fit.inliers >= parameters_.min_inlier_share * fit.points;
-  const bool enough_text =
-      fit.texts >= parameters_.enough_texts || (fit.texts > 0 && fit.inliers >= parameters_.min_inliers / 2);
-  fit.ok = enough_points || enough_text;
-  return fit;
+      inliers >= parameters_.min_inliers && inliers >= parameters_.min_inlier_share * point_count;
+  return enough_points || report->texts >= parameters_.enough_texts ||
+         (report->texts > 0 && inliers >= parameters_.min_inliers / 2);
 }
 
 }  // namespace textslam

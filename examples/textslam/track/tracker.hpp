@@ -1,5 +1,5 @@
-// Tracker: the pose of a frame against the map, which it never changes: so it also fills in frames before the map
-// began, and tries a lost frame against an old key frame.
+// Tracker: the pose of a frame by the map. It never changes the map, so it also fills in frames before the map began,
+// and tries a lost frame against an old key frame.
 //
 // Prediction (constant velocity, rotation by whole-image alignment) -> KLT -> pose from points -> search for other map
 // points and those that drifted, by their key frame's patch -> pose from points and text, coarse to fine.
@@ -43,10 +43,6 @@ class Tracker {
   const Frame& frame() const { return frame_; }
 
  private:
-  struct Fit {
-    bool ok = false;
-    int points = 0, inliers = 0, texts = 0;
-  };
   struct Candidate {
     int point;
     PointPrediction prediction;
@@ -55,7 +51,7 @@ class Tracker {
   SE3d follow_corners(const Frame& frame);
   void reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report);
   void relocate(const Frame& frame, const Candidate& candidate);
-  Fit fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w);
+  bool fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report);
   bool looks_for_point(int id) const { return !map_.point(id).bad && (!local_ || local_->has_point(id)); }
 
   const Map& map_;

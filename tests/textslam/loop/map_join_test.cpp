@@ -85,7 +85,7 @@ TEST_F(MapJoinTest, JoinedMapsAreOne) {
   few.join_min_pairs = 12;
   MapLink link = link_maps(map, b, few, seen);
   ASSERT_TRUE(link.ok);
-  EXPECT_EQ(link.keyframes, 2);
+  EXPECT_EQ(link.sightings.size(), 2u);
   EXPECT_EQ(link.texts.size(), 3u);
   EXPECT_NEAR(link.S_a_b.scale, S_a_b.scale, 0.01 * S_a_b.scale);
   EXPECT_LT((link.S_a_b.R - S_a_b.R).norm(), 0.01);

@@ -43,7 +43,7 @@ TEST_F(TextRecoveryTest, SeveralSignsConfirmEachOther) {
 
   const Relocalisation recovery = relocalise(map, parameters, frame);
   ASSERT_TRUE(recovery.ok) << "by texts alone: the map has no points";
-  EXPECT_EQ(recovery.report.texts, 3);
+  EXPECT_EQ(recovery.texts, 3);
   expect_pose(recovery.T_c_w, truth, 0.005, 0.1);
 }
 

@@ -4,10 +4,10 @@
 #include <limits>
 #include <random>
 
+#include "cli/progress.hpp"
 #include "io/data_uri.hpp"
 #include "io/image_codecs.hpp"
 #include "textslam/report/frame_line.hpp"
-#include "textslam/report/progress.hpp"
 #include "textslam/report/report_data.hpp"
 #include "textslam/report/report_frames.hpp"
 #include "textslam/report/report_template.hpp"

@@ -5,6 +5,7 @@
 
 #include "io/io_support.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textslam_map/text_query.hpp"
 
 namespace textslam {
 namespace {

@@ -1,6 +1,6 @@
 // The options of an input on the command line, the same for every program that has one. Needs CLI11.
-#ifndef TEXTSLAM_INPUT_SEQUENCE_OPTIONS_HPP
-#define TEXTSLAM_INPUT_SEQUENCE_OPTIONS_HPP
+#ifndef TEXTSLAM_CLI_SEQUENCE_OPTIONS_HPP
+#define TEXTSLAM_CLI_SEQUENCE_OPTIONS_HPP
 
 #include <CLI/CLI.hpp>
 
@@ -31,4 +31,4 @@ inline void add_sequence_options(CLI::App& app, SequenceOptions& options) {
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_INPUT_SEQUENCE_OPTIONS_HPP
+#endif  // TEXTSLAM_CLI_SEQUENCE_OPTIONS_HPP

@@ -1,6 +1,6 @@
 // Progress: one line on a terminal that is rewritten as frames go by; nothing where standard error is not a terminal.
-#ifndef TEXTSLAM_REPORT_PROGRESS_HPP
-#define TEXTSLAM_REPORT_PROGRESS_HPP
+#ifndef TEXTSLAM_CLI_PROGRESS_HPP
+#define TEXTSLAM_CLI_PROGRESS_HPP
 
 #include <string>
 
@@ -25,4 +25,4 @@ std::string progress_line(const std::string& what, std::size_t done, std::size_t
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_REPORT_PROGRESS_HPP
+#endif  // TEXTSLAM_CLI_PROGRESS_HPP

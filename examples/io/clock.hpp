@@ -1,6 +1,6 @@
 // A steady clock in milliseconds, for timings.
-#ifndef TEXTSLAM_COMMON_CLOCK_HPP
-#define TEXTSLAM_COMMON_CLOCK_HPP
+#ifndef TEXTSLAM_IO_CLOCK_HPP
+#define TEXTSLAM_IO_CLOCK_HPP
 
 #include <chrono>
 
@@ -12,4 +12,4 @@ inline double now_ms() {
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_COMMON_CLOCK_HPP
+#endif  // TEXTSLAM_IO_CLOCK_HPP

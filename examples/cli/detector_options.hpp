@@ -1,6 +1,6 @@
 // The options of a detector on the command line, the same for every program that has one. Needs CLI11.
-#ifndef TEXTSLAM_DETECT_DETECTOR_OPTIONS_HPP
-#define TEXTSLAM_DETECT_DETECTOR_OPTIONS_HPP
+#ifndef TEXTSLAM_CLI_DETECTOR_OPTIONS_HPP
+#define TEXTSLAM_CLI_DETECTOR_OPTIONS_HPP
 
 #include <CLI/CLI.hpp>
 
@@ -31,4 +31,4 @@ inline void add_detector_options(CLI::App& app, DetectorOptions& options) {
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_DETECT_DETECTOR_OPTIONS_HPP
+#endif  // TEXTSLAM_CLI_DETECTOR_OPTIONS_HPP

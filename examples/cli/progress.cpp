@@ -1,4 +1,4 @@
-#include "textslam/report/progress.hpp"
+#include "cli/progress.hpp"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "textslam/common/clock.hpp"
+#include "io/clock.hpp"
 
 namespace textslam {
 

@@ -1,6 +1,6 @@
-// Order statistics, and an even choice of what is too much.
-#ifndef TEXTSLAM_COMMON_STATISTICS_HPP
-#define TEXTSLAM_COMMON_STATISTICS_HPP
+// Small algorithms on vectors: order statistics, an even choice of what is too much, removal.
+#ifndef TEXTSLAM_COMMON_ALGORITHMS_HPP
+#define TEXTSLAM_COMMON_ALGORITHMS_HPP
 
 #include <algorithm>
 #include <cstddef>
@@ -31,6 +31,17 @@ inline std::vector<int> evenly_spaced(const std::vector<int>& ids, std::size_t c
   return picked;
 }
 
+/// As std::erase_if of C++20.
+template <class T, class Predicate>
+void erase_if(std::vector<T>& values, Predicate predicate) {
+  values.erase(std::remove_if(values.begin(), values.end(), predicate), values.end());
+}
+/// As std::erase of C++20.
+template <class T>
+void erase(std::vector<T>& values, const T& value) {
+  values.erase(std::remove(values.begin(), values.end(), value), values.end());
+}
+
 }  // namespace textslam
 
-#endif  // TEXTSLAM_COMMON_STATISTICS_HPP
+#endif  // TEXTSLAM_COMMON_ALGORITHMS_HPP
