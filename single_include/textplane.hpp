@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 120 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 977b58cea640db72
+// Hash of these files: 908b9021738e220e
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 977b58cea640db72"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 908b9021738e220e"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -114,18 +114,19 @@
   }                             \
   }
 
-// Deferred functions. A function of no template parameter of its own is compiled in every file that includes its
-// header. A deferred one, TEXTPLANE_DEFERRED before it, is compiled where it is called; callers do not see the
-// parameter. A program with compiled kernels (simd/targets.hpp) compiles it once: the header ends with a line
-// TEXTPLANE_INSTANCE for it, inside `#if defined(TEXTPLANE_EXTERN_KERNELS)`, which is its definition in the one file
-// that defines the kernels and a declaration in all others.
+// Deferred functions. An inline function is compiled in every file that includes its header. A function after
+// TEXTPLANE_DEFERRED is compiled only where it is called; callers do not see the template parameter. A program with
+// compiled kernels (simd/targets.hpp) compiles it once: TEXTPLANE_INSTANCE(signature) at the end of the header defines
+// it in the one file that defines the kernels, and declares it in all others. In other programs it does nothing.
 #define TEXTPLANE_DEFERRED template <class = void>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
 #undef TEXTPLANE_EXTERN_KERNELS
 #define TEXTPLANE_EXTERN_KERNELS
-#define TEXTPLANE_INSTANCE template
+#define TEXTPLANE_INSTANCE(...) template __VA_ARGS__
+#elif defined(TEXTPLANE_EXTERN_KERNELS)
+#define TEXTPLANE_INSTANCE(...) extern template __VA_ARGS__
 #else
-#define TEXTPLANE_INSTANCE extern template
+#define TEXTPLANE_INSTANCE(...) static_assert(true, "") /* for the semicolon */
 #endif
 
 // Checks of preconditions that only a bug in the caller can break. Off unless the embedder defines the macro, for
@@ -152,7 +153,7 @@
 //   unproject(px, &m)   the ray of a pixel. Status::degenerate where there is none, non_finite for NaN; m stays as it
 //                       was
 //   pinhole()           the camera of the undistorted image. Every kernel takes this one.
-//   is_pinhole()        there is nothing to undistort: project() is that of pinhole()
+//   is_pinhole()        there is nothing to undistort: project() equals pinhole().project()
 //   at_level(l)         the camera of pyramid level l, whose pixels are (x + 0.5)/2^l - 0.5
 //
 // None of them throws or allocates. Threads may share a camera.
@@ -161,7 +162,7 @@
 
 #include <type_traits>
 
-// Small numeric tools of every folder: finite checks that survive -ffast-math, and symmetric solvers of fixed size.
+// Small numeric tools: finite checks that survive -ffast-math, and symmetric solvers of fixed size.
 // They do not use Eigen's out-of-line algorithms: translation units with different instruction sets would share Eigen's
 // weak symbols (see config.hpp).
 #ifndef TEXTPLANE_CORE_NUMERIC_HPP
@@ -197,8 +198,8 @@ template <class S>
 using Wide = typename WideScalar<S>::type;
 }  // namespace detail
 
-/// A B of fixed-size matrices, written out: Eigen's loop for it may become a weak symbol, with the instructions of
-/// whichever translation unit the linker chooses. Its expressions also take long to compile.
+/// A B of fixed-size matrices, written out: Eigen's loop may become a weak symbol, and the linker may keep the copy
+/// with another instruction set. Eigen's expressions also compile slowly.
 template <class S, int Rows, int Inner, int Columns>
 Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
                                         const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
@@ -274,8 +275,7 @@ inline bool is_finite(float x) noexcept {
   std::memcpy(&bits, &x, sizeof bits);
   return (bits & 0x7f800000U) != 0x7f800000U;
 }
-/// The top bit of the result is set where x is not finite. To check many numbers, OR the results: cheaper than
-/// branches.
+/// Its top bit is set where x is not finite. To check many numbers without branches, OR the results.
 inline std::uint64_t not_finite_bit(double x) noexcept {
   std::uint64_t bits;
   std::memcpy(&bits, &x, sizeof bits);
@@ -295,7 +295,7 @@ bool all_finite(const Eigen::DenseBase<Derived>& m) noexcept {
   return true;
 }
 
-/// Cholesky factorisation A = L D L^T of a symmetric N x N matrix, of which the lower triangle is read.
+/// Cholesky factorisation A = L D L^T of a symmetric N x N matrix. Reads the lower triangle alone.
 ///
 /// The matrix counts as not positive definite where a pivot is at most `tolerance` times its diagonal entry of A. Then
 /// ok() is false, and solve() and inverse() must not be called.
@@ -424,8 +424,8 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Outcome of a kernel or a solve. The first three come with a usable result, all others with the documented fallback:
-/// the input state of a solver, zeros for sums.
+/// Outcome of a kernel or a solve. The first three come with a usable result, all others with a documented fallback: a
+/// solver's input state, zeros for sums.
 enum class Status : std::uint8_t {
   ok,                ///< A single evaluation succeeded.
   converged,         ///< An iteration met its step or cost tolerance.
@@ -436,7 +436,7 @@ enum class Status : std::uint8_t {
   out_of_view,       ///< The projection falls outside the image.
   rank_deficient,    ///< The linear system does not determine all unknowns.
   degenerate,        ///< The geometry is degenerate: zero area, zero baseline, coincident points.
-  non_finite,        ///< A NaN or an infinity in the input, or one that arose from it.
+  non_finite,        ///< A NaN or an infinity in the input or in the result.
   invalid_argument,  ///< Null pointer, negative size, stride below the width, unknown option.
   diverged,          ///< No step lowered the cost although the gradient does not vanish.
   unsupported,       ///< This form of the computation cannot take the case; another one can.
@@ -511,13 +511,11 @@ struct Pinhole {
   Pinhole(S fx_, S fy_, S cx_, S cy_) noexcept : fx(fx_), fy(fy_), cx(cx_), cy(cy_) {}
   /// Of fx fy cx cy.
   static Pinhole from_parameters(const Eigen::Matrix<S, 4, 1>& p) noexcept { return {p[0], p[1], p[2], p[3]}; }
-  /// fx fy cx cy.
-  Eigen::Matrix<S, 4, 1> parameters() const noexcept { return {fx, fy, cx, cy}; }
+  Eigen::Matrix<S, 4, 1> parameters() const noexcept { return {fx, fy, cx, cy}; }  ///< fx fy cx cy.
 
   /// Finite, with positive focal lengths.
   bool valid() const noexcept { return all_finite(parameters()) && fx > S(0) && fy > S(0); }
-  /// In front of the camera.
-  bool in_domain(const Vector3<S>& p) const noexcept { return p[2] > S(0); }
+  bool in_domain(const Vector3<S>& p) const noexcept { return p[2] > S(0); }  ///< In front of the camera.
 
   /// Pixel of the normalised point m = (x/z, y/z).
   Vector2<S> pixel(const Vector2<S>& m) const noexcept { return {fx * m[0] + cx, fy * m[1] + cy}; }
@@ -666,7 +664,7 @@ struct RadialTangential {
   /// Whether the lens distorts nothing.
   bool is_pinhole() const noexcept { return k1 == S(0) && k2 == S(0) && p1 == S(0) && p2 == S(0) && k3 == S(0); }
 
-  /// The same camera for pyramid level l: the lens is that of level 0.
+  /// The same camera for pyramid level l: the lens stays the same.
   RadialTangential at_level(int level) const noexcept { return {intrinsics.at_level(level), k1, k2, p1, p2, k3}; }
 
   /// The same of another scalar.
@@ -733,8 +731,7 @@ class ImageView {
   T* row(int y) const noexcept {
     return reinterpret_cast<T*>(reinterpret_cast<Byte*>(data_) + static_cast<std::ptrdiff_t>(y) * stride_);
   }
-  /// The pixel at column x, row y, not checked.
-  T& operator()(int x, int y) const noexcept { return row(y)[x]; }
+  T& operator()(int x, int y) const noexcept { return row(y)[x]; }  ///< The pixel at column x, row y, not checked.
 
   /// (x, y) lies in [0, width - 1] x [0, height - 1], where bilinear interpolation is defined. False for NaN.
   template <class S>
@@ -828,8 +825,7 @@ struct SE3 {
   Vector3<S> operator*(const Vector3<S>& p) const noexcept { return product(R, p) + t; }
   /// First `b`, then this: T_a_b T_b_c = T_a_c.
   SE3 operator*(const SE3& b) const noexcept { return {product(R, b.R), product(R, b.t) + t}; }
-  /// Destination to source.
-  SE3 inverse() const noexcept { return {transposed(R), -transposed_product(R, t)}; }
+  SE3 inverse() const noexcept { return {transposed(R), -transposed_product(R, t)}; }  ///< Destination to source.
 
   /// The same of another scalar.
   template <class U>
@@ -1260,8 +1256,8 @@ TEXTPLANE_END_NAMESPACE
 #endif  // TEXTPLANE_GEOMETRY_HOMOGRAPHY_HPP
 // theta (see plane.hpp) fitted to inverse depths, to matches of two views of known pose, and to points.
 //
-// The fits solve 3 x 3 systems by this library's own Cholesky, report rank, condition and covariance, and divide by no
-// coordinate. float input is summed in double. Outliers are not handled: run RANSAC outside.
+// The fits solve 3 x 3 systems by Ldlt, report rank, condition and covariance, and divide by no coordinate. float input
+// is summed in double. The fits do not handle outliers: run RANSAC around them.
 #ifndef TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 
@@ -1270,7 +1266,7 @@ TEXTPLANE_END_NAMESPACE
 #include <type_traits>
 #include <utility>
 
-// The result of a plane fit, and what all fits of plane_fit.hpp share: weights, normal equations, rank and covariance.
+// The result of a plane fit, and common parts of the fits: weights, normal equations, rank and covariance.
 #ifndef TEXTPLANE_GEOMETRY_PLANE_FIT_RESULT_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_FIT_RESULT_HPP
 
@@ -1279,8 +1275,7 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A fitted plane. `value` is usable where is_ok(status); with behind_camera it holds the algebraic solution, else
-/// zero.
+/// A fitted plane. `value` holds theta where is_ok(status), the algebraic solution with behind_camera, else zero.
 template <class S>
 struct PlaneFit {
   using Scalar = S;                       ///< Type of the numbers.
@@ -1425,7 +1420,7 @@ struct MatchSystem {
   W chi2 = W(0), parallax = W(0);
 };
 
-/// Reprojection error in the target at `theta`. False where a match is not in front of both cameras.
+/// Sums the reprojection errors in the target at `theta`. False where a match is not in front of both cameras.
 template <class S, class W>
 bool match_system(const Vector3<S>* host_m, const Vector3<S>* target_m, const S* weight, int n, const SE3<W>& T,
                   const Vector3<W>& theta, MatchSystem<W>* system) noexcept {
@@ -1447,14 +1442,36 @@ bool match_system(const Vector3<S>* host_m, const Vector3<S>* target_m, const S*
   return true;
 }
 
+/// Up to three Gauss-Newton steps. *theta and *best end at the lowest error; behind_camera where the start is invalid.
+template <class S, class W>
+Status refine_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, const S* weight, int n, const SE3<W>& T,
+                      W weight_sum, Vector3<W>* theta, MatchSystem<W>* best) noexcept {
+  const W epsilon = std::numeric_limits<W>::epsilon(), rounding = weight_sum * (W(64) * epsilon) * (W(64) * epsilon);
+  Vector3<W> previous = *theta;
+  for (int step = 0;; ++step) {
+    MatchSystem<W> trial;
+    const bool in_front = match_system(host_m, target_m, weight, n, T, *theta, &trial);
+    const bool better = in_front && is_finite(trial.chi2) && (step == 0 || trial.chi2 <= best->chi2 + rounding);
+    if (!better) {
+      *theta = previous;
+      return step > 0 ? Status::ok : Status::behind_camera;
+    }
+    *best = trial;
+    const Ldlt<W, 3> ldlt(best->sums.A);
+    if (step == 3 || !ldlt.ok()) return Status::ok;
+    previous = *theta;
+    *theta += ldlt.solve(best->sums.b);
+  }
+}
+
 }  // namespace detail
 
 /// theta from n >= 3 matches between two views of known relative pose (paper, eq. 5; docs/equations.md).
 ///
-/// The linear system [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i gives the start; up to three Gauss-Newton steps on the
-/// target's reprojection error make it the maximum-likelihood estimate for isotropic noise on the target points.
+/// The start solves the linear system [m'_i]x t m~_i^T theta = -[m'_i]x R m~_i. Up to three Gauss-Newton steps on the
+/// target's reprojection error then give the maximum-likelihood estimate for isotropic noise on the target points.
 /// host_m, target_m: homogeneous normalised points (third entry 1); T_t_h: host to target; weight: 1 / variance of one
-/// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` are those of the
+/// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` describe the
 /// linear system; degrees of freedom of sigma: 2 n - 3. Status: too_few, rank_deficient (collinear), degenerate (no
 /// baseline, or parallax below the rounding error, as after a pure rotation), behind_camera (a match ends behind a
 /// camera), non_finite, invalid_argument.
@@ -1487,25 +1504,9 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
   const Ldlt<W, 3> start(linear.A);
   if (fit.rank < 3 || !start.ok()) return detail::with_status(fit, Status::rank_deficient);
 
-  Vector3<W> theta = start.solve(linear.b), previous = theta;
-  const W epsilon = std::numeric_limits<W>::epsilon(), rounding = weight_sum * (W(64) * epsilon) * (W(64) * epsilon);
+  Vector3<W> theta = start.solve(linear.b);
   detail::MatchSystem<W> system;
-  fit.status = Status::behind_camera;
-  for (int step = 0;; ++step) {
-    detail::MatchSystem<W> trial;
-    const bool in_front = detail::match_system(host_m, target_m, weight, n, T, theta, &trial);
-    const bool better = in_front && is_finite(trial.chi2) && (step == 0 || trial.chi2 <= system.chi2 + rounding);
-    if (!better) {
-      theta = previous;
-      break;
-    }
-    fit.status = Status::ok;
-    system = trial;
-    const Ldlt<W, 3> ldlt(system.sums.A);
-    if (step == 3 || !ldlt.ok()) break;
-    previous = theta;
-    theta += ldlt.solve(system.sums.b);
-  }
+  fit.status = detail::refine_matches(host_m, target_m, weight, n, T, weight_sum, &theta, &system);
   if (!all_finite(theta)) return detail::failed_plane<S>(Status::non_finite);
   fit.value = theta.template cast<S>();
   if (fit.status != Status::ok) return fit;
@@ -1608,11 +1609,9 @@ PlaneFit<S> plane_from_points(const Points& p) noexcept {
   return plane_from_points<S>(p.data(), static_cast<int>(p.size()));
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE PlaneFit<double> plane_from_matches<double>(const Vector3<double>*, const Vector3<double>*, int,
-                                                               const SE3<double>&, const double*) noexcept;
-TEXTPLANE_INSTANCE PlaneFit<double> plane_from_points<double>(const Vector3<double>*, int, const double*) noexcept;
-#endif
+TEXTPLANE_INSTANCE(PlaneFit<double> plane_from_matches<double>(const Vector3<double>*, const Vector3<double>*, int,
+                                                               const SE3<double>&, const double*) noexcept);
+TEXTPLANE_INSTANCE(PlaneFit<double> plane_from_points<double>(const Vector3<double>*, int, const double*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 
@@ -1660,14 +1659,11 @@ class ConvexPolygon {
  public:
   static constexpr int kCapacity = 16;  ///< Most vertices that it holds.
 
-  /// Number of vertices.
-  int size() const noexcept { return size_; }
-  /// Whether it has no vertices.
-  bool empty() const noexcept { return size_ == 0; }
+  int size() const noexcept { return size_; }         ///< Number of vertices.
+  bool empty() const noexcept { return size_ == 0; }  ///< Whether it has no vertices.
   /// Vertex i, not checked.
   const Vector2<S>& operator[](int i) const noexcept { return vertex_[static_cast<std::size_t>(i)]; }
-  /// Removes all vertices.
-  void clear() noexcept { size_ = 0; }
+  void clear() noexcept { size_ = 0; }  ///< Removes all vertices.
   /// Appends a vertex; drops it where the polygon is full.
   void push(const Vector2<S>& p) noexcept {
     if (size_ < kCapacity) vertex_[static_cast<std::size_t>(size_++)] = p;
@@ -1789,8 +1785,8 @@ bool inside_image(const Quad<S>& quad, int width, int height, const S& margin = 
   return true;
 }
 
-/// Convex hull of the four corners, clockwise: the quad itself where it is convex. It repairs a detector's quad that is
-/// slightly concave or crosses itself. Empty where it has no area or a corner is not finite.
+/// Convex hull of the four corners, clockwise. It repairs a detector's quad that is slightly concave or crosses itself.
+/// Empty where it has no area or a corner is not finite.
 template <class S>
 ConvexPolygon<S> convex_hull(const Quad<S>& quad) noexcept {
   ConvexPolygon<S> hull;
@@ -2052,7 +2048,7 @@ Status triangulate_rays(const View& view, int n, const W& input_epsilon, Vector3
     if (!ldlt.ok()) return Status::degenerate;
     const Vector3<W> step = ldlt.solve(system.b);
     PointSystem<W> trial;
-    // Near the optimum the cost is a rounding error: a step that raises it by no more than that is accepted.
+    // Near the optimum the cost is a rounding error: a step may raise it by that much.
     const W rounding = W(64) * epsilon * (system.cost + W(64) * epsilon);
     const bool accepted = point_system<W>(view, n, p + step, &trial) && trial.cost <= system.cost + rounding;
     if (accepted) {
@@ -2110,6 +2106,88 @@ TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_GEOMETRY_TRIANGULATE_HPP
 
+// Robust costs as functions of the squared residual. simd/kernels/robust.inl has them as vectors.
+#ifndef TEXTPLANE_CORE_ROBUST_HPP
+#define TEXTPLANE_CORE_ROBUST_HPP
+
+#include <cmath>
+#include <cstdint>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// The shape of a robust cost: see Robust.
+enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
+
+/// True where all pixels have weights other than 1: L2 has none, and Huber's cost for outliers alone.
+constexpr bool weighs_all(RobustKind kind) noexcept { return kind != RobustKind::l2 && kind != RobustKind::huber; }
+
+/// A robust cost rho(r^2) that is r^2 near zero, and its derivative, the weight of iteratively re-weighted least
+/// squares.
+///
+/// With d = delta, in the unit of the residual r, and r2 = r^2 >= 0:
+///   l2      rho = r2                                           weight = 1
+///   huber   rho = r2 for |r| <= d, else 2 d |r| - d^2          weight = min(1, d / |r|);   rho = w r2 (2 - w)
+///   cauchy  rho = d^2 log(1 + r2 / d^2)                        weight = 1 / (1 + r2 / d^2)
+///   tukey   rho = d^2 / 3 (1 - (1 - r2 / d^2)^3), else d^2/3   weight = (1 - r2 / d^2)^2, 0 for |r| > d
+struct Robust {
+  RobustKind kind = RobustKind::huber;  ///< Which cost.
+  double delta = 1.0;                   ///< Where it leaves the quadratic, in the unit of |r|.
+
+  /// A known kind with a delta in [1e-100, 1e100], so that its square and ratios to it are numbers (l2 ignores it).
+  bool valid() const noexcept {
+    if (kind == RobustKind::l2) return true;
+    return (kind == RobustKind::huber || kind == RobustKind::cauchy || kind == RobustKind::tukey) && is_finite(delta) &&
+           delta >= 1e-100 && delta <= 1e100;
+  }
+
+  /// The cost of the squared residual r2.
+  double rho(double r2) const noexcept {
+    const double d2 = delta * delta;
+    switch (kind) {
+      case RobustKind::l2: return r2;
+      case RobustKind::huber: return r2 <= d2 ? r2 : 2.0 * delta * std::sqrt(r2) - d2;
+      case RobustKind::cauchy: return d2 * std::log1p(r2 / d2);
+      case RobustKind::tukey: {
+        if (r2 >= d2) return d2 / 3.0;
+        const double u = r2 / d2;  // multiplied out: the form above cancels near zero
+        return r2 * (1.0 - u + u * u / 3.0);
+      }
+    }
+    return r2;
+  }
+
+  /// d rho / d r2, in [0, 1].
+  double weight(double r2) const noexcept {
+    const double d2 = delta * delta;
+    switch (kind) {
+      case RobustKind::l2: return 1.0;
+      case RobustKind::huber: return r2 <= d2 ? 1.0 : delta / std::sqrt(r2);
+      case RobustKind::cauchy: return 1.0 / (1.0 + r2 / d2);
+      case RobustKind::tukey: {
+        if (r2 >= d2) return 0.0;
+        const double u = 1.0 - r2 / d2;
+        return u * u;
+      }
+    }
+    return 1.0;
+  }
+
+  /// d weight / d r2, at most 0: with rho and weight what a loss function of Ceres returns.
+  double curvature(double r2) const noexcept {
+    const double d2 = delta * delta, w = weight(r2);
+    switch (kind) {
+      case RobustKind::l2: return 0.0;
+      case RobustKind::huber: return r2 <= d2 ? 0.0 : -0.5 * w / r2;
+      case RobustKind::cauchy: return -w * w / d2;
+      case RobustKind::tukey: return r2 >= d2 ? 0.0 : -2.0 * (1.0 - r2 / d2) / d2;
+    }
+    return 0.0;
+  }
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_CORE_ROBUST_HPP
 // Blur that makes two views of a plane alike.
 //
 // A camera blurs by its own pixels: on the plane, the view from farther away or at a steeper slant is blurred more, and
@@ -2154,15 +2232,17 @@ TEXTPLANE_END_NAMESPACE
 //
 //   vf, vi, vm  kLanes floats, int32 and truth values
 //   v16         k16Lanes = 2 kLanes int16, for fixed-point interpolation and exact integer sums
-//   vb, vh, vw  kBytes bytes, kShorts int16 and their int32 sums: integer kernels, exact on every target
-//   vd, vp      8 doubles; kDoubles doubles
+//   vw          sums of products of int16
+//   vb          kBytes bytes: integer kernels, exact on every target
+//   vp, vd      kDoubles doubles; 8 doubles
 //   taps_t      the four pixels around each of kLanes positions
 //
 // Tiles: bilinear taps of pixels that follow each other closely. Eight cells in a row that lie in a tile of 16 x 3
 // pixels take one shuffle for each of its rows in place of two loads a pixel (kernels/tiles.inl).
 //
-// ops/scalar.inl defines each operation in plain C++; the other files in ops/ say the same in intrinsics. Only kernels
-// use them: a vector type never crosses the border of a region.
+// ops/scalar.inl defines each operation in plain C++; the files of the other targets say the same in intrinsics.
+// ops/derived.inl has those that read the same on all of them. Only kernels use them: a vector type never crosses the
+// border of a region.
 #ifndef TEXTPLANE_SIMD_OPS_HPP
 #define TEXTPLANE_SIMD_OPS_HPP
 
@@ -2770,7 +2850,7 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
 }
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return p[*at]; }  // p[at[i]]
 
-// --- float arithmetic: IEEE, each operation rounded once ---
+// --- float arithmetic ---
 // a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
@@ -2890,7 +2970,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   out[3] = d;
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 1;
 using vb = int;  // kBytes uint8; here one in [0, 255]
 
@@ -3312,7 +3392,6 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm_floor_ps(a); }
 // --- conversions ---
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm_cvttps_epi32(a); }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm_cvtepi32_ps(a); }
-
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm_castps_si128(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm_castsi128_ps(a); }
 
@@ -3369,7 +3448,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   _mm_storeu_ps(out, _mm_hadd_ps(_mm_hadd_ps(a, b), _mm_hadd_ps(c, d)));
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 16;
 using vb = __m128i;
 
@@ -3410,6 +3489,7 @@ TEXTPLANE_SIMD_INLINE v16 dot_bytes(v16 a, v16 b) noexcept { return _mm_maddubs_
 TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept { return _mm_packus_epi16(a, b); }
 TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept { return p[0]; }
 TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return p; }
+TEXTPLANE_SIMD_INLINE v16 load_groups(const std::uint8_t* p) noexcept { return load128(p); }
 TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
   const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
   return _mm_cmplt_epi16(_mm_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7), set16(limit));
@@ -3551,12 +3631,10 @@ TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_
   *first = join_groups(u);
   *second = join_groups(l);
 }
+// load_groups() has the bytes p + 8 i to p + 8 i + 15 in group i.
 TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
   const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
-  __m128i bytes[kGroups];
-  TEXTPLANE_SIMD_UNROLL
-  for (int i = 0; i < kGroups; ++i) bytes[i] = load128(p + 8 * i);
-  return dot_bytes(weights, pick_bytes(xorb(join_groups(bytes), setb(-128)), repeat_group(neighbours)));
+  return dot_bytes(weights, pick_bytes(xorb(load_groups(p), setb(-128)), repeat_group(neighbours)));
 }
 TEXTPLANE_SIMD_INLINE vf zero() noexcept { return set1(0.0f); }
 TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
@@ -3768,11 +3846,6 @@ TEXTPLANE_SIMD_INLINE int sum_of_eight(__m256i a) noexcept {
 TEXTPLANE_SIMD_INLINE double sum_of_four(__m256d a) noexcept {
   return sum_of_two(_mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1)));
 }
-// Of eight int32: exact.
-TEXTPLANE_SIMD_INLINE double wide_sum(__m256i a) noexcept {
-  return sum_of_four(
-      _mm256_add_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1))));
-}
 
 #if TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
@@ -3819,7 +3892,6 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
   }
   if ((n & 1) != 0) _mm_store_ss(p, rest);
 }
-// Sooner than the instruction.
 TEXTPLANE_SIMD_INLINE __m128 gather_four(const float* p, const int* at) noexcept {
   return _mm_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
 }
@@ -3842,7 +3914,6 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return _mm256_floor_ps(a); }
 // --- conversions ---
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm256_cvttps_epi32(a); }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm256_cvtepi32_ps(a); }
-
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm256_castps_si256(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm256_castsi256_ps(a); }
 
@@ -3898,7 +3969,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 32;
 using vb = __m256i;
 
@@ -3941,12 +4012,16 @@ TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept {
 }
 TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept { return join128(p[0], p[1]); }
 TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm256_broadcastsi128_si256(p); }
+TEXTPLANE_SIMD_INLINE v16 load_groups(const std::uint8_t* p) noexcept { return join128(load128(p), load128(p + 8)); }
 TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
   const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
   const __m256i lane = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   return _mm256_cmpgt_epi16(set16(limit), lane);
 }
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return wide_sum(a); }
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
+  return sum_of_four(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)) +
+                     _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1)));
+}
 TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return _mm256_mulhrs_epi16(x, y); }
 TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, _mm256_madd_epi16(x, y)); }
 TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept {
@@ -4087,10 +4162,7 @@ TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_
 }
 TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
   const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
-  __m128i bytes[kGroups];
-  TEXTPLANE_SIMD_UNROLL
-  for (int i = 0; i < kGroups; ++i) bytes[i] = load128(p + 8 * i);
-  return dot_bytes(weights, pick_bytes(xorb(join_groups(bytes), setb(-128)), repeat_group(neighbours)));
+  return dot_bytes(weights, pick_bytes(xorb(load_groups(p), setb(-128)), repeat_group(neighbours)));
 }
 
 // Tiles of int16 cells, out of the operations of avx2 or avx512. Include before: these.
@@ -4256,10 +4328,8 @@ TEXTPLANE_SIMD_INLINE void fetch_four_words(const std::uint8_t* upper, const std
   taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
 }
 // Operations of the avx512 target: vectors of 512 bits. ops/scalar.inl defines them.
-// Include before: ops/common.inl.
-//
-// The zero-masking forms stand where the plain ones start from an undefined register in the compiler's header, about
-// which g++ 11 and 12 warn. With all lanes kept they are the same instructions.
+// Include before: ops/common.inl. Zero-masking forms that keep all lanes are the plain instructions: g++ 11 and 12 warn
+// about an undefined register in the headers of the plain forms.
 TEXTPLANE_SIMD_INLINE __m128i load128(const void* p) noexcept {
   return _mm_loadu_si128(static_cast<const __m128i*>(p));
 }
@@ -4338,7 +4408,7 @@ constexpr bool kManyRegisters = true;  // 32
 using vf = __m512;
 using vi = __m512i;
 using vm = __mmask16;
-constexpr vm kAllLanes = 0xffff;
+constexpr vm kFull = 0xffff;
 
 TEXTPLANE_SIMD_INLINE __m256i load256(const void* p) noexcept {
   return _mm256_loadu_si256(static_cast<const __m256i*>(p));
@@ -4374,10 +4444,6 @@ TEXTPLANE_SIMD_INLINE int sum_of_eight(__m256i a) noexcept {
 TEXTPLANE_SIMD_INLINE double sum_of_four(__m256d a) noexcept {
   return sum_of_two(_mm_add_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1)));
 }
-TEXTPLANE_SIMD_INLINE double wide_sum(__m256i a) noexcept {
-  return sum_of_four(
-      _mm256_add_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(a)), _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1))));
-}
 #if TEXTPLANE_SIMD_HIDE_MINIMA
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept {
   __asm__("vminps %2, %1, %0" : "=v"(a) : "v"(a), "v"(b));
@@ -4392,15 +4458,11 @@ TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept {
 // --- make, load, store ---
 TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return _mm512_set1_ps(value); }
 TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return _mm512_set1_epi32(value); }
-TEXTPLANE_SIMD_INLINE vf iota() noexcept {
-  return _mm512_set_ps(15.0f, 14.0f, 13.0f, 12.0f, 11.0f, 10.0f, 9.0f, 8.0f, 7.0f, 6.0f, 5.0f, 4.0f, 3.0f, 2.0f, 1.0f,
-                       0.0f);
-}
 TEXTPLANE_SIMD_INLINE vi ioti() noexcept {
   return _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
 }
 TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept {
-  return n >= 16 ? kAllLanes : static_cast<vm>((1u << (n < 0 ? 0 : n)) - 1u);
+  return n >= 16 ? kFull : static_cast<vm>((1u << (n < 0 ? 0 : n)) - 1u);
 }
 TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return _mm512_loadu_ps(p); }
 TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept {
@@ -4419,7 +4481,6 @@ TEXTPLANE_SIMD_INLINE __m256i upper_half(__m512i a) noexcept { return _mm512_mas
 TEXTPLANE_SIMD_INLINE __m512i join256(__m256i low, __m256i high) noexcept {
   return _mm512_maskz_inserti64x4(0xff, _mm512_castsi256_si512(low), high, 1);
 }
-// Sooner than the instruction.
 TEXTPLANE_SIMD_INLINE __m256i gather_eight(const float* p, const int* at) noexcept {
   return _mm256_castps_si256(
       _mm256_setr_ps(p[at[0]], p[at[1]], p[at[2]], p[at[3]], p[at[4]], p[at[5]], p[at[6]], p[at[7]]));
@@ -4427,25 +4488,25 @@ TEXTPLANE_SIMD_INLINE __m256i gather_eight(const float* p, const int* at) noexce
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
   return _mm512_castsi512_ps(join256(gather_eight(p, at), gather_eight(p, at + 8)));
 }
-TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kAllLanes, a); }
+TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return _mm512_maskz_cvtepi32_ps(kFull, a); }
+TEXTPLANE_SIMD_INLINE vf iota() noexcept { return to_float(ioti()); }
 
 // --- float arithmetic ---
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return _mm512_fmadd_ps(a, b, c); }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return _mm512_fnmadd_ps(a, b, c); }
 #if !TEXTPLANE_SIMD_HIDE_MINIMA
-TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kAllLanes, a, b); }
-TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kAllLanes, a, b); }
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return _mm512_maskz_min_ps(kFull, a, b); }
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return _mm512_maskz_max_ps(kFull, a, b); }
 #endif
-TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kAllLanes, a); }
-TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm512_maskz_rsqrt14_ps(kAllLanes, a); }
-TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kAllLanes, _mm512_set1_ps(-0.0f), a); }
+TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return _mm512_maskz_sqrt_ps(kFull, a); }
+TEXTPLANE_SIMD_INLINE vf rough_inverse_root(vf a) noexcept { return _mm512_maskz_rsqrt14_ps(kFull, a); }
+TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return _mm512_maskz_andnot_ps(kFull, _mm512_set1_ps(-0.0f), a); }
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept {
-  return _mm512_maskz_roundscale_ps(kAllLanes, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+  return _mm512_maskz_roundscale_ps(kFull, a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
 
 // --- conversions ---
-TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm512_maskz_cvttps_epi32(kAllLanes, a); }
-
+TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return _mm512_maskz_cvttps_epi32(kFull, a); }
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return _mm512_castps_si512(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm512_castsi512_ps(a); }
 
@@ -4453,13 +4514,13 @@ TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return _mm512_castsi512_ps(a)
 TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept { return _mm512_add_epi32(a, b); }
 TEXTPLANE_SIMD_INLINE vi subi(vi a, vi b) noexcept { return _mm512_sub_epi32(a, b); }
 TEXTPLANE_SIMD_INLINE vi muli(vi a, vi b) noexcept { return _mm512_mullo_epi32(a, b); }
-TEXTPLANE_SIMD_INLINE vi mini(vi a, vi b) noexcept { return _mm512_maskz_min_epi32(kAllLanes, a, b); }
-TEXTPLANE_SIMD_INLINE vi maxi(vi a, vi b) noexcept { return _mm512_maskz_max_epi32(kAllLanes, a, b); }
+TEXTPLANE_SIMD_INLINE vi mini(vi a, vi b) noexcept { return _mm512_maskz_min_epi32(kFull, a, b); }
+TEXTPLANE_SIMD_INLINE vi maxi(vi a, vi b) noexcept { return _mm512_maskz_max_epi32(kFull, a, b); }
 TEXTPLANE_SIMD_INLINE vi shl(vi a, int bits) noexcept {
-  return _mm512_maskz_sll_epi32(kAllLanes, a, _mm_cvtsi32_si128(bits));
+  return _mm512_maskz_sll_epi32(kFull, a, _mm_cvtsi32_si128(bits));
 }
 TEXTPLANE_SIMD_INLINE vi shr(vi a, int bits) noexcept {
-  return _mm512_maskz_sra_epi32(kAllLanes, a, _mm_cvtsi32_si128(bits));
+  return _mm512_maskz_sra_epi32(kFull, a, _mm_cvtsi32_si128(bits));
 }
 TEXTPLANE_SIMD_INLINE vi andi(vi a, vi b) noexcept { return _mm512_and_si512(a, b); }
 TEXTPLANE_SIMD_INLINE vi ori(vi a, vi b) noexcept { return _mm512_or_si512(a, b); }
@@ -4477,17 +4538,18 @@ TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept { return _mm512_mask_
 TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return _mm512_maskz_mov_ps(m, a); }
 TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return m; }
 TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return _mm_popcnt_u32(m); }
-TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kAllLanes; }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return m == kFull; }
 
 // --- reductions ---
 TEXTPLANE_SIMD_INLINE __m256 lower_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 0); }
 TEXTPLANE_SIMD_INLINE __m256 upper_half(vf a) noexcept { return _mm512_maskz_extractf32x8_ps(0xff, a, 1); }
 TEXTPLANE_SIMD_INLINE __m256 half_sum(vf a) noexcept { return _mm256_add_ps(lower_half(a), upper_half(a)); }
 TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept { return sum_of_eight(half_sum(a)); }
+TEXTPLANE_SIMD_INLINE double sum_of_eight(__m512d a) noexcept {
+  return sum_of_four(_mm512_maskz_extractf64x4_pd(0xf, a, 0) + _mm512_maskz_extractf64x4_pd(0xf, a, 1));
+}
 TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
-  const __m512d eight = _mm512_maskz_cvtps_pd(0xff, lower_half(a)) + _mm512_maskz_cvtps_pd(0xff, upper_half(a));
-  return sum_of_four(
-      _mm256_add_pd(_mm512_maskz_extractf64x4_pd(0xf, eight, 0), _mm512_maskz_extractf64x4_pd(0xf, eight, 1)));
+  return sum_of_eight(_mm512_maskz_cvtps_pd(0xff, lower_half(a)) + _mm512_maskz_cvtps_pd(0xff, upper_half(a)));
 }
 TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
   return min_of_eight(_mm256_min_ps(lower_half(a), upper_half(a)));
@@ -4511,7 +4573,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   _mm_storeu_ps(out, _mm_add_ps(_mm256_castps256_ps128(s), _mm256_extractf128_ps(s, 1)));
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 64;
 using vb = __m512i;
 
@@ -4559,7 +4621,11 @@ TEXTPLANE_SIMD_INLINE vb pack_bytes(v16 a, v16 b) noexcept {
 TEXTPLANE_SIMD_INLINE v16 join_groups(const __m128i* p) noexcept {
   return join256(join128(p[0], p[1]), join128(p[2], p[3]));
 }
-TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm512_maskz_broadcast_i32x4(kAllLanes, p); }
+TEXTPLANE_SIMD_INLINE v16 repeat_group(__m128i p) noexcept { return _mm512_maskz_broadcast_i32x4(kFull, p); }
+TEXTPLANE_SIMD_INLINE v16 load_groups(const std::uint8_t* p) noexcept {
+  const __m512i overlapping = _mm512_setr_epi64(0, 1, 1, 2, 2, 3, 3, 4);
+  return _mm512_maskz_permutexvar_epi64(0xff, overlapping, loadb_n(p, kPairsReach));
+}
 TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
   return _mm512_movm_epi16(n >= 32 ? ~0u : (1u << (n < 0 ? 0 : n)) - 1u);
 }
@@ -4575,12 +4641,14 @@ TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return low16(low, h
 TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
   return sum_of_eight(_mm256_add_epi32(lower_half(v), upper_half(v)));
 }
-TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept { return wide_sum(lower_half(a)) + wide_sum(upper_half(a)); }
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
+  return sum_of_eight(_mm512_maskz_cvtepi32_pd(0xff, lower_half(a)) + _mm512_maskz_cvtepi32_pd(0xff, upper_half(a)));
+}
 TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
   return join256(gather_pairs8(p, offset), gather_pairs8(p, offset + 8));
 }
-TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAllLanes, lower_half(v)); }
-TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kAllLanes, upper_half(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kFull, lower_half(v)); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return _mm512_maskz_cvtepi16_epi32(kFull, upper_half(v)); }
 
 // --- doubles ---
 enum : int { kDoubles = 8 };
@@ -4646,18 +4714,12 @@ TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
   *b = _mm512_permutex2var_ps(lo, odd, hi);
 }
 TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
-  store128(p, _mm512_maskz_cvtepi32_epi8(kAllLanes, v));
+  store128(p, _mm512_maskz_cvtepi32_epi8(kFull, v));
 }
 
 // --- tiles of int16 cells ---
 enum : int { kInt16Tiles = 1 };
-TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept {
-  v16 v = load16(p);
-#if !defined(TEXTPLANE_EMULATED_AVX512)
-  __asm__("" : "+v"(v));
-#endif
-  return v;
-}
+TEXTPLANE_SIMD_INLINE v16 load_cells(const std::int16_t* p) noexcept { return as_int(hold(as_float(load16(p)))); }
 TEXTPLANE_SIMD_INLINE v16 saturated_sub16(v16 v, int n) noexcept { return _mm512_subs_epu16(v, set16(n)); }
 TEXTPLANE_SIMD_INLINE v16 pair_picks(v16 x) noexcept {
   return _mm512_add_epi16(_mm512_mullo_epi16(x, set16(0x0101)), set16(0x0100));
@@ -4703,10 +4765,7 @@ TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_
 }
 TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
   const __m128i neighbours = _mm_setr_epi8(0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8);
-  __m128i bytes[kGroups];
-  TEXTPLANE_SIMD_UNROLL
-  for (int i = 0; i < kGroups; ++i) bytes[i] = load128(p + 8 * i);
-  return dot_bytes(weights, pick_bytes(xorb(join_groups(bytes), setb(-128)), repeat_group(neighbours)));
+  return dot_bytes(weights, pick_bytes(xorb(load_groups(p), setb(-128)), repeat_group(neighbours)));
 }
 
 TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t* x, const std::int16_t* y, int stride, int* out) noexcept {
@@ -4883,7 +4942,7 @@ TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return vld1q_s32(p); }
 TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { vst1q_s32(p, v); }
 TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept {
   if (n >= 4) return vld1q_f32(p);
-  vf v = zero();
+  vf v = set1(0.0f);
   if (n >= 1) v = vld1q_lane_f32(p, v, 0);
   if (n >= 2) v = vld1q_lane_f32(p + 1, v, 1);
   if (n >= 3) v = vld1q_lane_f32(p + 2, v, 2);
@@ -4933,7 +4992,6 @@ TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return vrndmq_f32(a); }
 // --- conversions ---
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return vcvtq_s32_f32(a); }
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return vcvtq_f32_s32(a); }
-
 TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return vreinterpretq_s32_f32(a); }
 TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return vreinterpretq_f32_s32(a); }
 
@@ -4983,15 +5041,12 @@ struct taps_t {
   uint32x4_t cells;
 };
 TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return taps_t{vld1q_u32(p)}; }
-TEXTPLANE_SIMD_INLINE vi tap_00(taps_t t) noexcept {
-  return vreinterpretq_s32_u32(vandq_u32(t.cells, vdupq_n_u32(255u)));
+TEXTPLANE_SIMD_INLINE vi low_bytes(uint32x4_t cells) noexcept {
+  return vreinterpretq_s32_u32(vandq_u32(cells, vdupq_n_u32(255u)));
 }
-TEXTPLANE_SIMD_INLINE vi tap_10(taps_t t) noexcept {
-  return vreinterpretq_s32_u32(vandq_u32(vshrq_n_u32(t.cells, 8), vdupq_n_u32(255u)));
-}
-TEXTPLANE_SIMD_INLINE vi tap_01(taps_t t) noexcept {
-  return vreinterpretq_s32_u32(vandq_u32(vshrq_n_u32(t.cells, 16), vdupq_n_u32(255u)));
-}
+TEXTPLANE_SIMD_INLINE vi tap_00(taps_t t) noexcept { return low_bytes(t.cells); }
+TEXTPLANE_SIMD_INLINE vi tap_10(taps_t t) noexcept { return low_bytes(vshrq_n_u32(t.cells, 8)); }
+TEXTPLANE_SIMD_INLINE vi tap_01(taps_t t) noexcept { return low_bytes(vshrq_n_u32(t.cells, 16)); }
 TEXTPLANE_SIMD_INLINE vi tap_11(taps_t t) noexcept { return vreinterpretq_s32_u32(vshrq_n_u32(t.cells, 24)); }
 TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept { return vcvtq_f32_s32(tap_00(t)); }
 TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept { return vcvtq_f32_s32(vsubq_s32(tap_10(t), tap_00(t))); }
@@ -5013,7 +5068,7 @@ TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexc
   vst1q_f32(out, vpaddq_f32(vpaddq_f32(a, b), vpaddq_f32(c, d)));
 }
 
-// --- bytes, and their int16 ---
+// --- bytes ---
 constexpr int kBytes = 16;
 using vb = uint8x16_t;
 
@@ -5035,8 +5090,7 @@ TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noex
 TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return vcgeq_u8(a, b); }
 TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return vmaxvq_u8(a) != 0; }
 TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
-  const std::uint8_t weights[16] = {1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
-  const uint8x16_t bit = vandq_u8(mask, vld1q_u8(weights));
+  const uint8x16_t bit = vandq_u8(mask, vb{1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128});
   return static_cast<std::uint64_t>(vaddv_u8(vget_low_u8(bit))) |
          static_cast<std::uint64_t>(vaddv_u8(vget_high_u8(bit))) << 8;
 }
@@ -5910,8 +5964,7 @@ class Pyramid {
     return Status::ok;
   }
 
-  /// How many levels it has; 0 before it is built.
-  int levels() const noexcept { return count_; }
+  int levels() const noexcept { return count_; }  ///< How many levels it has; 0 before it is built.
 
   /// Level l, an empty view for l outside [0, levels()). It lives as long as the pyramid is neither built anew nor
   /// moved.
@@ -8253,10 +8306,8 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
 /// No allocation.
 class BlurKernel {
  public:
-  /// px, of the widest kernel.
-  static constexpr int kMaxRadius = 8;
-  /// px^2, of the widest kernel.
-  static constexpr double kMaxVariance = 9.0;
+  static constexpr int kMaxRadius = 8;         ///< px, of the widest kernel.
+  static constexpr double kMaxVariance = 9.0;  ///< px^2, of the widest kernel.
 
   /// The kernel of a covariance in px^2.
   template <class S = double>  // instantiated where it is called: including the header costs little
@@ -8276,12 +8327,9 @@ class BlurKernel {
     for (int i = 0; i < width() * width(); ++i) weights_[i] = static_cast<float>(raw[i] / sum);
   }
 
-  /// px: weights beyond it are zero.
-  int radius() const noexcept { return radius_; }
-  /// px: weights in a row.
-  int width() const noexcept { return 2 * radius_ + 1; }
-  /// |x|, |y| <= radius().
-  float at(int x, int y) const noexcept { return weights_[index(x, y)]; }
+  int radius() const noexcept { return radius_; }                          ///< px: weights beyond it are zero.
+  int width() const noexcept { return 2 * radius_ + 1; }                   ///< px: weights in a row.
+  float at(int x, int y) const noexcept { return weights_[index(x, y)]; }  ///< |x|, |y| <= radius().
 
  private:
   static constexpr int kSide = 2 * kMaxRadius + 1;
@@ -8481,21 +8529,9 @@ TEXTPLANE_END_NAMESPACE
 #include <cstddef>
 #include <cstdint>
 
-// Robust costs of the residual kernels.
+// The robust costs of core/robust.hpp as vectors.
 #ifndef TEXTPLANE_SIMD_ROBUST_HPP
 #define TEXTPLANE_SIMD_ROBUST_HPP
-
-TEXTPLANE_BEGIN_NAMESPACE
-namespace simd {
-
-/// The cost rho(e^2) of e = r sqrt(N) and its weight; photometry/robust.hpp has the formulas, and the same numbers.
-enum class RobustKind : int { l2 = 0, huber = 1, cauchy = 2, tukey = 3 };
-
-/// True where all pixels have weights other than 1: L2 has none, and Huber's cost for outliers alone.
-constexpr bool weighs_all(RobustKind kind) noexcept { return kind == RobustKind::cauchy || kind == RobustKind::tukey; }
-
-}  // namespace simd
-TEXTPLANE_END_NAMESPACE
 
 #define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/robust.inl"
 #ifndef TEXTPLANE_SIMD_KERNEL
@@ -8519,7 +8555,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
-// Cauchy's and Tukey's costs and weights. Include before: the operations.
+// The costs and weights that weigh all pixels (core/robust.hpp) as vectors. Include before: the operations.
 
 // log(1 + u) within 5e-7 of itself, 0 <= u <= 1e30.
 TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
@@ -8536,18 +8572,17 @@ TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
 // What a loop over residuals needs, made before it.
 struct RobustVectors {
   vf squared, inverse;  // delta^2, 1 / delta^2
-  bool tukey;
+  RobustKind kind;
 };
-TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(simd::RobustKind kind, double delta) noexcept {
+TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(RobustKind kind, double delta) noexcept {
   const double d = delta < 1e-12 ? 1e-12 : delta > 1e12 ? 1e12 : delta, squared = d * d;
-  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)),
-                       kind == simd::RobustKind::tukey};
+  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)), kind};
 }
 
 // The cost of e^2 and the root of its weight.
 TEXTPLANE_SIMD_INLINE void robust_vector(const RobustVectors& r, vf squares, vf* rho, vf* root) noexcept {
   const vf one = set1(1.0F), u = mul(squares, r.inverse);
-  if (r.tukey) {
+  if (r.kind == RobustKind::tukey) {
     const vf m = min_(u, one), rest = madd(m, madd(m, set1(1.0F / 3), set1(-1.0F)), one);
     *rho = mul(mul(m, r.squared), rest);
     *root = sub(one, m);
@@ -8583,16 +8618,15 @@ TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
 }
 struct RobustVectors {
   vf squared, inverse;
-  bool tukey;
+  RobustKind kind;
 };
-TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(simd::RobustKind kind, double delta) noexcept {
+TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(RobustKind kind, double delta) noexcept {
   const double d = delta < 1e-12 ? 1e-12 : delta > 1e12 ? 1e12 : delta, squared = d * d;
-  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)),
-                       kind == simd::RobustKind::tukey};
+  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)), kind};
 }
 TEXTPLANE_SIMD_INLINE void robust_vector(const RobustVectors& r, vf squares, vf* rho, vf* root) noexcept {
   const vf one = set1(1.0F), u = mul(squares, r.inverse);
-  if (r.tukey) {
+  if (r.kind == RobustKind::tukey) {
     const vf m = min_(u, one), rest = madd(m, madd(m, set1(1.0F / 3), set1(-1.0F)), one);
     *rho = mul(mul(m, r.squared), rest);
     *root = sub(one, m);
@@ -8628,16 +8662,15 @@ TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
 }
 struct RobustVectors {
   vf squared, inverse;
-  bool tukey;
+  RobustKind kind;
 };
-TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(simd::RobustKind kind, double delta) noexcept {
+TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(RobustKind kind, double delta) noexcept {
   const double d = delta < 1e-12 ? 1e-12 : delta > 1e12 ? 1e12 : delta, squared = d * d;
-  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)),
-                       kind == simd::RobustKind::tukey};
+  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)), kind};
 }
 TEXTPLANE_SIMD_INLINE void robust_vector(const RobustVectors& r, vf squares, vf* rho, vf* root) noexcept {
   const vf one = set1(1.0F), u = mul(squares, r.inverse);
-  if (r.tukey) {
+  if (r.kind == RobustKind::tukey) {
     const vf m = min_(u, one), rest = madd(m, madd(m, set1(1.0F / 3), set1(-1.0F)), one);
     *rho = mul(mul(m, r.squared), rest);
     *root = sub(one, m);
@@ -8673,16 +8706,15 @@ TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
 }
 struct RobustVectors {
   vf squared, inverse;
-  bool tukey;
+  RobustKind kind;
 };
-TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(simd::RobustKind kind, double delta) noexcept {
+TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(RobustKind kind, double delta) noexcept {
   const double d = delta < 1e-12 ? 1e-12 : delta > 1e12 ? 1e12 : delta, squared = d * d;
-  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)),
-                       kind == simd::RobustKind::tukey};
+  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)), kind};
 }
 TEXTPLANE_SIMD_INLINE void robust_vector(const RobustVectors& r, vf squares, vf* rho, vf* root) noexcept {
   const vf one = set1(1.0F), u = mul(squares, r.inverse);
-  if (r.tukey) {
+  if (r.kind == RobustKind::tukey) {
     const vf m = min_(u, one), rest = madd(m, madd(m, set1(1.0F / 3), set1(-1.0F)), one);
     *rho = mul(mul(m, r.squared), rest);
     *root = sub(one, m);
@@ -8718,16 +8750,15 @@ TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
 }
 struct RobustVectors {
   vf squared, inverse;
-  bool tukey;
+  RobustKind kind;
 };
-TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(simd::RobustKind kind, double delta) noexcept {
+TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(RobustKind kind, double delta) noexcept {
   const double d = delta < 1e-12 ? 1e-12 : delta > 1e12 ? 1e12 : delta, squared = d * d;
-  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)),
-                       kind == simd::RobustKind::tukey};
+  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)), kind};
 }
 TEXTPLANE_SIMD_INLINE void robust_vector(const RobustVectors& r, vf squares, vf* rho, vf* root) noexcept {
   const vf one = set1(1.0F), u = mul(squares, r.inverse);
-  if (r.tukey) {
+  if (r.kind == RobustKind::tukey) {
     const vf m = min_(u, one), rest = madd(m, madd(m, set1(1.0F / 3), set1(-1.0F)), one);
     *rho = mul(mul(m, r.squared), rest);
     *root = sub(one, m);
@@ -13472,9 +13503,8 @@ TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, 
 }
 
 // The same for Cauchy and Tukey.
-TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r,
-                                             simd::RobustKind kind, double delta, double* squares,
-                                             double* rho) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r, RobustKind kind,
+                                             double delta, double* squares, double* rho) noexcept {
   const RobustVectors robust = broadcast_robust(kind, delta);
   const vf shift = set1(static_cast<float>(r.shift));
   const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
@@ -13499,10 +13529,10 @@ TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualA
                                     std::int32_t* list, simd::ResidualInfo* info) noexcept {
   double squares = 0, rho = 0;
   int weighted = n;
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     add_weighted_costs(s.d, s.i, n, r, a.robust, a.delta, &squares, &rho);
   else
-    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == simd::RobustKind::huber, static_cast<float>(a.delta), list,
+    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == RobustKind::huber, static_cast<float>(a.delta), list,
                                &squares, &rho);
   info->error = squares / n;
   info->cost = rho / n;
@@ -13520,7 +13550,8 @@ struct WeightedStrip {
 TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
                                           const std::int32_t* list, int begin, int n, const Residual& res, double root,
                                           bool complement, WeightedStrip* w, double* sums) noexcept {
-  const RobustVectors robust = all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), false};
+  const RobustVectors robust =
+      all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
   const vf shift = set1(static_cast<float>(res.shift)), limit = set1(static_cast<float>(args.delta));
   const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
@@ -13580,7 +13611,7 @@ TEXTPLANE_SIMD_ENTRY void weigh_all(const simd::ResidualArgs& a, const ResidualA
 TEXTPLANE_SIMD_INLINE void weigh_strip(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
                                        int begin, int n, const Residual& r, double root, bool complement,
                                        WeightedStrip* w, double* sums) noexcept {
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     weigh_all(a, s, begin, n, r, root, w, sums);
   else
     weigh_huber(a, s, list, begin, n, r, root, complement, w, sums);
@@ -13648,9 +13679,8 @@ TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, 
   if (list) storei(list + listed, seti(0));
   return listed;
 }
-TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r,
-                                             simd::RobustKind kind, double delta, double* squares,
-                                             double* rho) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r, RobustKind kind,
+                                             double delta, double* squares, double* rho) noexcept {
   const RobustVectors robust = broadcast_robust(kind, delta);
   const vf shift = set1(static_cast<float>(r.shift));
   const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
@@ -13672,10 +13702,10 @@ TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualA
                                     std::int32_t* list, simd::ResidualInfo* info) noexcept {
   double squares = 0, rho = 0;
   int weighted = n;
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     add_weighted_costs(s.d, s.i, n, r, a.robust, a.delta, &squares, &rho);
   else
-    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == simd::RobustKind::huber, static_cast<float>(a.delta), list,
+    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == RobustKind::huber, static_cast<float>(a.delta), list,
                                &squares, &rho);
   info->error = squares / n;
   info->cost = rho / n;
@@ -13688,7 +13718,8 @@ struct WeightedStrip {
 TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
                                           const std::int32_t* list, int begin, int n, const Residual& res, double root,
                                           bool complement, WeightedStrip* w, double* sums) noexcept {
-  const RobustVectors robust = all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), false};
+  const RobustVectors robust =
+      all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
   const vf shift = set1(static_cast<float>(res.shift)), limit = set1(static_cast<float>(args.delta));
   const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
@@ -13747,7 +13778,7 @@ TEXTPLANE_SIMD_ENTRY void weigh_all(const simd::ResidualArgs& a, const ResidualA
 TEXTPLANE_SIMD_INLINE void weigh_strip(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
                                        int begin, int n, const Residual& r, double root, bool complement,
                                        WeightedStrip* w, double* sums) noexcept {
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     weigh_all(a, s, begin, n, r, root, w, sums);
   else
     weigh_huber(a, s, list, begin, n, r, root, complement, w, sums);
@@ -13813,9 +13844,8 @@ TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, 
   if (list) storei(list + listed, seti(0));
   return listed;
 }
-TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r,
-                                             simd::RobustKind kind, double delta, double* squares,
-                                             double* rho) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r, RobustKind kind,
+                                             double delta, double* squares, double* rho) noexcept {
   const RobustVectors robust = broadcast_robust(kind, delta);
   const vf shift = set1(static_cast<float>(r.shift));
   const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
@@ -13837,10 +13867,10 @@ TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualA
                                     std::int32_t* list, simd::ResidualInfo* info) noexcept {
   double squares = 0, rho = 0;
   int weighted = n;
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     add_weighted_costs(s.d, s.i, n, r, a.robust, a.delta, &squares, &rho);
   else
-    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == simd::RobustKind::huber, static_cast<float>(a.delta), list,
+    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == RobustKind::huber, static_cast<float>(a.delta), list,
                                &squares, &rho);
   info->error = squares / n;
   info->cost = rho / n;
@@ -13853,7 +13883,8 @@ struct WeightedStrip {
 TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
                                           const std::int32_t* list, int begin, int n, const Residual& res, double root,
                                           bool complement, WeightedStrip* w, double* sums) noexcept {
-  const RobustVectors robust = all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), false};
+  const RobustVectors robust =
+      all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
   const vf shift = set1(static_cast<float>(res.shift)), limit = set1(static_cast<float>(args.delta));
   const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
@@ -13912,7 +13943,7 @@ TEXTPLANE_SIMD_ENTRY void weigh_all(const simd::ResidualArgs& a, const ResidualA
 TEXTPLANE_SIMD_INLINE void weigh_strip(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
                                        int begin, int n, const Residual& r, double root, bool complement,
                                        WeightedStrip* w, double* sums) noexcept {
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     weigh_all(a, s, begin, n, r, root, w, sums);
   else
     weigh_huber(a, s, list, begin, n, r, root, complement, w, sums);
@@ -13978,9 +14009,8 @@ TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, 
   if (list) storei(list + listed, seti(0));
   return listed;
 }
-TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r,
-                                             simd::RobustKind kind, double delta, double* squares,
-                                             double* rho) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r, RobustKind kind,
+                                             double delta, double* squares, double* rho) noexcept {
   const RobustVectors robust = broadcast_robust(kind, delta);
   const vf shift = set1(static_cast<float>(r.shift));
   const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
@@ -14002,10 +14032,10 @@ TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualA
                                     std::int32_t* list, simd::ResidualInfo* info) noexcept {
   double squares = 0, rho = 0;
   int weighted = n;
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     add_weighted_costs(s.d, s.i, n, r, a.robust, a.delta, &squares, &rho);
   else
-    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == simd::RobustKind::huber, static_cast<float>(a.delta), list,
+    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == RobustKind::huber, static_cast<float>(a.delta), list,
                                &squares, &rho);
   info->error = squares / n;
   info->cost = rho / n;
@@ -14018,7 +14048,8 @@ struct WeightedStrip {
 TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
                                           const std::int32_t* list, int begin, int n, const Residual& res, double root,
                                           bool complement, WeightedStrip* w, double* sums) noexcept {
-  const RobustVectors robust = all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), false};
+  const RobustVectors robust =
+      all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
   const vf shift = set1(static_cast<float>(res.shift)), limit = set1(static_cast<float>(args.delta));
   const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
@@ -14077,7 +14108,7 @@ TEXTPLANE_SIMD_ENTRY void weigh_all(const simd::ResidualArgs& a, const ResidualA
 TEXTPLANE_SIMD_INLINE void weigh_strip(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
                                        int begin, int n, const Residual& r, double root, bool complement,
                                        WeightedStrip* w, double* sums) noexcept {
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     weigh_all(a, s, begin, n, r, root, w, sums);
   else
     weigh_huber(a, s, list, begin, n, r, root, complement, w, sums);
@@ -14143,9 +14174,8 @@ TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, 
   if (list) storei(list + listed, seti(0));
   return listed;
 }
-TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r,
-                                             simd::RobustKind kind, double delta, double* squares,
-                                             double* rho) noexcept {
+TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r, RobustKind kind,
+                                             double delta, double* squares, double* rho) noexcept {
   const RobustVectors robust = broadcast_robust(kind, delta);
   const vf shift = set1(static_cast<float>(r.shift));
   const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
@@ -14167,10 +14197,10 @@ TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualA
                                     std::int32_t* list, simd::ResidualInfo* info) noexcept {
   double squares = 0, rho = 0;
   int weighted = n;
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     add_weighted_costs(s.d, s.i, n, r, a.robust, a.delta, &squares, &rho);
   else
-    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == simd::RobustKind::huber, static_cast<float>(a.delta), list,
+    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == RobustKind::huber, static_cast<float>(a.delta), list,
                                &squares, &rho);
   info->error = squares / n;
   info->cost = rho / n;
@@ -14183,7 +14213,8 @@ struct WeightedStrip {
 TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
                                           const std::int32_t* list, int begin, int n, const Residual& res, double root,
                                           bool complement, WeightedStrip* w, double* sums) noexcept {
-  const RobustVectors robust = all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), false};
+  const RobustVectors robust =
+      all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
   const vf shift = set1(static_cast<float>(res.shift)), limit = set1(static_cast<float>(args.delta));
   const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
@@ -14242,7 +14273,7 @@ TEXTPLANE_SIMD_ENTRY void weigh_all(const simd::ResidualArgs& a, const ResidualA
 TEXTPLANE_SIMD_INLINE void weigh_strip(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
                                        int begin, int n, const Residual& r, double root, bool complement,
                                        WeightedStrip* w, double* sums) noexcept {
-  if (simd::weighs_all(a.robust))
+  if (weighs_all(a.robust))
     weigh_all(a, s, begin, n, r, root, w, sums);
   else
     weigh_huber(a, s, list, begin, n, r, root, complement, w, sums);
@@ -15889,7 +15920,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
 
-  const bool huber = a.robust == simd::RobustKind::huber;
+  const bool huber = a.robust == RobustKind::huber;
   const float delta = static_cast<float>(a.delta);
   const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
   const vf by_i = set1(static_cast<float>(i_scale));
@@ -16056,7 +16087,7 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const Re
   collect_values(host, f, 0, host.n, s, &strip);
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, host.n, &pixels, info);
-  if (simd::weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
+  if (weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
   return status;
 }
 
@@ -16075,7 +16106,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
   if (status != Status::ok) return status;
-  if (simd::weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
+  if (weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
 
   const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
   float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];
@@ -16172,7 +16203,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
-  const bool huber = a.robust == simd::RobustKind::huber;
+  const bool huber = a.robust == RobustKind::huber;
   const float delta = static_cast<float>(a.delta);
   const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
   const vf by_i = set1(static_cast<float>(i_scale));
@@ -16327,7 +16358,7 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const Re
   collect_values(host, f, 0, host.n, s, &strip);
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, host.n, &pixels, info);
-  if (simd::weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
+  if (weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
   return status;
 }
 TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
@@ -16344,7 +16375,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
   if (status != Status::ok) return status;
-  if (simd::weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
+  if (weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
   const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
   float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];
   for (int g = 0; g < parameters; g += 3) project_few(pixels, n, a.exact, by_count, by_squares, row + g * kFewStep);
@@ -16439,7 +16470,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
-  const bool huber = a.robust == simd::RobustKind::huber;
+  const bool huber = a.robust == RobustKind::huber;
   const float delta = static_cast<float>(a.delta);
   const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
   const vf by_i = set1(static_cast<float>(i_scale));
@@ -16594,7 +16625,7 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const Re
   collect_values(host, f, 0, host.n, s, &strip);
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, host.n, &pixels, info);
-  if (simd::weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
+  if (weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
   return status;
 }
 TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
@@ -16611,7 +16642,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
   if (status != Status::ok) return status;
-  if (simd::weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
+  if (weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
   const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
   float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];
   for (int g = 0; g < parameters; g += 3) project_few(pixels, n, a.exact, by_count, by_squares, row + g * kFewStep);
@@ -16706,7 +16737,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
-  const bool huber = a.robust == simd::RobustKind::huber;
+  const bool huber = a.robust == RobustKind::huber;
   const float delta = static_cast<float>(a.delta);
   const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
   const vf by_i = set1(static_cast<float>(i_scale));
@@ -16861,7 +16892,7 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const Re
   collect_values(host, f, 0, host.n, s, &strip);
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, host.n, &pixels, info);
-  if (simd::weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
+  if (weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
   return status;
 }
 TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
@@ -16878,7 +16909,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
   if (status != Status::ok) return status;
-  if (simd::weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
+  if (weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
   const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
   float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];
   for (int g = 0; g < parameters; g += 3) project_few(pixels, n, a.exact, by_count, by_squares, row + g * kFewStep);
@@ -16973,7 +17004,7 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
-  const bool huber = a.robust == simd::RobustKind::huber;
+  const bool huber = a.robust == RobustKind::huber;
   const float delta = static_cast<float>(a.delta);
   const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
   const vf by_i = set1(static_cast<float>(i_scale));
@@ -17128,7 +17159,7 @@ TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const Re
   collect_values(host, f, 0, host.n, s, &strip);
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, host.n, &pixels, info);
-  if (simd::weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
+  if (weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
   return status;
 }
 TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
@@ -17145,7 +17176,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   FewPixels pixels;
   const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
   if (status != Status::ok) return status;
-  if (simd::weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
+  if (weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
   const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
   float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];
   for (int g = 0; g < parameters; g += 3) project_few(pixels, n, a.exact, by_count, by_squares, row + g * kFewStep);
@@ -17572,8 +17603,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 class PhotometricWorkspace {
  public:
   PhotometricWorkspace() = default;
-  /// With room for n pixels.
-  explicit PhotometricWorkspace(int n) { reserve(n); }
+  explicit PhotometricWorkspace(int n) { reserve(n); }  ///< With room for n pixels.
 
   /// Makes room for patches of n pixels: some 90 bytes a pixel. The only member that allocates; never shrinks.
   void reserve(int n) {
@@ -17591,14 +17621,12 @@ class PhotometricWorkspace {
   /// pixel of its patch, 1 where visible. evaluate() leaves it alone, so that it can be passed there as `on_set`.
   const std::uint8_t* visible() const noexcept { return visible_.data(); }
 
-  /// Where the kernels write visible().
-  std::uint8_t* visible_flags() noexcept { return visible_.data(); }
+  std::uint8_t* visible_flags() noexcept { return visible_.data(); }  ///< Where the kernels write visible().
   /// The reference's buffers. A number a visible pixel: host intensity, then residual.
   double* residuals() noexcept { return reinterpret_cast<double*>(aligned()); }
   /// A number a visible pixel: target intensity, then normalised, then robust weight.
   double* intensities() noexcept { return residuals() + visible_.size(); }
-  /// A row of derivatives a visible pixel.
-  double* rows() noexcept { return intensities() + visible_.size(); }
+  double* rows() noexcept { return intensities() + visible_.size(); }  ///< A row of derivatives a visible pixel.
   /// The same memory, as the float kernels use it.
   float* scratch() noexcept { return reinterpret_cast<float*>(aligned()); }
   /// 2 (capacity() + 16) floats more, for the kernels of the template and ESM forms.
@@ -17662,8 +17690,7 @@ struct PairView {
 class PreparedTarget {
  public:
   PreparedTarget() = default;
-  /// As prepare().
-  explicit PreparedTarget(const ImageView8& image) { prepare(image); }
+  explicit PreparedTarget(const ImageView8& image) { prepare(image); }  ///< As prepare().
 
   /// Fills the pairs of `image`. invalid_argument, and none afterwards, for an image that is not valid() or that the
   /// kernels cannot read (below 2 x 2). Allocates where the image is larger than any before.
@@ -17757,73 +17784,6 @@ inline int scale_shift(double host_area, double target_area, int limit = 1) noex
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_PHOTOMETRIC_INPUT_HPP
-// Robust costs as functions of the squared residual.
-#ifndef TEXTPLANE_PHOTOMETRY_ROBUST_HPP
-#define TEXTPLANE_PHOTOMETRY_ROBUST_HPP
-
-#include <cmath>
-#include <cstdint>
-
-TEXTPLANE_BEGIN_NAMESPACE
-
-/// The shape of a robust cost: see Robust.
-enum class RobustKind : std::uint8_t { l2, huber, cauchy, tukey };
-
-/// A robust cost rho(r^2) that is r^2 near zero, and its derivative, the weight of iteratively re-weighted least
-/// squares.
-///
-/// With d = delta, in the unit of the residual r, and r2 = r^2 >= 0:
-///   l2      rho = r2                                           weight = 1
-///   huber   rho = r2 for |r| <= d, else 2 d |r| - d^2          weight = min(1, d / |r|);   rho = w r2 (2 - w)
-///   cauchy  rho = d^2 log(1 + r2 / d^2)                        weight = 1 / (1 + r2 / d^2)
-///   tukey   rho = d^2 / 3 (1 - (1 - r2 / d^2)^3), else d^2/3   weight = (1 - r2 / d^2)^2, 0 for |r| > d
-struct Robust {
-  RobustKind kind = RobustKind::huber;  ///< Which cost.
-  double delta = 1.0;                   ///< Where it leaves the quadratic, in the unit of |r|.
-
-  /// A known kind with a delta in [1e-100, 1e100], so that its square and ratios to it are numbers (l2 ignores it).
-  bool valid() const noexcept {
-    if (kind == RobustKind::l2) return true;
-    return (kind == RobustKind::huber || kind == RobustKind::cauchy || kind == RobustKind::tukey) && is_finite(delta) &&
-           delta >= 1e-100 && delta <= 1e100;
-  }
-
-  /// The cost of the squared residual r2.
-  double rho(double r2) const noexcept {
-    const double d2 = delta * delta;
-    switch (kind) {
-      case RobustKind::l2: return r2;
-      case RobustKind::huber: return r2 <= d2 ? r2 : 2.0 * delta * std::sqrt(r2) - d2;
-      case RobustKind::cauchy: return d2 * std::log1p(r2 / d2);
-      case RobustKind::tukey: {
-        if (r2 >= d2) return d2 / 3.0;
-        const double u = r2 / d2;  // multiplied out: the form above cancels near zero
-        return r2 * (1.0 - u + u * u / 3.0);
-      }
-    }
-    return r2;
-  }
-
-  /// d rho / d r2, in [0, 1].
-  double weight(double r2) const noexcept {
-    const double d2 = delta * delta;
-    switch (kind) {
-      case RobustKind::l2: return 1.0;
-      case RobustKind::huber: return r2 <= d2 ? 1.0 : delta / std::sqrt(r2);
-      case RobustKind::cauchy: return 1.0 / (1.0 + r2 / d2);
-      case RobustKind::tukey: {
-        if (r2 >= d2) return 0.0;
-        const double u = 1.0 - r2 / d2;
-        return u * u;
-      }
-    }
-    return 1.0;
-  }
-};
-
-TEXTPLANE_END_NAMESPACE
-
-#endif  // TEXTPLANE_PHOTOMETRY_ROBUST_HPP
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -17900,11 +17860,9 @@ struct ResidualRequest {
   BasicPhotometricInput<T> input;                   ///< Patch, target and cameras.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_t_h = {};                                  ///< Host to target.
-  PhotometricOptions options = {};
-  /// For Parameters::host_target_plane alone, see world_request(): target to world, with T_w_h = T_w_t T_t_h, and the
-  /// side that both world poses are perturbed on, T_w_x <- Exp(xi_x) T_w_x or T_w_x <- T_w_x Exp(xi_x).
-  SE3d T_w_t = {};
-  PerturbationSide side = PerturbationSide::right;
+  PhotometricOptions options = {};                  ///< Of every pixel.
+  SE3d T_w_t = {};                                  ///< Target to world; see world_request().
+  PerturbationSide side = PerturbationSide::right;  ///< Of both world poses; see world_request().
 
   /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if
   /// given, is of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
@@ -17912,6 +17870,7 @@ struct ResidualRequest {
     return {*this, policy, prepared};
   }
 };
+/// Deduces T from the input.
 template <class T>
 ResidualRequest(BasicPhotometricInput<T>, Vector3<double> = {}, SE3d = {}, PhotometricOptions = {})
     -> ResidualRequest<T>;
@@ -17920,11 +17879,12 @@ ResidualRequest(BasicPhotometricInput<T>, Vector3<double> = {}, SE3d = {}, Photo
 /// the forward kernels alone.
 template <class T>
 struct PolicyRequest : ResidualRequest<T> {
-  LinearisePolicy policy = LinearisePolicy::forward;
-  const TemplatePatch* prepared = nullptr;
+  LinearisePolicy policy = LinearisePolicy::forward;  ///< Whose gradients it takes.
+  const TemplatePatch* prepared = nullptr;            ///< Of input.patch, or null.
 };
 
-/// The request for Parameters::host_target_plane: by the world poses (camera to world) of host and target.
+/// The request for Parameters::host_target_plane: by the world poses (camera to world) of host and target. `side`: both
+/// poses move by T_w_x <- Exp(xi_x) T_w_x (left) or T_w_x <- T_w_x Exp(xi_x) (right).
 template <class T>
 ResidualRequest<T> world_request(const BasicPhotometricInput<T>& input, const Vector3<double>& theta, const SE3d& T_w_h,
                                  const SE3d& T_w_t, PerturbationSide side,
@@ -18301,8 +18261,6 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 
-static_assert(static_cast<int>(simd::RobustKind::tukey) == static_cast<int>(RobustKind::tukey), "one order of kinds");
-
 using KernelRequest = ResidualRequest<std::uint8_t>;
 
 /// The target as the kernels read it. Pairs that are not of its size are left out.
@@ -18347,7 +18305,7 @@ TEXTPLANE_SIMD_INLINE simd::ResidualArgs kernel_args(const KernelRequest& q, Pho
           {h.fx, h.fy, h.cx, h.cy},
           {c.fx, c.fy, c.cx, c.cy},
           q.options.normalisation == Normalisation::exact,
-          static_cast<simd::RobustKind>(q.options.robust.kind),
+          q.options.robust.kind,
           q.options.robust.delta,
           q.options.min_contrast,
           q.options.min_visible,
@@ -18714,18 +18672,16 @@ PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace
   return reference::evaluate(request, workspace, on_set);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE NormalEquations<6> linearise<Parameters::pose>(const ResidualRequest<std::uint8_t>&,
-                                                                  PhotometricWorkspace&) noexcept;
-TEXTPLANE_INSTANCE NormalEquations<3> linearise<Parameters::plane>(const ResidualRequest<std::uint8_t>&,
-                                                                   PhotometricWorkspace&) noexcept;
-TEXTPLANE_INSTANCE NormalEquations<9> linearise<Parameters::pose_plane>(const ResidualRequest<std::uint8_t>&,
-                                                                        PhotometricWorkspace&) noexcept;
-TEXTPLANE_INSTANCE NormalEquations<15> linearise<Parameters::host_target_plane>(const ResidualRequest<std::uint8_t>&,
-                                                                                PhotometricWorkspace&) noexcept;
-TEXTPLANE_INSTANCE PhotometricCost evaluate(const ResidualRequest<std::uint8_t>&, PhotometricWorkspace&,
-                                            const std::uint8_t*) noexcept;
-#endif
+TEXTPLANE_INSTANCE(NormalEquations<6> linearise<Parameters::pose>(const ResidualRequest<std::uint8_t>&,
+                                                                  PhotometricWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(NormalEquations<3> linearise<Parameters::plane>(const ResidualRequest<std::uint8_t>&,
+                                                                   PhotometricWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(NormalEquations<9> linearise<Parameters::pose_plane>(const ResidualRequest<std::uint8_t>&,
+                                                                        PhotometricWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(NormalEquations<15> linearise<Parameters::host_target_plane>(const ResidualRequest<std::uint8_t>&,
+                                                                                PhotometricWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PhotometricCost evaluate(const ResidualRequest<std::uint8_t>&, PhotometricWorkspace&,
+                                            const std::uint8_t*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 
@@ -18752,8 +18708,8 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// The numbers of a cache line of 64 bytes. A std::vector of lines begins at a line. One of plain numbers is aligned to
-/// 16 bytes alone, so a load of 64 bytes would touch two lines.
+/// The numbers of a cache line of 64 bytes. A std::vector of lines begins at a line. A vector of plain numbers is only
+/// aligned to 16 bytes: a load of 64 bytes would touch two lines.
 template <class T>
 struct alignas(64) CacheLine {
   static constexpr std::size_t kSize = 64 / sizeof(T);  ///< Numbers in a line.
@@ -18799,10 +18755,10 @@ TEXTPLANE_END_NAMESPACE
 // 1/128 each). All sums are exact integers of these V; so up to the float warp the results are the same on every
 // target.
 //
-// The columns are rounded too (to 1/8191 of their largest entry, or finer). The fixed point of the iteration stays
-// where it is: the projections through mean and norm use the sums of the rounded columns, so a target that equals the
-// host but for gain and bias has a gradient of exactly zero. Rounding changes H and b by its own relative size.
-// Cauchy's and Tukey's costs sum float rows with their weights; there that gradient is zero but for rounding.
+// The columns are rounded too (to 1/8191 of their largest entry, or finer). The fixed point of the iteration stays:
+// the projections through mean and norm use the sums of the rounded columns, so a target that equals the host but for
+// gain and bias has a gradient of exactly zero. Rounding changes H and b by its own relative size. Cauchy's and Tukey's
+// costs sum float rows with their weights; there that gradient is zero but for rounding.
 #ifndef TEXTPLANE_SIMD_TEMPLATE_HPP
 #define TEXTPLANE_SIMD_TEMPLATE_HPP
 
@@ -18810,7 +18766,7 @@ TEXTPLANE_END_NAMESPACE
 #include <cstdint>
 
 // Normal equations from the host's gradients, or from the mean of host's and target's (ESM): raw pointers in, sums out.
-// photometry/residual_request.hpp says what they are, residual_reference.hpp holds the double reference,
+// photometry/residual_request.hpp says what they are, residual_reference.hpp holds the double reference, and
 // docs/equations.md the formulas.
 //
 // The target's gradient is pulled back to the host, d I_target(H m~) / d host pixel, and both gradients are scaled by
@@ -21882,7 +21838,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   const double count = m.n, root = sqrt_d(count);
   const ResidualArrays s = template_arrays(m, a.scratch);
   int outliers = 0;
-  if (a.robust != simd::RobustKind::l2) {
+  if (a.robust != RobustKind::l2) {
     const double error = info->error;
     widen_values(values, m.n, s.d);
     outliers = add_costs(a, s, m.n, r, derivatives ? s.list : nullptr, info);
@@ -21906,7 +21862,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
 
   WeightedSums sums;
   template_unweighted(m, exact, mean, norm, info->error, &sums);
-  template_outliers(a, s, outliers, simd::weighs_all(a.robust), r, root, &sums);
+  template_outliers(a, s, outliers, weighs_all(a.robust), r, root, &sums);
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
@@ -22095,7 +22051,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   const double count = m.n, root = sqrt_d(count);
   const ResidualArrays s = template_arrays(m, a.scratch);
   int outliers = 0;
-  if (a.robust != simd::RobustKind::l2) {
+  if (a.robust != RobustKind::l2) {
     const double error = info->error;
     widen_values(values, m.n, s.d);
     outliers = add_costs(a, s, m.n, r, derivatives ? s.list : nullptr, info);
@@ -22116,7 +22072,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   }
   WeightedSums sums;
   template_unweighted(m, exact, mean, norm, info->error, &sums);
-  template_outliers(a, s, outliers, simd::weighs_all(a.robust), r, root, &sums);
+  template_outliers(a, s, outliers, weighs_all(a.robust), r, root, &sums);
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
@@ -22304,7 +22260,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   const double count = m.n, root = sqrt_d(count);
   const ResidualArrays s = template_arrays(m, a.scratch);
   int outliers = 0;
-  if (a.robust != simd::RobustKind::l2) {
+  if (a.robust != RobustKind::l2) {
     const double error = info->error;
     widen_values(values, m.n, s.d);
     outliers = add_costs(a, s, m.n, r, derivatives ? s.list : nullptr, info);
@@ -22325,7 +22281,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   }
   WeightedSums sums;
   template_unweighted(m, exact, mean, norm, info->error, &sums);
-  template_outliers(a, s, outliers, simd::weighs_all(a.robust), r, root, &sums);
+  template_outliers(a, s, outliers, weighs_all(a.robust), r, root, &sums);
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
@@ -22513,7 +22469,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   const double count = m.n, root = sqrt_d(count);
   const ResidualArrays s = template_arrays(m, a.scratch);
   int outliers = 0;
-  if (a.robust != simd::RobustKind::l2) {
+  if (a.robust != RobustKind::l2) {
     const double error = info->error;
     widen_values(values, m.n, s.d);
     outliers = add_costs(a, s, m.n, r, derivatives ? s.list : nullptr, info);
@@ -22534,7 +22490,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   }
   WeightedSums sums;
   template_unweighted(m, exact, mean, norm, info->error, &sums);
-  template_outliers(a, s, outliers, simd::weighs_all(a.robust), r, root, &sums);
+  template_outliers(a, s, outliers, weighs_all(a.robust), r, root, &sums);
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
@@ -22722,7 +22678,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   const double count = m.n, root = sqrt_d(count);
   const ResidualArrays s = template_arrays(m, a.scratch);
   int outliers = 0;
-  if (a.robust != simd::RobustKind::l2) {
+  if (a.robust != RobustKind::l2) {
     const double error = info->error;
     widen_values(values, m.n, s.d);
     outliers = add_costs(a, s, m.n, r, derivatives ? s.list : nullptr, info);
@@ -22743,7 +22699,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   }
   WeightedSums sums;
   template_unweighted(m, exact, mean, norm, info->error, &sums);
-  template_outliers(a, s, outliers, simd::weighs_all(a.robust), r, root, &sums);
+  template_outliers(a, s, outliers, weighs_all(a.robust), r, root, &sums);
   project_sums(8, a.exact, m.s, &sums);
   change_parameters(M, sums.S, sums.wr, H, b);
 }
@@ -22829,10 +22785,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 class TemplatePatch {
  public:
   TemplatePatch() = default;
-  /// Moves what was prepared.
-  TemplatePatch(TemplatePatch&&) = default;
-  /// Moves what was prepared.
-  TemplatePatch& operator=(TemplatePatch&&) = default;
+  TemplatePatch(TemplatePatch&&) = default;             ///< Moves what was prepared.
+  TemplatePatch& operator=(TemplatePatch&&) = default;  ///< Moves what was prepared.
   TemplatePatch(const TemplatePatch&) = delete;
   TemplatePatch& operator=(const TemplatePatch&) = delete;
 
@@ -22862,10 +22816,8 @@ class TemplatePatch {
     return Status::ok;
   }
 
-  /// Whether it was prepared.
-  bool ready() const noexcept { return ready_; }
-  /// Pixels that it was prepared of; 0 before.
-  int size() const noexcept { return ready_ ? model_.n : 0; }
+  bool ready() const noexcept { return ready_; }               ///< Whether it was prepared.
+  int size() const noexcept { return ready_ ? model_.n : 0; }  ///< Pixels that it was prepared of; 0 before.
   /// For the kernels of simd/template.hpp; ready() must be true.
   const simd::TemplateModel& model() const noexcept { return model_; }
 
@@ -23042,7 +22994,7 @@ namespace TEXTPLANE_SIMD_REGION {
 
 TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
   simd::ResidualArgs a = z.base;
-  a.robust = simd::RobustKind::l2;
+  a.robust = RobustKind::l2;
   a.flags = nullptr;
   for (int i = 0; i < z.count; ++i) {
     const double *R = z.pose + i * z.pose_step, *t = R + z.t_offset;
@@ -23078,7 +23030,7 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
   simd::ResidualArgs a = z.base;
-  a.robust = simd::RobustKind::l2;
+  a.robust = RobustKind::l2;
   a.flags = nullptr;
   for (int i = 0; i < z.count; ++i) {
     const double *R = z.pose + i * z.pose_step, *t = R + z.t_offset;
@@ -23114,7 +23066,7 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
   simd::ResidualArgs a = z.base;
-  a.robust = simd::RobustKind::l2;
+  a.robust = RobustKind::l2;
   a.flags = nullptr;
   for (int i = 0; i < z.count; ++i) {
     const double *R = z.pose + i * z.pose_step, *t = R + z.t_offset;
@@ -23150,7 +23102,7 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
   simd::ResidualArgs a = z.base;
-  a.robust = simd::RobustKind::l2;
+  a.robust = RobustKind::l2;
   a.flags = nullptr;
   for (int i = 0; i < z.count; ++i) {
     const double *R = z.pose + i * z.pose_step, *t = R + z.t_offset;
@@ -23186,7 +23138,7 @@ namespace detail {
 namespace TEXTPLANE_SIMD_REGION {
 TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
   simd::ResidualArgs a = z.base;
-  a.robust = simd::RobustKind::l2;
+  a.robust = RobustKind::l2;
   a.flags = nullptr;
   for (int i = 0; i < z.count; ++i) {
     const double *R = z.pose + i * z.pose_step, *t = R + z.t_offset;
@@ -23305,8 +23257,7 @@ struct LocalContrastOptions {
   int radius = 6;       ///< px: the square has 2 radius + 1 a side, cut where the image ends; in [1, kMaxRadius].
   double floor = 4.0;   ///< Grey levels: deviations well below this are taken for noise and not made larger.
   double scale = 40.0;  ///< Grey levels that one deviation becomes.
-  /// px, of the largest square.
-  static constexpr int kMaxRadius = 64;
+  static constexpr int kMaxRadius = 64;  ///< px, of the largest square.
 
   /// Whether the numbers make sense.
   bool valid() const noexcept {
@@ -23319,8 +23270,7 @@ struct LocalContrastOptions {
 /// use one a thread.
 class LocalContrast {
  public:
-  /// With the default options.
-  LocalContrast() = default;
+  LocalContrast() = default;  ///< With the default options.
   /// With these: what is not valid() shows in the status of every call.
   explicit LocalContrast(const LocalContrastOptions& options) : options_(options) {}
 
@@ -25443,12 +25393,13 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
 }
 
 // The host's centred intensities become e = r sqrt(N) times the root of the weight; rows become root (row - mean - i
-// c). Costs. `kind`: l2, huber, or cauchy for both of those that weigh all.
-TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, simd::RobustKind kind,
-                                       const simd::BatchArgs& a, vf host_scale, vf target_scale, const vf* mean,
-                                       const vf* along, vf* cost, vf* error) noexcept {
-  const bool huber = kind == simd::RobustKind::huber, all = kind == simd::RobustKind::cauchy;
-  const RobustVectors robust = all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), false};
+// c). Costs. `kind`: l2, huber, or cauchy for all that weigh all.
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, RobustKind kind, const simd::BatchArgs& a,
+                                       vf host_scale, vf target_scale, const vf* mean, const vf* along, vf* cost,
+                                       vf* error) noexcept {
+  const bool huber = kind == RobustKind::huber, all = kind == RobustKind::cauchy;
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf limit = set1(huber ? static_cast<float>(a.delta) : 0.0F), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
@@ -25483,7 +25434,7 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, si
 // Not inline: one copy for all numbers of parameters.
 TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int parameters, const vf* scales,
                                           const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
+  batch_weigh(a.scratch, n, parameters, RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 
 // Samples all pixels of a vector of objects, strip by strip.
@@ -25588,13 +25539,13 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       }
     }
     const vf scales[2] = {host_scale, target_scale};
-    if (a.robust == simd::RobustKind::huber)
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
-    else if (simd::weighs_all(a.robust))
+    if (a.robust == RobustKind::huber)
+      batch_weigh(a.scratch, n, parameters, RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
+    else if (weighs_all(a.robust))
       batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
                       &error);
     else
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
+      batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
@@ -25666,11 +25617,12 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
   *target = t;
   *host = h;
 }
-TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, simd::RobustKind kind,
-                                       const simd::BatchArgs& a, vf host_scale, vf target_scale, const vf* mean,
-                                       const vf* along, vf* cost, vf* error) noexcept {
-  const bool huber = kind == simd::RobustKind::huber, all = kind == simd::RobustKind::cauchy;
-  const RobustVectors robust = all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), false};
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, RobustKind kind, const simd::BatchArgs& a,
+                                       vf host_scale, vf target_scale, const vf* mean, const vf* along, vf* cost,
+                                       vf* error) noexcept {
+  const bool huber = kind == RobustKind::huber, all = kind == RobustKind::cauchy;
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf limit = set1(huber ? static_cast<float>(a.delta) : 0.0F), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
@@ -25703,7 +25655,7 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, si
 }
 TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int parameters, const vf* scales,
                                           const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
+  batch_weigh(a.scratch, n, parameters, RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 TEXTPLANE_SIMD_INLINE void batch_strips(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                         int parameters, const float* pixels, int n, BatchStripMemory* strip,
@@ -25795,13 +25747,13 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       }
     }
     const vf scales[2] = {host_scale, target_scale};
-    if (a.robust == simd::RobustKind::huber)
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
-    else if (simd::weighs_all(a.robust))
+    if (a.robust == RobustKind::huber)
+      batch_weigh(a.scratch, n, parameters, RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
+    else if (weighs_all(a.robust))
       batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
                       &error);
     else
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
+      batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
@@ -25871,11 +25823,12 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
   *target = t;
   *host = h;
 }
-TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, simd::RobustKind kind,
-                                       const simd::BatchArgs& a, vf host_scale, vf target_scale, const vf* mean,
-                                       const vf* along, vf* cost, vf* error) noexcept {
-  const bool huber = kind == simd::RobustKind::huber, all = kind == simd::RobustKind::cauchy;
-  const RobustVectors robust = all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), false};
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, RobustKind kind, const simd::BatchArgs& a,
+                                       vf host_scale, vf target_scale, const vf* mean, const vf* along, vf* cost,
+                                       vf* error) noexcept {
+  const bool huber = kind == RobustKind::huber, all = kind == RobustKind::cauchy;
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf limit = set1(huber ? static_cast<float>(a.delta) : 0.0F), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
@@ -25908,7 +25861,7 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, si
 }
 TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int parameters, const vf* scales,
                                           const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
+  batch_weigh(a.scratch, n, parameters, RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 TEXTPLANE_SIMD_INLINE void batch_strips(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                         int parameters, const float* pixels, int n, BatchStripMemory* strip,
@@ -26000,13 +25953,13 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       }
     }
     const vf scales[2] = {host_scale, target_scale};
-    if (a.robust == simd::RobustKind::huber)
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
-    else if (simd::weighs_all(a.robust))
+    if (a.robust == RobustKind::huber)
+      batch_weigh(a.scratch, n, parameters, RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
+    else if (weighs_all(a.robust))
       batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
                       &error);
     else
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
+      batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
@@ -26076,11 +26029,12 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
   *target = t;
   *host = h;
 }
-TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, simd::RobustKind kind,
-                                       const simd::BatchArgs& a, vf host_scale, vf target_scale, const vf* mean,
-                                       const vf* along, vf* cost, vf* error) noexcept {
-  const bool huber = kind == simd::RobustKind::huber, all = kind == simd::RobustKind::cauchy;
-  const RobustVectors robust = all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), false};
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, RobustKind kind, const simd::BatchArgs& a,
+                                       vf host_scale, vf target_scale, const vf* mean, const vf* along, vf* cost,
+                                       vf* error) noexcept {
+  const bool huber = kind == RobustKind::huber, all = kind == RobustKind::cauchy;
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf limit = set1(huber ? static_cast<float>(a.delta) : 0.0F), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
@@ -26113,7 +26067,7 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, si
 }
 TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int parameters, const vf* scales,
                                           const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
+  batch_weigh(a.scratch, n, parameters, RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 TEXTPLANE_SIMD_INLINE void batch_strips(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                         int parameters, const float* pixels, int n, BatchStripMemory* strip,
@@ -26205,13 +26159,13 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       }
     }
     const vf scales[2] = {host_scale, target_scale};
-    if (a.robust == simd::RobustKind::huber)
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
-    else if (simd::weighs_all(a.robust))
+    if (a.robust == RobustKind::huber)
+      batch_weigh(a.scratch, n, parameters, RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
+    else if (weighs_all(a.robust))
       batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
                       &error);
     else
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
+      batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
@@ -26281,11 +26235,12 @@ TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, v
   *target = t;
   *host = h;
 }
-TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, simd::RobustKind kind,
-                                       const simd::BatchArgs& a, vf host_scale, vf target_scale, const vf* mean,
-                                       const vf* along, vf* cost, vf* error) noexcept {
-  const bool huber = kind == simd::RobustKind::huber, all = kind == simd::RobustKind::cauchy;
-  const RobustVectors robust = all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), false};
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, RobustKind kind, const simd::BatchArgs& a,
+                                       vf host_scale, vf target_scale, const vf* mean, const vf* along, vf* cost,
+                                       vf* error) noexcept {
+  const bool huber = kind == RobustKind::huber, all = kind == RobustKind::cauchy;
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
   const vf limit = set1(huber ? static_cast<float>(a.delta) : 0.0F), root_limit = sqrt_(limit);
   vf c = zero(), s = zero();
   for (int k = 0; k < n; ++k) {
@@ -26318,7 +26273,7 @@ TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, si
 }
 TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int parameters, const vf* scales,
                                           const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
-  batch_weigh(a.scratch, n, parameters, simd::RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
+  batch_weigh(a.scratch, n, parameters, RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
 }
 TEXTPLANE_SIMD_INLINE void batch_strips(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
                                         int parameters, const float* pixels, int n, BatchStripMemory* strip,
@@ -26410,13 +26365,13 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
       }
     }
     const vf scales[2] = {host_scale, target_scale};
-    if (a.robust == simd::RobustKind::huber)
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
-    else if (simd::weighs_all(a.robust))
+    if (a.robust == RobustKind::huber)
+      batch_weigh(a.scratch, n, parameters, RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
+    else if (weighs_all(a.robust))
       batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
                       &error);
     else
-      batch_weigh(a.scratch, n, parameters, simd::RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
+      batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
     if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
@@ -26506,8 +26461,7 @@ struct TextBatchItem {
 class TextBatch {
  public:
   TextBatch() = default;
-  /// As build().
-  TextBatch(const TextBatchItem* items, int count) { build(items, count); }
+  TextBatch(const TextBatchItem* items, int count) { build(items, count); }  ///< As build().
 
   /// Packs the items anew; pixels that are masked or not finite are left out. Allocates. An item with null pointers, a
   /// negative n or a camera that is not valid() keeps its place, and has Status::invalid_argument in every result.
@@ -26531,18 +26485,15 @@ class TextBatch {
     return Status::ok;
   }
 
-  /// Objects that it was built of.
-  int size() const noexcept { return static_cast<int>(valid_.size()); }
-  /// Pixels of the largest object.
-  int max_pixels() const noexcept { return most_; }
+  int size() const noexcept { return static_cast<int>(valid_.size()); }  ///< Objects that it was built of.
+  int max_pixels() const noexcept { return most_; }                      ///< Pixels of the largest object.
   /// A new plane for object i, 0 <= i < size().
   void set_plane(int i, const Vector3<double>& theta) noexcept {
     simd::BatchGroup& group = groups_[static_cast<std::size_t>(i / simd::kBatchLanes)];
     for (int k = 0; k < 3; ++k) group.theta[k][i % simd::kBatchLanes] = theta[k];
   }
 
-  /// For the kernels.
-  bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }
+  bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }  ///< For the kernels.
   /// Sets the kernels' pointers to what was built.
   void fill(simd::BatchArgs* args) const noexcept {
     args->groups = groups_.data();
@@ -26624,8 +26575,7 @@ class TextBatch {
 class TextBatchResult {
  public:
   TextBatchResult() = default;
-  /// With room for the results of `batch`.
-  explicit TextBatchResult(const TextBatch& batch) { reserve(batch); }
+  explicit TextBatchResult(const TextBatch& batch) { reserve(batch); }  ///< With room for the results of `batch`.
 
   /// Makes room for the batch and nine parameters. The only member that allocates; never shrinks.
   void reserve(const TextBatch& batch) {
@@ -26644,8 +26594,7 @@ class TextBatchResult {
   /// Of object i of the batch, as reference::linearise() would say it; all zero, `visible` excepted, unless
   /// is_ok(status).
   Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
-  /// Robust cost of object i.
-  double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }
+  double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }  ///< Robust cost of object i.
   /// E of object i: sum of r^2 over its visible pixels, in [0, 4].
   double error(int i) const noexcept { return detail::range_error(tail(i, simd::BatchEntry::error)); }
   /// ZNCC of object i, 0 unless its status is ok.
@@ -26653,9 +26602,10 @@ class TextBatchResult {
   /// Visible pixels of object i.
   int visible(int i) const noexcept { return static_cast<int>(tail(i, simd::BatchEntry::visible)); }
 
-  /// P: that of the call.
-  template <int P>
-  NormalEquations<P> normal_equations(int i) const noexcept {
+  /// Of object i, after linearise_batch() of the same unknowns; otherwise zeros.
+  template <Parameters Unknowns>
+  NormalEquations<dof(Unknowns)> normal_equations(int i) const noexcept {
+    constexpr int P = dof(Unknowns);
     NormalEquations<P> n;
     n.status = status(i);
     if (parameters_ != P || !is_ok(n.status)) return n;
@@ -26698,17 +26648,11 @@ class TextBatchResult {
   int parameters_ = 0;
 };
 
-/// Costs (P = 0) or normal equations of every object of the batch against one image: P = 6 (v, omega), 9 (v, omega,
-/// theta). `T_t_h`: one pose an object. `camera`: the target's, of the target's level.
-///
-/// Each object's result is that of reference::linearise() within the bounds of simd/batch.hpp; one whose geometry float
-/// does not hold (a number beyond 1e30) is non_finite. ok, or invalid_argument, and then all statuses are that: null
-/// poses, a target below 2 x 2, a camera that is not valid(), bad options, a result without room. The kernels compute
-/// all of it (Path::kernel).
+namespace detail {
+// Costs alone (P = 0), or with normal equations of P parameters.
 template <int P>
-Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
-                      const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
-  static_assert(P == 0 || P == 6 || P == 9, "costs, pose, or pose and theta");
+Status run_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera, const SE3d* T_t_h,
+                 const PhotometricOptions& options, TextBatchResult& result) noexcept {
   if (!result.fits(batch)) return Status::invalid_argument;
   simd::BatchArgs args;
   batch.fill(&args);
@@ -26728,7 +26672,7 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   const double intrinsics[] = {camera.fx, camera.fy, camera.cx, camera.cy};
   std::copy_n(intrinsics, 4, args.camera);
   args.exact = options.normalisation == Normalisation::exact;
-  args.robust = static_cast<simd::RobustKind>(options.robust.kind);
+  args.robust = options.robust.kind;
   args.delta = options.robust.delta;
   args.min_contrast = options.min_contrast;
   args.min_visible = options.min_visible;
@@ -26738,6 +26682,29 @@ Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pi
   for (int i = 0; i < batch.size(); ++i)
     if (!batch.valid(i)) args.status[i] = Status::invalid_argument;
   return Status::ok;
+}
+}  // namespace detail
+
+/// The cost of every object of the batch against one image. `T_t_h`: one pose an object. `camera`: the target's, of the
+/// target's level.
+///
+/// Results agree with reference::evaluate() within the bounds of simd/batch.hpp. An object whose geometry overflows
+/// float (a number beyond 1e30) is non_finite. Returns ok, or invalid_argument for null poses, a target below 2 x 2, a
+/// camera that is not valid(), bad options, or a result without room; all objects then have that status. The kernels
+/// compute all of it (Path::kernel). No allocation; thread-safe for distinct results.
+TEXTPLANE_DEFERRED
+Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
+                      const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
+  return detail::run_batch<0>(batch, target, camera, T_t_h, options, result);
+}
+
+/// As evaluate_batch(), with the normal equations of every object: by Parameters::pose or Parameters::pose_plane.
+template <Parameters Unknowns>
+Status linearise_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
+                       const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
+  static_assert(Unknowns == Parameters::pose || Unknowns == Parameters::pose_plane,
+                "textplane: linearise_batch() is by pose or pose_plane");
+  return detail::run_batch<dof(Unknowns)>(batch, target, camera, T_t_h, options, result);
 }
 
 TEXTPLANE_END_NAMESPACE
@@ -28974,11 +28941,10 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Largest radius of a patch: 21 x 21 samples.
-constexpr int kMaxPatchRadius = 10;
+constexpr int kMaxPatchRadius = 10;  ///< Largest radius of a patch: 21 x 21 samples.
 
-/// A normalised patch with gradients, ready to be aligned: columns x rows samples. The sample at (left, top) is the
-/// point, up to (dx, dy). Fixed capacity (4 KB), no allocation, freely copied.
+/// A normalised patch of columns x rows samples with gradients, ready to be aligned. The point lies (dx, dy) from the
+/// sample at (left, top). Fixed capacity (4 KB), no allocation, freely copied.
 ///
 /// Samples are rounded to 1/32 grey level. Upright samples lie on a grid of 1/64 px, so (dx, dy) is at most 1/128 px.
 struct PointPatch {
@@ -29005,8 +28971,7 @@ struct PointPatch {
   double along_y = 0;    ///< Share of T - mean in gy.
   simd::KltPatch patch;  ///< Samples and gradients.
 
-  /// Number of samples.
-  int count() const noexcept { return columns * rows; }
+  int count() const noexcept { return columns * rows; }  ///< Number of samples.
   /// Population standard deviation of the intensities.
   float contrast() const noexcept { return count() > 0 ? s / std::sqrt(static_cast<float>(count())) : 0.0F; }
 
@@ -29153,7 +29118,7 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Parameters of track_klt() and align_point_patch(). Pixels are those of the current level unless said otherwise.
+/// Parameters of track_klt() and align_point_patch(). px of the current level unless said otherwise.
 struct KltOptions {
   int radius = 9;             ///< A patch has 2 radius + 1 pixels a side; in [1, kMaxPatchRadius]. track_klt() only.
   int levels = 4;             ///< Pyramid levels used, at most those that exist. track_klt() only.
@@ -30221,10 +30186,8 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
   }
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE void track_klt<void>(const PyramidView&, const PyramidView&, const Vector2<float>*,
-                                        const Vector2<float>*, int, const KltOptions&, KltResult*) noexcept;
-#endif
+TEXTPLANE_INSTANCE(void track_klt<void>(const PyramidView&, const PyramidView&, const Vector2<float>*,
+                                        const Vector2<float>*, int, const KltOptions&, KltResult*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 
@@ -30464,23 +30427,20 @@ TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, cons
   return make_patch(pyramid.view(), camera, quad, options);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE Status select_pixels<void>(const ImageView8&, const Quad<double>&, const SelectOptions&,
-                                              std::vector<Vector2<float>>&);
-TEXTPLANE_INSTANCE TextPatch make_patch<void>(const PyramidView&, const Pinhole<double>&, const Quad<double>&,
-                                              const SelectOptions&);
-TEXTPLANE_INSTANCE TextPatch make_patch<void>(const ImageView8&, const Pinhole<double>&, const Quad<double>&,
-                                              const SelectOptions&);
-#endif
+TEXTPLANE_INSTANCE(Status select_pixels<void>(const ImageView8&, const Quad<double>&, const SelectOptions&,
+                                              std::vector<Vector2<float>>&));
+TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const PyramidView&, const Pinhole<double>&, const Quad<double>&,
+                                              const SelectOptions&));
+TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const ImageView8&, const Pinhole<double>&, const Quad<double>&,
+                                              const SelectOptions&));
 
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_FEATURES_SELECT_HPP
 
-// BlockCholesky: a symmetric positive definite matrix of 6 x 6 blocks (one block row a camera), its Cholesky
-// factorisation in place and its solves. Written out here, not taken from Eigen, for the reasons in core/numeric.hpp;
-// and so it allocates nothing once grown, adds in one fixed order, and skips the empty blocks before the first one of
-// each row (a sequence without loops is a band).
+// BlockCholesky: Cholesky factorisation in place of a symmetric positive definite matrix of 6 x 6 blocks, one block row
+// a camera. It skips the empty blocks before the first one of each row (a sequence without loops is a band), sums in
+// one fixed order, and allocates only to grow. core/numeric.hpp says why it does not use Eigen's.
 #ifndef TEXTPLANE_SOLVER_BLOCK_CHOLESKY_HPP
 #define TEXTPLANE_SOLVER_BLOCK_CHOLESKY_HPP
 
@@ -30493,7 +30453,7 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-// c -= a b^T for column-major c (6 x 6), a and b (6 x n). Half of c at a time, which stays in registers over all of n.
+// c -= a b^T for column-major c (6 x 6), a and b (6 x n). Half of c at a time stays in registers.
 template <class S>
 void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
   using Column = Vector6<S>;
@@ -30513,8 +30473,7 @@ void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
   }
 }
 
-/// Lower block triangle of an n x n block matrix, blocks column-major. S is double: a template, so that including the
-/// header costs little.
+/// Lower block triangle of an n x n block matrix, blocks column-major. S is double, see BasicWindowSchur.
 template <class S>
 class BasicBlockCholesky {
  public:
@@ -30531,7 +30490,7 @@ class BasicBlockCholesky {
 
   int size() const noexcept { return n_; }
 
-  /// Block (i, j), i >= j, to add to. Of a diagonal block only the lower triangle is read.
+  /// Block (i, j), i >= j, to add to. A diagonal block needs its lower triangle alone.
   Block& at(int i, int j) noexcept {
     int& first = first_[static_cast<std::size_t>(i)];
     first = std::min(first, j);
@@ -30540,15 +30499,15 @@ class BasicBlockCholesky {
   const Block& at(int i, int j) const noexcept { return blocks_[index(i, j)]; }
 
   /// A = L L^T in place. `scale` has 6 n entries: a pivot of at most tolerance * scale counts as zero. Its parameter is
-  /// then held, as if its diagonal entry were infinite, and its block is marked deficient(). Returns the number of such
-  /// pivots; -1 where a pivot is not finite and the factor useless.
+  /// then held, as with an infinite diagonal entry, and its block is marked deficient(). Returns the number of zero
+  /// pivots, or -1 where a pivot is not finite; the factor is then useless.
   int factorise(const double* scale, double tolerance) noexcept {
     int zero_pivots = 0;
     for (int i = 0; i < n_; ++i) {
       const int first_i = first_[static_cast<std::size_t>(i)];
       for (int j = first_i; j <= i; ++j) {
         double* c = blocks_[index(i, j)].data();
-        // The blocks of a row follow one another, so that those of columns k to j are one 6 x 6 (j - k) matrix.
+        // The blocks of a row are contiguous: columns k to j are one 6 x 6 (j - k) matrix.
         const int k = std::max(first_i, first_[static_cast<std::size_t>(j)]);
         if (k < j) subtract_outer(blocks_[index(i, k)].data(), blocks_[index(j, k)].data(), 6 * (j - k), c);
         if (j < i) divide_by_transpose(blocks_[index(j, j)].data(), c);
@@ -30561,7 +30520,7 @@ class BasicBlockCholesky {
     return zero_pivots;
   }
 
-  /// After factorise(): the block row had a zero pivot.
+  /// After factorise(): whether the block row had a zero pivot.
   bool deficient(int i) const noexcept { return deficient_[static_cast<std::size_t>(i)] != 0; }
 
   /// x <- A^-1 x for 6 n entries, after factorise().
@@ -30632,7 +30591,7 @@ class BasicBlockCholesky {
     return zero_pivots;
   }
 
-  // Diagonal of L for a held parameter: so large that it neither moves nor couples to others.
+  // Diagonal of L for a held parameter, large enough that it neither moves nor couples to others.
   static constexpr double kHeld = 1e100;
 
   int n_ = 0;
@@ -30647,10 +30606,9 @@ using BlockCholesky = BasicBlockCholesky<double>;
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_BLOCK_CHOLESKY_HPP
-// minimise(): Gauss-Newton with Levenberg damping for small problems whose number of parameters is known at compile
-// time.
+// minimise(): Gauss-Newton with Levenberg damping for small problems with a fixed number of parameters.
 //
-// The cost is C(x) = sum_i rho(r_i^2) (no factor 1/2), rho'(0) = 1. A Problem says how to linearise and how to move:
+// The cost is C(x) = sum_i rho(r_i^2) (no factor 1/2), rho'(0) = 1. A Problem linearises, evaluates and moves:
 //
 //   struct Problem {
 //     using State = ...;                                 // copied; need not be a vector space
@@ -30661,13 +30619,13 @@ TEXTPLANE_END_NAMESPACE
 //     State retract(const State& x, const Eigen::Matrix<double, P, 1>& step) const;
 //   };
 //
-// all of them noexcept. A residual may come and go with the state (a pixel that leaves the image). So a step is judged
-// on the set of residuals of its linearisation: evaluate() charges the problem's own price for what the trial loses and
-// reports the share, and a trial that loses more than `max_lost_fraction` is rejected. "The cost never rises" means:
-// every accepted trial costs less than the state it came from, both counted on that set.
+// All functions are noexcept. Residuals come and go with the state (a pixel leaves the image). So a trial is compared
+// on the residuals of its linearisation: evaluate() charges those that the trial loses and reports their share. A share
+// above `max_lost_fraction` rejects the trial. "The cost never rises" means: every accepted trial costs less than the
+// state before it, both on those residuals.
 //
-// The method: step = -(H + lambda D)^-1 b with D = max(diag H, floor), lambda ruled by the gain ratio of actual to
-// predicted decrease (Nielsen 1999). No allocation, no exception; the size of the stack frame is a few P x P matrices.
+// The step is -(H + lambda D)^-1 b with D = max(diag H, floor). lambda follows the gain ratio of actual to predicted
+// decrease (Nielsen 1999). No allocation, no exception; a few P x P matrices on the stack.
 #ifndef TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
 #define TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
 
@@ -30676,17 +30634,16 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// When to stop and how to damp. Tolerances of zero are allowed and mean "never by this test".
+/// When to stop and how to damp. A tolerance of zero turns its test off.
 struct SolveOptions {
   int max_iterations = 20;  ///< Trial steps, rejected ones included.
-  /// Converged when the norm of the step (in the units of the parameters) is at most this; that step is not taken any
-  /// more.
+  /// Converged when the norm of the step (in the units of the parameters) is at most this. That step is not taken.
   double step_tolerance = 1e-6;
   double cost_tolerance = 1e-6;  ///< Converged when an accepted step lowers the cost by at most this share of it.
-  /// Where no step lowers the cost: converged if the full step promised at most this share of it.
+  /// Where no step lowers the cost: converged if the full step predicted a decrease of at most this share.
   double stall_tolerance = 1e-3;
   double initial_lambda = 1e-4;   ///< First damping, a multiple of the diagonal of H.
-  double min_lambda = 1e-12;      ///< Damping never falls below.
+  double min_lambda = 1e-12;      ///< Smallest damping.
   double max_lambda = 1e8;        ///< Damping above this counts as a stall.
   double diagonal_floor = 1e-15;  ///< Entries of D are at least this share of the largest one.
   /// H is singular where a Cholesky pivot is at most this share of its diagonal entry.
@@ -30703,15 +30660,15 @@ struct Evaluation {
 
 /// What a solve did.
 ///
-/// status: converged; iteration_limit; diverged (no step lowered the cost although the full step promised more than
+/// status: converged; iteration_limit; diverged (no step lowered the cost although the full step predicted more than
 /// `stall_tolerance`); rank_deficient (H of the initial state is singular); non_finite (NaN or infinity in H, b or the
 /// cost of the initial state); invalid_argument (options); or the status of the failed first linearisation.
 struct SolveSummary {
   Status status = Status::invalid_argument;  ///< Why it ended.
   double initial_cost = 0;                   ///< At the initial state, on its own residuals.
-  /// At the returned state, on its own residuals: comparable with initial_cost if the set did not change.
+  /// At the returned state, on its own residuals. Comparable with initial_cost if both states have the same residuals.
   double final_cost = 0;
-  /// Sum of the decreases of the accepted steps, each on the set of its linearisation; never negative.
+  /// Sum of the accepted steps' decreases, each on the residuals of its linearisation. Never negative.
   double reduction = 0;
   int iterations = 0;    ///< Trials made.
   int accepted = 0;      ///< Trials accepted.
@@ -30719,8 +30676,7 @@ struct SolveSummary {
 };
 
 namespace detail {
-// A rejection multiplies the damping by this, the next in a row by twice as much, and so on: four reach a gradient
-// step.
+// A rejection multiplies the damping by this, the next one by twice as much: four in a row make a gradient step.
 constexpr double kFirstGrowth = 8.0;
 
 inline bool valid(const SolveOptions& o) noexcept {
@@ -30732,8 +30688,7 @@ inline bool valid(const SolveOptions& o) noexcept {
          o.rank_tolerance >= 0 && o.max_lost_fraction >= 0;
 }
 
-// Status of a linearisation: its own, or non_finite or rank_deficient as found here. The pivot test of Ldlt does not
-// depend on the units of the parameters.
+// Status of a linearisation: its own, non_finite or rank_deficient. Ldlt's pivot test is independent of units.
 template <int P, class Linearised>
 Status check(const Linearised& system, double rank_tolerance) noexcept {
   if (!is_ok(system.status)) return system.status;
@@ -30741,13 +30696,13 @@ Status check(const Linearised& system, double rank_tolerance) noexcept {
   return Ldlt<double, P>(system.H, rank_tolerance).ok() ? Status::ok : Status::rank_deficient;
 }
 
-// What an accepted step multiplies the damping by, from its gain ratio.
+// The factor of the damping after an accepted step, from its gain ratio.
 inline double damping_factor(double decrease, double predicted) noexcept {
   const double gain = predicted > 0.0 ? decrease / predicted : 1.0, x = 2.0 * gain - 1.0;
   return std::min(std::max(1.0 - x * x * x, 0.1), 2.0);
 }
 
-// -(H + lambda D)^-1 b and the decrease that the quadratic model promises for it.
+// -(H + lambda D)^-1 b and the decrease that the quadratic model predicts for it.
 template <int P>
 struct DampedStep {
   Eigen::Matrix<double, P, 1> step = Eigen::Matrix<double, P, 1>::Zero();
@@ -30782,12 +30737,12 @@ DampedStep<P> damped_step(const Linearised& system, double lambda, double diagon
 }
 }  // namespace detail
 
-/// Minimise `problem` from `state`, in place.
+/// Minimises `problem` from `state`, in place.
 ///
-/// `state` is always the best one seen: unchanged on failure at the start, otherwise the last accepted trial. A trial
-/// that lowers the cost but cannot be linearised (too few residuals left, singular, non-finite) is rejected too. Hence,
-/// unless the first linearisation fails, the last linearise() was made at the returned state (its visible sets are
-/// those of the result) and `*system`, if given, receives it: H is the information matrix of the result.
+/// `state` becomes the best one found: the last accepted trial, or the initial state. A trial that lowers the cost but
+/// cannot be linearised (too few residuals, singular, non-finite) is rejected too. So, unless the first linearisation
+/// fails, the last linearise() is at the returned state, and `*system`, unless null, receives it: H is the information
+/// matrix of the result.
 template <class Problem>
 SolveSummary minimise(Problem& problem, typename Problem::State& state, const SolveOptions& options = {},
                       decltype(problem.linearise(state))* system = nullptr) noexcept {
@@ -30807,7 +30762,7 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
   };
 
   double lambda = options.initial_lambda, growth = detail::kFirstGrowth;
-  double promise = -1.0;  // Decrease predicted for the first trial of this linearisation; negative before it.
+  double promise = -1.0;  // Predicted decrease of the first trial of this linearisation; negative before it.
   while (summary.iterations < options.max_iterations) {
     const auto [step, predicted, norm, usable] = detail::damped_step<P>(current, lambda, options.diagonal_floor);
     const bool first = promise < 0.0;
@@ -30840,7 +30795,7 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
           if (flat) return finish(Status::converged);
           continue;
         }
-        current = problem.linearise(state);  // The problem's sets were those of the trial.
+        current = problem.linearise(state);  // The problem has the trial's residuals.
       }
     }
     lambda *= growth;
@@ -30852,7 +30807,7 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_GAUSS_NEWTON_HPP
-// The pyramid levels that a coarse-to-fine solve walks, and float pyramids.
+// The pyramid levels of a coarse-to-fine solve, and float pyramids.
 #ifndef TEXTPLANE_SOLVER_LEVELS_HPP
 #define TEXTPLANE_SOLVER_LEVELS_HPP
 
@@ -30861,44 +30816,60 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// As PyramidView, for embedders that keep float images: level l + 1 is half as wide and high as level l.
+/// A PyramidView of float images.
 struct PyramidViewF {
-  std::array<ImageViewF, kMaxPyramidLevels> level;  ///< Finest first; each half the size of the one before.
-  int levels = 0;                                   ///< How many of them there are.
+  std::array<ImageViewF, kMaxPyramidLevels> level;  ///< Finest first; each is half as wide and high as the one before.
+  int levels = 0;                                   ///< Number of levels.
 };
 
 namespace detail {
 struct LevelRange {
-  int coarsest = -1, finest = 0;  // Walked downwards; empty where coarsest < finest.
+  int coarsest = -1, finest = 0;  // Empty where coarsest < finest.
 };
 
-// [finest, coarsest] cut to what images and patches have: levels [0, available).
+// [finest, coarsest] within the levels [0, available) that images and patches have.
 inline LevelRange level_range(int coarsest, int finest, int available) noexcept {
   if (available > kMaxPyramidLevels) available = kMaxPyramidLevels;
   return {coarsest < available ? coarsest : available - 1, finest > 0 ? finest : 0};
 }
 
-// Options of a level above the finest: its result is but the start of the next level, whose pixels say more.
+// Options of a coarse level: its result is only the start of the next one.
 inline SolveOptions coarse_options(SolveOptions options) noexcept {
   options.cost_tolerance = std::max(options.cost_tolerance, 1e-3);
   options.step_tolerance = std::max(options.step_tolerance, 1e-5);
   return options;
+}
+
+// Minimises coarse to fine. *system: of the finest level. Iterations, status, cost and path go to *fit.
+template <class Problem, class System, class Fit>
+void minimise_levels(Problem& problem, typename Problem::State& state, LevelRange range, const SolveOptions& options,
+                     System* system, Fit* fit) noexcept {
+  for (int level = range.coarsest; level >= range.finest; --level) {
+    problem.set_level(level);
+    *system = System();
+    const SolveOptions solve = level == range.finest ? options : coarse_options(options);
+    const SolveSummary summary = minimise(problem, state, solve, system);
+    fit->iterations += summary.iterations;
+    fit->status = summary.status;
+    fit->cost = summary.final_cost;
+  }
+  fit->path = problem.path();
 }
 }  // namespace detail
 
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_LEVELS_HPP
-// Plane parameters theta of a text object from one or many target images with known poses: refine_plane() and
-// align_plane(). The cost is in plane_problem.hpp; coarse to fine over pyramid levels.
+// refine_plane() and align_plane(): theta of a text object from targets with known poses, coarse to fine. The cost is
+// in plane_problem.hpp.
 #ifndef TEXTPLANE_SOLVER_PLANE_HPP
 #define TEXTPLANE_SOLVER_PLANE_HPP
 
-// The cost of theta over target images with known poses, as a problem for minimise(); its targets, options and memory.
+// The cost of theta over targets with known poses, as a problem for minimise(); its targets, options and memory.
 //
-//   C(theta) = sum_targets N c,    c the robust photometric cost (residual.hpp), N its visible pixels:
+//   C(theta) = sum_targets N c,    c: robust photometric cost (residual.hpp), N: its visible pixels
 //
-// the paper's text object refinement. The cost of a pixel is then of unit scale on a patch of unit variance.
+// This is the paper's text object refinement. N scales a pixel's cost to a patch of unit variance.
 #ifndef TEXTPLANE_SOLVER_PLANE_PROBLEM_HPP
 #define TEXTPLANE_SOLVER_PLANE_PROBLEM_HPP
 
@@ -30914,9 +30885,9 @@ template <class View>
 struct BasicPlaneTarget {
   View image;           ///< Pyramid of the undistorted image.
   SE3d T_t_h;           ///< Host to target.
-  int scale_shift = 0;  ///< Of photometric_input(): where the target sees the object at another size than the host.
-  /// The host's patch as this target is to be compared with it (blur.hpp), if other than the patch given to
-  /// refine_plane(), whose levels and numbers of pixels it must have: a target with another is not used.
+  int scale_shift = 0;  ///< Of photometric_input(), for targets that see the object at another size.
+  /// The host's patch for this target alone (blur.hpp), or null for the patch of refine_plane(). A target whose patch
+  /// differs from that one in levels or numbers of pixels is not used.
   const TextPatch* patch = nullptr;
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;    ///< Of 8-bit images.
@@ -30925,10 +30896,10 @@ using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
 /// Settings of refine_plane() and align_plane().
 struct PlaneOptions {
   PhotometricOptions photometric;  ///< Of every pixel.
-  /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  /// Of the finest level. Coarser levels stop at a relative gain of 1e-3 or a step of 1e-5, or earlier.
   SolveOptions solve;
-  int coarsest_level = 2;  ///< Levels that the images or the patch lack are left out.
-  int finest_level = 0;    ///< Where it ends; 0 is the image itself.
+  int coarsest_level = 2;  ///< Lowered to the levels that images and patch have.
+  int finest_level = 0;    ///< The last level; 0 is the image itself.
 };
 
 namespace detail {
@@ -30943,7 +30914,7 @@ template <class View>
 class PlaneProblem;
 }  // namespace detail
 
-/// Memory of refine_plane(). Not to be shared by two threads at a time.
+/// Memory of refine_plane(), for one thread at a time.
 class PlaneWorkspace {
  public:
   /// Makes room for a patch (every level) seen in `targets` images. The only member that allocates; never shrinks.
@@ -30955,7 +30926,7 @@ class PlaneWorkspace {
     if (counts_.size() < count) counts_.resize(count);
   }
 
-  /// reserve() was called for at least this.
+  /// Whether it has room for this patch and number of targets.
   bool fits(const TextPatch& patch, int targets) const noexcept {
     const int n = patch.max_pixels();
     const auto count = static_cast<std::size_t>(targets);
@@ -30969,7 +30940,7 @@ class PlaneWorkspace {
 
   PhotometricWorkspace photometric_;
   std::vector<std::uint8_t> visible_;  // Visible sets of the last linearisation, target after target.
-  std::vector<int> counts_;            // Visible pixels of each; 0: the target took no part.
+  std::vector<int> counts_;            // Visible pixels of each target; 0: not used.
 };
 
 namespace detail {
@@ -31024,7 +30995,7 @@ class PlaneProblem {
       if (visible == 0) continue;
       const PhotometricCost c = textplane::evaluate(request(i, theta), memory_.photometric_, visible_set(i));
       path_ = std::max(path_, c.path);
-      // A target that is lost as a whole costs what an uncorrelated patch would.
+      // A target that fails as a whole costs as much as an uncorrelated patch.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost += is_ok(c.status) ? c.lost : visible;
     }
@@ -31036,12 +31007,10 @@ class PlaneProblem {
     return {theta[0] + step[0], theta[1] + step[1], theta[2] + step[2]};
   }
 
-  /// Of the last linearisation.
-  int visible_pixels() const noexcept { return visible_; }
-  int targets_used() const noexcept { return used_; }
-  double mean_zncc() const noexcept { return used_ > 0 ? zncc_ / used_ : 0.0; }
-  /// Of all evaluations so far.
-  Path path() const noexcept { return path_; }
+  int visible_pixels() const noexcept { return visible_; }                       ///< Of the last linearisation.
+  int targets_used() const noexcept { return used_; }                            ///< Likewise.
+  double mean_zncc() const noexcept { return used_ > 0 ? zncc_ / used_ : 0.0; }  ///< Likewise.
+  Path path() const noexcept { return path_; }                                   ///< Of all evaluations so far.
 
  private:
   ResidualRequest<PixelOf<View>> request(int i, const Vector3<double>& theta) const noexcept {
@@ -31084,20 +31053,20 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Result of refine_plane(); the numbers are those of the finest level and of the returned theta.
+/// Result of refine_plane(). All numbers belong to the finest level and the returned theta.
 ///
 /// status: converged or iteration_limit; diverged where no step lowered the cost; rank_deficient where the targets do
-/// not determine theta (no parallax: covariance stays zero); where no target could be used, the status of the first
-/// that failed (too_few, out_of_view, behind_camera, no_contrast, ...); non_finite for a NaN theta or camera;
-/// invalid_argument for no targets, null pointers, bad options, a camera that is not valid() or a workspace without
-/// room. Poses that are not finite make their target unusable.
+/// not determine theta (no parallax: covariance stays zero); non_finite for a NaN theta or camera; invalid_argument for
+/// no targets, null pointers, bad options, a camera that is not valid() or a workspace without room. Where no target
+/// can be used, it is the status of the first one (too_few, out_of_view, behind_camera, no_contrast, ...). A target
+/// with a non-finite pose cannot be used.
 struct PlaneRefinement {
-  Vector3<double> theta = Vector3<double>::Zero();  ///< The best seen; the initial one if nothing could be improved.
-  /// residual_variance times the inverse of sum N J^T W J. It knows the noise of the targets, not what all of them
-  /// share: the noise of the host pixels and errors of the poses.
+  Vector3<double> theta = Vector3<double>::Zero();  ///< The best one found; the initial one after a failure.
+  /// residual_variance times the inverse of sum N J^T W J. It covers the noise of the targets, but not errors that all
+  /// targets share: noise of the host pixels and errors of the poses.
   Matrix3<double> covariance = Matrix3<double>::Zero();
   Matrix3<double> information = Matrix3<double>::Zero();  ///< Inverse of `covariance`.
-  /// Of a pixel, on patches of unit variance: C / (sum N - 2 targets - 3), mean and norm costing two.
+  /// Of a pixel on patches of unit variance: C / (sum N - 2 targets - 3). A target's mean and norm take two degrees.
   double residual_variance = 0;
   double cost = 0;                           ///< C(theta).
   double zncc = 0;                           ///< Mean over the targets used.
@@ -31129,24 +31098,15 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   PlaneProblem<View> problem(patch, targets, count, camera, options, workspace);
   PlaneSystem system;
   fit.status = Status::invalid_argument;
-  for (int level = range.coarsest; level >= range.finest; --level) {
-    problem.set_level(level);
-    system = PlaneSystem();
-    const SolveOptions solve = level == range.finest ? options.solve : coarse_options(options.solve);
-    const SolveSummary summary = minimise(problem, fit.theta, solve, &system);
-    fit.iterations += summary.iterations;
-    fit.status = summary.status;
-    fit.cost = summary.final_cost;
-  }
-  fit.path = problem.path();
+  minimise_levels(problem, fit.theta, range, options.solve, &system, &fit);
   if (!is_ok(system.status)) return fit;
 
   fit.zncc = problem.mean_zncc();
   fit.targets_used = problem.targets_used();
   fit.visible_pixels = problem.visible_pixels();
   const int freedom = std::max(1, fit.visible_pixels - 2 * fit.targets_used - 3);
-  // A perfect match would claim no uncertainty at all. The floor lies below what the rounding of 8-bit images leaves
-  // (1/6 of a grey level squared for both sides) on a patch of any contrast.
+  // A perfect match would have no uncertainty. The floor is below the rounding error of two 8-bit images (1/6 of a grey
+  // level squared) on a patch of any contrast.
   fit.residual_variance = std::max(fit.cost / freedom, 1e-6);
   const Ldlt<double, 3> factor(system.H, options.solve.rank_tolerance);
   if (!factor.ok()) return fit;
@@ -31160,12 +31120,11 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 }
 }  // namespace detail
 
-/// Refine theta (plane in the host frame) of a text object against `count` target images with known poses, coarse to
-/// fine.
+/// Refines theta (plane in the host frame) of a text object on `count` targets with known poses, coarse to fine.
 ///
-/// `camera`: of the targets, level 0; the host's is in the patch. Targets that do not see enough of the patch are
-/// skipped, decided anew at every linearisation. No allocation: `workspace` must have been reserved for this patch and
-/// count. Thread-safe for distinct workspaces.
+/// `camera`: of the targets, level 0; the patch holds the host's. Every linearisation skips the targets that see too
+/// little of the patch. No allocation: reserve `workspace` for this patch and count. Thread-safe for distinct
+/// workspaces.
 TEXTPLANE_DEFERRED
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets,
                              int count, const Pinhole<double>& camera, const PlaneOptions& options,
@@ -31192,24 +31151,22 @@ PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta
   return detail::refine_plane(patch, theta, &one, 1, camera, options, workspace);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
+TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
                                                       const Pinhole<double>&, const PlaneOptions&,
-                                                      PlaneWorkspace&) noexcept;
-TEXTPLANE_INSTANCE PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
+                                                      PlaneWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
                                                       int, const Pinhole<double>&, const PlaneOptions&,
-                                                      PlaneWorkspace&) noexcept;
-TEXTPLANE_INSTANCE PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                     const PyramidView&, const Pinhole<double>&, const PlaneOptions&);
-#endif
+                                                      PlaneWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                     const PyramidView&, const Pinhole<double>&, const PlaneOptions&));
 
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_PLANE_HPP
 // Camera pose from text objects and points: refine_pose() for a tracker's frame, align_pose() for one object.
 //
-// The cost is in pose_problem.hpp, the iteration in gauss_newton.hpp, run once a pyramid level from coarse to fine
-// (points count on every level, in px of level 0). Points alone and text alone both work.
+// The cost is in pose_problem.hpp, the iteration in gauss_newton.hpp. It runs once a pyramid level, coarse to fine.
+// Points count on every level, in px of level 0. Points alone and text alone both work.
 #ifndef TEXTPLANE_SOLVER_POSE_HPP
 #define TEXTPLANE_SOLVER_POSE_HPP
 
@@ -31217,9 +31174,9 @@ TEXTPLANE_END_NAMESPACE
 //
 //   C(T_t_w) = sum_points rho(|e|^2 / sigma^2) + sum_texts lambda_w c,    e = reprojection error in px
 //
-// with c the robust photometric cost of a text object (residual.hpp) and lambda_w as in weighting.hpp: the paper's
-// equation E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega),
-// which is also the left perturbation of every T_t_h = T_t_w T_w_h.
+// c is the robust photometric cost of a text object (residual.hpp); weighting.hpp has lambda_w. This is the paper's
+// E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega), and with it
+// every T_t_h = T_t_w T_w_h.
 #ifndef TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 #define TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 
@@ -31235,10 +31192,10 @@ TEXTPLANE_END_NAMESPACE
 #include <cstdint>
 #include <vector>
 
-// lambda_w: how much a text object's photometric cost counts against reprojection errors in one joint cost.
+// lambda_w: the weight of a text object's photometric cost beside reprojection errors in one joint cost.
 //
-// Points contribute sum rho(|e|^2 / sigma^2) with e in px, a text observation lambda_w * sum rho(r^2) with r the
-// difference of two unit-norm patches, of order 1/sqrt(N) (docs/equations.md).
+// A point adds rho(|e|^2 / sigma^2), e in px. A text observation adds lambda_w sum rho(r^2): r is the difference of two
+// unit-norm patches, of order 1/sqrt(N) (docs/equations.md).
 #ifndef TEXTPLANE_SOLVER_WEIGHTING_HPP
 #define TEXTPLANE_SOLVER_WEIGHTING_HPP
 
@@ -31246,19 +31203,15 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// How lambda_w follows from the standard deviations of points and intensities.
 enum class Weighting {
-  paper,     ///< lambda_w = sigma_rep / sigma_photo, as the paper prints it; every object counts the same, whatever its
-             ///< size.
-  variance,  ///< lambda_w = N sigma_rep^2 / sigma_photo^2: r sqrt(N) / sigma_photo has unit variance, so costs are
-             ///< chi-square.
+  paper,     ///< lambda_w = sigma_rep / sigma_photo, as in the paper: objects of every size count the same.
+  variance,  ///< lambda_w = N sigma_rep^2 / sigma_photo^2: r sqrt(N) / sigma_photo has unit variance.
 };
 
-/// Whether a standard deviation is finite and in [1e-50, 1e50], so that its square, its inverse and the ratio of two
-/// are numbers.
+/// Whether a standard deviation is in [1e-50, 1e50]: its square, its inverse and the ratio of two are then finite.
 inline bool valid_sigma(double sigma) noexcept { return is_finite(sigma) && sigma >= 1e-50 && sigma <= 1e50; }
 
-/// lambda_w of an observation with `visible` pixels. `sigma_rep`: standard deviation of a reprojection error whose own
-/// sigma is 1, px. `sigma_photo`: standard deviation of a pixel's residual, in units of 1/sqrt(N). Zero for deviations
-/// that are not valid_sigma(), and without pixels.
+/// lambda_w of an observation with `visible` pixels; zero without pixels and for deviations that are not valid_sigma().
+/// `sigma_rep`: standard deviation of a reprojection error, px. `sigma_photo`: of a pixel's residual, in 1/sqrt(N).
 inline double text_weight(Weighting weighting, double sigma_rep, double sigma_photo, int visible) noexcept {
   if (!valid_sigma(sigma_rep) || !valid_sigma(sigma_photo) || visible <= 0) return 0;
   const double ratio = sigma_rep / sigma_photo;
@@ -31271,19 +31224,18 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A text object whose host pose and plane are held fixed. Its pixels come from `patch` (not owned).
+/// A text object whose host pose and plane are held fixed.
 struct PoseTextTerm {
   const TextPatch* patch = nullptr;                 ///< Its pixels in the host; not owned.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
   SE3d T_w_h;                                       ///< Host camera to world.
-  double weight = 1;                                ///< On top of lambda_w.
-  int scale_shift = 0;  ///< Of photometric_input(): where the target sees it at another size.
-  /// Prepared forms of the patch's levels, one each, for LinearisePolicy::template_jacobian; null: they are done
-  /// without.
+  double weight = 1;                                ///< Multiplies lambda_w.
+  int scale_shift = 0;  ///< Of photometric_input(), for targets that see it at another size.
+  /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian, or null.
   const TemplatePatch* prepared = nullptr;
 };
 
-/// A known 3D point and where it was seen.
+/// A known 3D point and its pixel.
 struct PosePointTerm {
   Vector3<double> p_w = Vector3<double>::Zero();  ///< In the world.
   Vector2<double> px = Vector2<double>::Zero();   ///< Undistorted, level 0.
@@ -31293,37 +31245,36 @@ struct PosePointTerm {
 /// Settings of refine_pose() and align_pose().
 struct PoseOptions {
   PhotometricOptions photometric;  ///< Of every pixel of the texts.
-  /// lambda_w. Both weightings read sigma_rep (px) and sigma_photo; for `variance` that is the deviation of a pixel's
-  /// residual in units of 1/sqrt(N) (0.3: ZNCC 0.955), for `paper` that of an object's error, in the same unit as the
-  /// paper's E_text.
+  /// How lambda_w follows from sigma_rep and sigma_photo. sigma_photo is the standard deviation of a pixel's residual
+  /// in units of 1/sqrt(N) for `variance` (0.3: ZNCC 0.955), and of an object's error (the paper's E_text) for `paper`.
   Weighting weighting = Weighting::variance;
-  double sigma_photo = 0.3;  ///< See `weighting`.
+  double sigma_photo = 0.3;  ///< Its unit depends on `weighting`.
   double sigma_rep = 1;      ///< px, of a point with sigma 1.
-  /// On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom, in px.
+  /// On |e| / sigma: root of the 95 % bound of chi-square with 2 degrees of freedom.
   Robust point_robust{RobustKind::huber, 2.4477};
-  /// Of the finest level; coarser ones stop at a relative gain of 1e-3 or a step of 1e-5 at the latest.
+  /// Of the finest level. Coarser levels stop at a relative gain of 1e-3 or a step of 1e-5, or earlier.
   SolveOptions solve;
-  int coarsest_level = 2;  ///< Levels that the target or a patch lacks are left out.
-  int finest_level = 0;    ///< Where it ends; 0 is the image itself.
-  /// Whose gradients texts are linearised with (docs/policy.md, policy_at_level()); patches without gradients take
-  /// forward. Whatever the policy, steps are judged by the cost.
+  int coarsest_level = 2;  ///< Lowered to the levels that target and patches have.
+  int finest_level = 0;    ///< The last level; 0 is the image itself.
+  /// Whose gradients linearise the texts (docs/policy.md, policy_at_level()). Patches without gradients take forward.
+  /// The cost alone accepts or rejects a step.
   LinearisePolicy policy = LinearisePolicy::forward;
 };
 
 namespace detail {
-// What the last linearisation found out about a text.
+// A text in the last linearisation.
 struct PoseTextState {
   std::size_t offset = 0;  // Of its visible set.
   double weight = 0;       // lambda_w times the term's weight, for the visible set.
   double zncc = 0;
-  int visible = 0;  // 0: it took no part.
+  int visible = 0;  // 0: not used.
 };
 
 template <class View>
 class PoseProblem;
 }  // namespace detail
 
-/// Memory of refine_pose(), to be reused from frame to frame. Not to be shared by two threads at a time.
+/// Memory of refine_pose(), to be reused from frame to frame; for one thread at a time.
 class PoseWorkspace {
  public:
   /// Makes room for these terms (every level of their patches). The only member that allocates; never shrinks.
@@ -31343,7 +31294,7 @@ class PoseWorkspace {
       points_.resize(static_cast<std::size_t>(point_count));
   }
 
-  /// reserve() was called for at least these terms.
+  /// Whether it has room for these terms.
   bool fits(const PoseTextTerm* texts, int text_count, int point_count) const noexcept {
     std::size_t pixels = 0;
     for (int i = 0; i < text_count; ++i) {
@@ -31381,8 +31332,7 @@ struct PoseSystem {
   Status status = Status::too_few;
 };
 
-/// Reprojection error e (px) of p_w; false where the point is not finite or not well in front of the camera (more than
-/// 89.9 degrees off the optical axis).
+/// Reprojection error e (px) of p_w. False for a point that is not finite or over 89.9 degrees off the optical axis.
 template <class S>
 bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const Pinhole<S>& camera, Vector3<S>* p,
                Vector2<S>* e) noexcept {
@@ -31450,7 +31400,7 @@ class PoseProblem {
       const PhotometricCost c =
           textplane::evaluate(request(texts_[i], T_t_w), memory_.photometric_, memory_.visible_.data() + state.offset);
       path_ = std::max(path_, c.path);
-      // An object that is lost as a whole costs what two uncorrelated patches would.
+      // An object that fails as a whole costs as much as an uncorrelated patch.
       e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost_pixels += is_ok(c.status) ? c.lost : state.visible;
     }
@@ -31461,8 +31411,7 @@ class PoseProblem {
       if (reproject(points_[i], T_t_w, camera_, &p, &r)) {
         e.cost += options_.point_robust.rho(r.squaredNorm() / (points_[i].sigma * points_[i].sigma));
       } else {
-        // Behind the camera: as wrong as a point can be that projects into an image about as wide as the focal length
-        // is long.
+        // Behind the camera: the largest error in an image about as wide as the focal length.
         e.cost += options_.point_robust.rho(camera_.fx * camera_.fx / (points_[i].sigma * points_[i].sigma));
         ++lost_points;
       }
@@ -31479,8 +31428,7 @@ class PoseProblem {
   const PoseTextState& text_state(int i) const noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
   int visible_pixels() const noexcept { return visible_pixels_; }
   int active_texts() const noexcept { return active_texts_; }
-  /// Of all evaluations so far.
-  Path path() const noexcept { return path_; }
+  Path path() const noexcept { return path_; }  ///< Of all evaluations so far.
 
  private:
   using Pixel = PixelOf<View>;
@@ -31504,7 +31452,7 @@ class PoseProblem {
     NormalEquations<6> n = textplane::linearise<Parameters::pose>(q, workspace);
     path_ = std::max(path_, n.path);
     if (!is_ok(n.status)) return n.status;
-    // Trials are compared with this cost: it must be the one that evaluate() computes, to the last digit.
+    // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
     if (q.prepared && q.policy != LinearisePolicy::forward) {
       const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
       if (is_ok(c.status)) n.cost = c.cost;
@@ -31559,30 +31507,28 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// What a pose solve found out besides the pose; all of it of the finest level and of the returned pose.
+/// The result of a pose solve without the pose. All numbers belong to the finest level and the returned pose.
 ///
 /// status: converged or iteration_limit; diverged where no step lowered the cost on the finest level; rank_deficient
-/// where the terms do not determine the pose (one or two points); where no term could be used: too_few, or the status
-/// of the first text that failed (out_of_view, behind_camera, no_contrast, invalid_argument, non_finite); non_finite
-/// for a NaN pose or camera; invalid_argument for null pointers, bad options, a camera that is not valid() or a
-/// workspace without room.
+/// where the terms do not determine the pose (one or two points); non_finite for a NaN pose or camera; invalid_argument
+/// for null pointers, bad options, a camera that is not valid() or a workspace without room. Where no term can be used,
+/// it is too_few, or the status of the first text that failed (out_of_view, behind_camera, no_contrast, ...).
 struct PoseResult {
   /// Of xi = (v, omega), left: H / sigma_rep^2. Its inverse is the covariance under Weighting::variance.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   double cost = 0;           ///< C(T_t_w) of the finest level.
   double zncc = 0;           ///< Mean over the texts that took part.
   int texts = 0;             ///< Texts that took part.
-  int visible_pixels = 0;    ///< Theirs.
-  int inlier_points = 0;     ///< Points with |e|^2 <= 5.99 (sigma sigma_rep)^2.
+  int visible_pixels = 0;    ///< Of these texts.
+  int inlier_points = 0;     ///< Points within the 95 % bound of chi-square: |e|^2 <= 5.991 (sigma sigma_rep)^2.
   int iterations = 0;        ///< Trials over all levels.
-  Path path = Path::kernel;  ///< Path::reference where any evaluation of a text ran on the slow reference.
+  Path path = Path::kernel;  ///< Path::reference where the slow reference evaluated any text.
   Status status = Status::invalid_argument;  ///< Why it ended: see above.
 };
 
-/// Result of refine_pose(). T_t_w is the best pose seen, the initial one if nothing could be improved; finite whenever
-/// the initial one is.
+/// Result of refine_pose().
 struct PoseFit : PoseResult {
-  SE3d T_t_w;  ///< World to target camera.
+  SE3d T_t_w;  ///< World to target: the best pose found, or the initial one after a failure. Finite if that one is.
 };
 
 /// Result of align_pose().
@@ -31600,7 +31546,7 @@ inline bool valid(const PoseOptions& o) noexcept {
          o.policy <= LinearisePolicy::automatic && valid(o.solve);
 }
 
-// Levels to walk: those of the target that some text has too. Without any, one pass for the points on the finest level.
+// The levels that the target and any text have. Without any, one pass on the finest level, for the points.
 inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int target_levels,
                               const PoseOptions& options) noexcept {
   int patch_levels = 0;
@@ -31628,16 +31574,7 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
   PoseProblem<View> problem(texts, text_count, points, point_count, target, camera, options, workspace);
   const LevelRange range = pose_levels(texts, text_count, target.levels, options);
   PoseSystem system;
-  for (int level = range.coarsest; level >= range.finest; --level) {
-    problem.set_level(level);
-    system = PoseSystem();
-    const SolveOptions solve = level == range.finest ? options.solve : coarse_options(options.solve);
-    const SolveSummary summary = minimise(problem, fit.T_t_w, solve, &system);
-    fit.iterations += summary.iterations;
-    fit.status = summary.status;
-    fit.cost = summary.final_cost;
-  }
-  fit.path = problem.path();
+  minimise_levels(problem, fit.T_t_w, range, options.solve, &system, &fit);
 
   const double scale = 1.0 / (options.sigma_rep * options.sigma_rep);
   for (int i = 0; i < 6; ++i)
@@ -31678,14 +31615,14 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
 }
 }  // namespace detail
 
-/// Refine the pose T_t_w (world to target) of one image from text objects and points, coarse to fine.
+/// Refines the pose T_t_w (world to target) of one image from text objects and points, coarse to fine.
 ///
-/// `texts`, `points`: may be null where their count is 0. `target`: pyramid of the undistorted image; levels may be 0
-/// where there are no texts. `camera`: of the target, level 0. A text that is out of view, behind a camera, without
-/// contrast, on a missing level or not finite, and a point that is behind the camera or not finite, is skipped, not
-/// fatal; which ones is decided anew at every linearisation. `text_zncc` (text_count values) and `point_chi2`
-/// (point_count values, |e|^2 / (sigma sigma_rep)^2), if given, receive the final values, -1 where the term was
-/// skipped. No allocation: `workspace` must have been reserved for these terms. Thread-safe for distinct workspaces.
+/// `texts`, `points`: may be null where their count is 0. `target`: pyramid of the undistorted image; may have no level
+/// where there are no texts. `camera`: of the target, level 0. `text_zncc` (text_count values) and `point_chi2`
+/// (point_count values, |e|^2 / (sigma sigma_rep)^2) may be null; they receive the final values, -1 for skipped terms.
+/// Every linearisation skips texts that are out of view, behind a camera, without contrast, on a missing level or not
+/// finite, and points that are behind the camera or not finite. No allocation: reserve `workspace` for these terms.
+/// Thread-safe for distinct workspaces.
 TEXTPLANE_DEFERRED
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
                     const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
@@ -31720,24 +31657,21 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
+TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
                                              const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
-                                             float*, float*) noexcept;
-TEXTPLANE_INSTANCE PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
+                                             float*, float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
                                              const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
-                                             float*, float*) noexcept;
-TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidView&, const Pinhole<double>&, const PoseOptions&);
-TEXTPLANE_INSTANCE PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidViewF&, const Pinhole<double>&, const PoseOptions&);
-#endif
+                                             float*, float*) noexcept);
+TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                  const PyramidView&, const Pinhole<double>&, const PoseOptions&));
+TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                  const PyramidViewF&, const Pinhole<double>&, const PoseOptions&));
 
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_POSE_HPP
-// A coarse search before a pose is refined: ZNCC of one text object under shifts and turns of its image, where the
-// guess may be further off than the basin of refine_pose().
+// A coarse search for guesses outside the basin of refine_pose(): ZNCC of one text object under shifts and rotations.
 #ifndef TEXTPLANE_SOLVER_SEARCH_HPP
 #define TEXTPLANE_SOLVER_SEARCH_HPP
 
@@ -31747,26 +31681,25 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// How far and how finely search_pose() looks, in px of the level it works on.
+/// Range and resolution of search_pose(), in px of its level.
 struct SearchOptions {
-  int level = 2;      ///< Pyramid level; lowered to the coarsest that patch and target have with enough pixels.
+  int level = 2;      ///< Pyramid level; search_level() may lower it.
   int radius = 4;     ///< Shifts -radius .. radius along x and along y, at most 8.
   double step = 1.0;  ///< Between shifts.
-  /// Then the best is turned by this and half of it to both sides, rad, at half steps; 0: it is not.
+  /// rad: then rotates the best by this and half of it to both sides, at half steps; 0: does not.
   double roll = 0.1;
   PhotometricOptions photometric;  ///< Of every pixel.
 };
 
 namespace detail {
 
-// Poses that turn a target camera about itself, tried row by row; the best is kept. Equals do not replace what was
-// there.
+// Tries rotations of the target camera about its centre, row by row, and keeps the first best one.
 TEXTPLANE_DEFERRED
 class PoseSearch {
  public:
   static constexpr int kMost = 8;
 
-  // `centre`: of the patch in the target, normalised.
+  // `centre`: of the patch in the target, normalised coordinates.
   PoseSearch(const PhotometricInput& in, const Vector3<double>& theta, const SE3d& guess, const Vector2<double>& centre,
              const SearchOptions& options, PhotometricWorkspace& workspace, const TemplatePatch* prepared) noexcept
       : in_(in),
@@ -31779,7 +31712,7 @@ class PoseSearch {
     try_row(guess, 0, 0, 0, 0, 0);
   }
 
-  // Shifts of -radius .. radius steps of `from`, rolled about the ray of the centre before.
+  // Shifts of -radius .. radius steps from `from`, after a roll about the ray of the centre.
   void shifts(const SE3d& from, int radius, double step, double roll) noexcept {
     for (int y = -radius; y <= radius; ++y) try_row(from, -radius, radius, y, step, roll);
   }
@@ -31793,7 +31726,7 @@ class PoseSearch {
     float zncc[2 * kMost + 1];
     const double u = centre_[0], v = centre_[1], n = 1 + u * u + v * v, about = roll / std::sqrt(n);
     for (int x = first; x <= last; ++x) {
-      // The rotation that takes the ray of the centre to the shifted one, to first order, and one about that ray.
+      // The rotation of the centre's ray to the shifted one, to first order, and the roll about that ray.
       const double du = x * step / in_.target_camera.fx, dv = y * step / in_.target_camera.fy;
       Vector6<double> xi;
       xi << 0.0, 0.0, 0.0, -dv / n + about * u, du / n + about * v, (u * dv - v * du) / n + about;
@@ -31820,8 +31753,8 @@ class PoseSearch {
 
 }  // namespace detail
 
-/// The level that search_pose() searches on in a target of `levels` levels: options.level, or the next finer one that
-/// is there and has twice the pixels that must be visible; 0 where none has, -1 where there is no level.
+/// The level that search_pose() searches in a target of `levels` levels: the coarsest, up to options.level, that patch
+/// and target have and that holds at least 2 min_visible pixels. 0 where none does, -1 where there is no level.
 inline int search_level(const TextPatch& patch, int levels, const SearchOptions& options) noexcept {
   int level = std::min({options.level, patch.level_count() - 1, levels - 1});
   while (level > 0 &&
@@ -31830,11 +31763,10 @@ inline int search_level(const TextPatch& patch, int levels, const SearchOptions&
   return level;
 }
 
-/// The pose T_t_h, out of those that turn the target camera so that the patch's centre moves by the shifts of a grid,
-/// with the best ZNCC of the patch in the target, and then turned a little about that centre where this is better
-/// still; the guess itself where nothing is better or nothing can be compared. `zncc`, if given, receives the best
-/// value, -1 where none. `prepared`: one TemplatePatch a level, or null. No allocation; `workspace` must have room for
-/// the patch.
+/// The pose T_t_h with the best ZNCC among rotations of the target camera from the guess `T_t_h`. They shift the
+/// patch's centre over a grid, then roll about it. Returns the guess where none is better. `zncc`, unless null,
+/// receives the best value, -1 where nothing can be compared. `prepared`: one TemplatePatch a level, or null. No
+/// allocation; `workspace` must have room for the patch.
 TEXTPLANE_DEFERRED
 SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
                  const Pinhole<double>& camera, const SearchOptions& options, PhotometricWorkspace& workspace,
@@ -31865,11 +31797,9 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
   return search.best();
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE SE3d search_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
+TEXTPLANE_INSTANCE(SE3d search_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
                                           const Pinhole<double>&, const SearchOptions&, PhotometricWorkspace&,
-                                          const TemplatePatch*, float*) noexcept;
-#endif
+                                          const TemplatePatch*, float*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 
@@ -31877,20 +31807,18 @@ TEXTPLANE_END_NAMESPACE
 // Windowed bundle adjustment: Levenberg-Marquardt over key-frame poses, points and text planes with the Schur
 // complement.
 //
-// window_problem.hpp says what is minimised, what must be fixed, and what comes back. The method: every iteration
-// linearises all terms (window_terms.hpp), damps by lambda times the diagonal (Marquardt), eliminates points and
-// planes, and solves the cameras' system by a block Cholesky factorisation of our own (block_cholesky.hpp). lambda
-// follows the gain ratio (Nielsen 1999). The gauge is the caller's: frames flagged fixed stay constant bit for bit, and
-// the distance of two frames can be held; a gauge that is missing is counted from the graph of observations and
-// reported, never left to the damping.
+// window_problem.hpp has the cost, the gauge and the results. Every iteration linearises all terms (window_terms.hpp),
+// damps by lambda times the diagonal (Marquardt), eliminates points and planes, and solves the cameras' system by a
+// block Cholesky factorisation (block_cholesky.hpp). lambda follows the gain ratio (Nielsen 1999). The caller fixes the
+// gauge: fixed frames keep every bit, and the distance of two frames can be held. The solver finds a missing gauge from
+// the graph of observations and reports it.
 //
-// No decomposition of Eigen's is instantiated, and products are written out (core/numeric.hpp), but sums of fixed-size
-// matrices and std::vector members are, and the compiler may keep them as weak symbols outside of our ABI namespace:
-// include this header in translation units of one instruction set only.
+// Include this header in translation units of one instruction set only: the compiler may keep Eigen's sums of
+// fixed-size matrices and members of std::vector as weak symbols outside our ABI namespace.
 //
-// A text term is judged on the visible set of its linearisation, lost pixels charged (docs/equations.md). An
-// observation that cannot be evaluated in a trial costs what uncorrelated patches would; one that fails at an accepted
-// state drops out with its status.
+// A trial counts the pixels that its linearisation saw, and charges those that it loses (docs/equations.md). An
+// observation that fails in a trial costs as much as uncorrelated patches; one that fails at an accepted state drops
+// out with its status.
 #ifndef TEXTPLANE_SOLVER_WINDOW_HPP
 #define TEXTPLANE_SOLVER_WINDOW_HPP
 
@@ -31900,11 +31828,11 @@ TEXTPLANE_END_NAMESPACE
 // Window: the data of a windowed bundle adjustment over key-frame poses, world points and text planes, its options and
 // its summary.
 //
-// The cost that solve_window() (window.hpp) lowers is
-//   E = sum_points rho(|px - pi(T_w_c^-1 p_w)|^2 / sigma^2)  +  sum_text weight lambda_w sum_pixels rho(r^2),
-// the paper's joint cost of section V, with T_w_c <- T_w_c Exp(xi) (right perturbation, xi = (v, omega)), p_w in the
-// world and theta in the text's host frame. r is the normalised photometric residual of photometry/residual.hpp through
-// T_t_h = T_w_t^-1 T_w_h, and lambda_w is text_weight() of solver/weighting.hpp.
+// solve_window() (window.hpp) minimises the paper's joint cost of section V:
+//   E = sum_points rho(|px - pi(T_w_c^-1 p_w)|^2 / sigma^2)  +  sum_text weight lambda_w sum_pixels rho(r^2)
+// p_w is in the world, theta in the text's host frame. Poses move by T_w_c <- T_w_c Exp(xi) (right perturbation,
+// xi = (v, omega)). r is the normalised photometric residual of photometry/residual.hpp through T_t_h = T_w_t^-1 T_w_h,
+// lambda_w is text_weight() of solver/weighting.hpp.
 //
 // Structs hold inputs first, then what the solver writes back ("out"). Nothing here owns pixels: images and patches
 // must outlive the call. Indices refer to the vectors of the same Window.
@@ -31916,16 +31844,15 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// A key frame. A frame that is not fixed needs observations that determine its pose: at least six equations from
-/// points that are seen elsewhere too and from text (two a point, six a text observation). Otherwise it is left where
-/// it is, its observations are left out, and `status` says too_few.
+/// A key frame. A free frame needs at least six equations: two from each point that other frames see too, six from each
+/// text observation. With fewer it stays where it is, its observations are left out, and `status` is too_few.
 struct WindowFrame {
   SE3<double> T_w_c;   ///< Camera to world.
   bool fixed = false;  ///< Constant: part of the gauge.
-  PyramidView image;   ///< May stay empty where no text observation has this frame as its target.
+  PyramidView image;   ///< May be empty where this frame is no text's target.
 
-  /// Out. ok: adjusted, or fixed. too_few: see above. rank_deficient: adjusted, but the system at the final state
-  /// leaves a direction of this pose undetermined (it moved by damping alone).
+  /// Out. ok: adjusted, or fixed. too_few: see above. rank_deficient: adjusted, but a direction of this pose is
+  /// undetermined at the final state (damping alone moved it).
   Status status = Status::ok;
 };
 
@@ -31934,24 +31861,24 @@ struct WindowPoint {
   Vector3<double> p_w = Vector3<double>::Zero();  ///< World.
   bool fixed = false;                             ///< Constant: its observations act on the frames alone.
 
-  /// Out. ok; too_few: fewer than two usable observations (of a point that is not fixed), left alone; non_finite: p_w
-  /// is, left alone; rank_deficient: its observations have no parallax, so that its depth moved by damping alone.
+  /// Out. ok; too_few: a free point with fewer than two usable observations, unchanged; non_finite: p_w is, unchanged;
+  /// rank_deficient: its observations have no parallax (damping alone moved its depth).
   Status status = Status::ok;
 };
 
 /// A point seen in a frame.
 struct WindowPointObservation {
-  int frame = -1;                                ///< Index into Window::frames: the one that sees it.
+  int frame = -1;                                ///< Index into Window::frames.
   int point = -1;                                ///< Index into Window::points.
   Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
   /// Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
   double sigma = 1;
 
-  /// Out: |e|^2 / sigma^2 at the final state, without the robust function, for observations that were left out too.
+  /// Out: |e|^2 / sigma^2 at the final state, without the robust function, also of observations that were left out.
   /// The largest double where there is no projection.
   double chi2 = 0;
-  /// Out. ok; behind_camera: at the start (left out of the solve) or at the end; non_finite or invalid_argument (sigma
-  /// <= 0): left out; too_few: left out because its point or frame was.
+  /// Out. ok; behind_camera: at the start (left out) or at the end; non_finite or invalid_argument (sigma <= 0): left
+  /// out; too_few: left out with its point or frame.
   Status status = Status::ok;
 };
 
@@ -31962,16 +31889,15 @@ struct WindowText {
   const TextPatch* patch = nullptr;                 ///< Null counts as invalid_argument.
   bool fixed = false;                               ///< Constant: its observations act on the frames alone.
 
-  /// Out: 3 x 3 covariance of theta with every free pose and point uncertain too, under the gauge of the solve.
-  /// Proportional to the truth only where the weights are inverse variances (Weighting::variance). Zero for fixed and
-  /// left-out texts, or where it does not exist.
+  /// Out: marginal covariance of theta under the gauge of the solve. Proportional to the truth only where weights are
+  /// inverse variances (Weighting::variance). Zero for fixed and left-out texts, or where it does not exist.
   Matrix3<double> covariance = Matrix3<double>::Zero();
-  /// Out: theta's own 3 x 3 block of J^T W J, that is the information with all poses held.
+  /// Out: theta's own block of J^T W J, the information with all poses held.
   Matrix3<double> information = Matrix3<double>::Zero();
-  double zncc = 0;            ///< Out: mean over the observations that could be evaluated at the final state.
-  int used_observations = 0;  ///< Out: how many took part to the end.
-  /// Out. ok; too_few: no usable observation, left alone; non_finite, invalid_argument (patch or its camera), left
-  /// alone; rank_deficient: its observations do not determine theta.
+  double zncc = 0;            ///< Out: mean over its used observations.
+  int used_observations = 0;  ///< Out: observations used to the end.
+  /// Out. ok; too_few: no usable observation, unchanged; non_finite, invalid_argument (patch or its camera): unchanged;
+  /// rank_deficient: its observations do not determine theta.
   Status status = Status::ok;
 };
 
@@ -31979,98 +31905,96 @@ struct WindowText {
 struct WindowTextObservation {
   int text = -1;        ///< Index into Window::texts.
   int frame = -1;       ///< Target frame, other than the host.
-  double weight = 1;    ///< Of this observation, on top of lambda_w.
-  int scale_shift = 0;  ///< Of photometric_input(): where the target sees the text at another size than its host.
+  double weight = 1;    ///< Of this observation; multiplies lambda_w.
+  int scale_shift = 0;  ///< Of photometric_input(), for targets that see the text at another size.
 
-  double zncc = 0;  ///< Out: at the final state; 0 if it could not be evaluated.
+  double zncc = 0;  ///< Out: at the final state; 0 where it could not be evaluated.
   int visible = 0;  ///< Out: visible pixels at the final state.
-  /// Out. ok; the status of linearise() at the start, or where the observation dropped out later (too_few,
-  /// no_contrast, behind_camera, ...); degenerate: target is host; invalid_argument: no image or no patch on this
-  /// level, weight not positive; too_few also where its text or a frame was left out.
+  /// Out. ok; the failure of linearise() at the start or where it dropped out later (too_few, no_contrast, ...);
+  /// degenerate: target is host; invalid_argument: no image or no patch on this level, weight not positive; too_few
+  /// also where its text or a frame was left out.
   Status status = Status::ok;
 };
 
 /// The whole problem. One pinhole camera for all frames (level 0).
 struct Window {
   Pinhole<double> camera;                                  ///< Of all frames, level 0.
-  std::vector<WindowFrame> frames;                         ///< Poses, the unknown ones and those held.
+  std::vector<WindowFrame> frames;                         ///< Poses, free and fixed.
   std::vector<WindowPoint> points;                         ///< Points in the world.
-  std::vector<WindowPointObservation> point_observations;  ///< Who sees which point where.
-  std::vector<WindowText> texts;                           ///< Text objects, by host and plane.
-  std::vector<WindowTextObservation> text_observations;    ///< Who sees which text.
+  std::vector<WindowPointObservation> point_observations;  ///< Pixels of points in frames.
+  std::vector<WindowText> texts;                           ///< Text objects.
+  std::vector<WindowTextObservation> text_observations;    ///< Frames that see texts.
 };
 
 /// Settings of solve_window().
 struct WindowOptions {
   PhotometricOptions photometric;  ///< Of every pixel of the texts.
-  Robust point_robust{RobustKind::huber,
-                      std::sqrt(5.99)};  ///< On |e| / sigma: the 95 % bound of chi-square with 2 degrees of freedom.
+  Robust point_robust{
+      RobustKind::huber,
+      std::sqrt(5.99)};  ///< On |e| / sigma: root of the 95 % bound of chi-square, 2 degrees of freedom.
   Weighting weighting = Weighting::variance;  ///< How texts weigh against points: lambda_w.
   double sigma_rep = 1;                       ///< px.
   double sigma_photo = 0.3;                   ///< Per pixel, in units of 1/sqrt(N).
-  /// Pyramid level of patches and images; for coarse to fine call solve_window() once a level, same workspace.
+  /// Pyramid level of patches and images. Coarse to fine: call solve_window() once a level, with one workspace.
   int text_level = 0;
 
   int max_iterations = 10;  ///< Steps tried, rejected ones included.
-  /// Converged where a step lowers (or is predicted to lower) the cost by no more than this fraction.
+  /// Converged where a step lowers the cost, or is predicted to, by at most this fraction.
   double cost_tolerance = 1e-6;
-  /// Converged where no parameter moves by more than this fraction of its scale (rotation: rad; others: relative to
-  /// distances).
+  /// Converged where all parameters move by at most this fraction of their scale (1 rad; the mean depth; |theta|).
   double step_tolerance = 1e-9;
   double initial_lambda = 1e-5;    ///< Marquardt damping, relative to the diagonal.
   double max_lambda = 1e10;        ///< diverged beyond.
   double max_lost_fraction = 0.1;  ///< A step that loses more of the visible text pixels is rejected.
-  double min_depth = 1e-6;         ///< A point with less z than this is behind the camera (world units).
+  double min_depth = 1e-6;         ///< World units: a point with less z is behind the camera.
 
-  /// Scale gauge: hold the distance between the centres of these two frames at its initial value, exactly. Needed where
-  /// just one frame is fixed; allowed with more (a known baseline). Ignored where both frames are fixed; -1: no such
-  /// constraint.
+  /// Scale gauge: the distance between the centres of frames a and b keeps its initial value exactly. Needed where only
+  /// one frame is fixed; ignored where both frames are. -1: no such constraint.
   int scale_frame_a = -1;
-  int scale_frame_b = -1;  ///< Index into Window::frames of the other frame of that distance; -1: none.
+  int scale_frame_b = -1;  ///< The other frame; -1: none.
 
   bool covariance = true;  ///< Compute WindowText::covariance and information, and the rank_deficient statuses.
 };
 
 /// What solve_window() did. `status`:
 /// - converged, iteration_limit: the window holds the best state.
-/// - too_few: nothing to adjust (no frame, or no usable observation that acts on anything free); window unchanged.
+/// - too_few: nothing to adjust (no frame, or no usable observation of anything free); window unchanged.
 /// - rank_deficient: the gauge is missing (`gauge_freedom` > 0); window unchanged.
 /// - degenerate: the two scale frames coincide; window unchanged.
 /// - non_finite: camera, an option or a frame's pose; invalid_argument: index out of range, option out of its domain;
 /// window unchanged.
-/// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state (the start,
-/// perhaps).
+/// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state.
 struct WindowSummary {
   Status status = Status::too_few;  ///< Why it ended: see above.
-  double initial_cost = 0;          ///< E over what took part at the start.
-  /// E at the final state. It can exceed the initial cost only where patches gained visible pixels meanwhile.
+  double initial_cost = 0;          ///< E of the terms used at the start.
+  /// E at the final state. It exceeds initial_cost only where patches gained visible pixels.
   double final_cost = 0;
   int iterations = 0;  ///< Steps tried.
   /// Steps taken; none raised the cost on the visible set of its linearisation, lost pixels charged.
   int accepted = 0;
   double last_step = 0;  ///< Scaled size of the last step taken, as step_tolerance measures it.
 
-  /// Degrees of freedom that no fixed frame or scale takes away: 7 a free-floating component, 1 a missing scale.
+  /// Degrees of freedom that nothing fixes: 7 for each set of connected frames without a gauge, 1 for a missing scale.
   int gauge_freedom = 0;
   int free_frames = 0;         ///< Frames adjusted.
   int free_points = 0;         ///< Points solved for.
   int free_texts = 0;          ///< Texts solved for.
-  int point_observations = 0;  ///< Took part.
-  int text_observations = 0;   ///< Took part to the end.
+  int point_observations = 0;  ///< Used.
+  int text_observations = 0;   ///< Used to the end.
   int undetermined = 0;        ///< Frames, points and texts with status rank_deficient.
-  Path path = Path::kernel;    ///< Path::reference where any evaluation of a text ran on the slow reference.
+  Path path = Path::kernel;    ///< Path::reference where the slow reference evaluated any text.
 };
 
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_WINDOW_PROBLEM_HPP
 // The linear algebra of a window: normal equations in blocks, the Schur complement that eliminates the landmarks,
-// back-substitution, and the covariance of landmarks. Knows nothing of images or projections.
+// back-substitution, and the covariance of landmarks.
 //
 //   [ H_cc  W  ] [x_c]     [g_c]
 //   [ W^T   V  ] [x_l] = - [g_l],   S = H_cc - W V^-1 W^T,   S x_c = -(g_c - W V^-1 g_l),   x_l = -V^-1 (g_l + W^T x_c)
 //
-// with V block diagonal, 3 x 3 a landmark. All sums run in the order of the window's vectors.
+// V is block diagonal: 3 x 3 a landmark. All sums run in the order of the window's vectors.
 #ifndef TEXTPLANE_SOLVER_WINDOW_SCHUR_HPP
 #define TEXTPLANE_SOLVER_WINDOW_SCHUR_HPP
 
@@ -32079,8 +32003,7 @@ TEXTPLANE_END_NAMESPACE
 #include <cstdint>
 #include <vector>
 
-// What of a Window takes part in the solve: usable observations, free frames and landmarks, the gauge, and the block
-// pattern.
+// The parts of a Window that a solve uses: observations, free frames and landmarks, gauge, and block pattern.
 #ifndef TEXTPLANE_SOLVER_WINDOW_STRUCTURE_HPP
 #define TEXTPLANE_SOLVER_WINDOW_STRUCTURE_HPP
 
@@ -32089,7 +32012,7 @@ TEXTPLANE_END_NAMESPACE
 #include <cstdint>
 #include <vector>
 
-// WindowState: the parameters of a window. Landmarks are the points, then the texts: both are three numbers that the
+// WindowState: the parameters of a window. Landmarks are the points, then the texts: three numbers each, which the
 // Schur complement eliminates.
 #ifndef TEXTPLANE_SOLVER_WINDOW_STATE_HPP
 #define TEXTPLANE_SOLVER_WINDOW_STATE_HPP
@@ -32100,7 +32023,7 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-// Indices and sizes as the int that Window uses.
+// Elements and sizes by int, as Window uses it.
 template <class Vector>
 auto& at(Vector& v, int i) noexcept {
   return v[static_cast<std::size_t>(i)];
@@ -32110,7 +32033,7 @@ int count(const Vector& v) noexcept {
   return static_cast<int>(v.size());
 }
 
-/// Poses and landmarks, apart from the Window so that trials cost nothing to take back.
+/// Poses and landmarks. They are apart from the Window so that a rejected trial costs nothing.
 struct WindowState {
   std::vector<SE3<double>> T_w_c;
   std::vector<Vector3<double>> landmark;
@@ -32137,7 +32060,7 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-/// S is double: a template, so that including the header costs little.
+/// S is double, see BasicWindowSchur.
 template <class S>
 class BasicWindowStructure {
  public:
@@ -32147,8 +32070,8 @@ class BasicWindowStructure {
   std::vector<std::uint8_t> landmark_free;  ///< Used and not fixed.
   std::vector<int> camera_of_frame;         ///< Index among the free cameras, or -1.
   std::vector<int> frame_of_camera;
-  std::vector<int>
-      slot_begin;  ///< Landmark l couples to the cameras slot_camera[slot_begin[l] .. slot_begin[l + 1]), ascending.
+  /// Landmark l couples to the cameras slot_camera[slot_begin[l] .. slot_begin[l + 1]), ascending.
+  std::vector<int> slot_begin;
   std::vector<int> slot_camera;
   std::vector<int> point_slot;  ///< A slot each point observation, -1 where landmark or camera is not free.
   std::vector<int> host_slot;   ///< A slot each text observation, as above.
@@ -32160,7 +32083,7 @@ class BasicWindowStructure {
   int cameras() const noexcept { return count(frame_of_camera); }
   int landmarks() const noexcept { return count(landmark_free); }
 
-  /// Indices and options in their domain, camera and poses finite. Otherwise the status to return.
+  /// ok, or the status for an index or option outside its domain, or a non-finite camera or pose.
   static Status check(const Window& w, const WindowOptions& o) noexcept {
     const auto inside = [](int i, std::size_t n) { return i >= 0 && static_cast<std::size_t>(i) < n; };
     for (const WindowPointObservation& k : w.point_observations)
@@ -32188,8 +32111,8 @@ class BasicWindowStructure {
     return w.camera.valid() ? Status::ok : Status::invalid_argument;
   }
 
-  /// From the observations whose own status is ok: prunes what cannot be determined (writing statuses), measures the
-  /// gauge and lays out the blocks. Allocates where the window exceeds every earlier one.
+  /// Leaves out what the observations with status ok do not determine (and writes statuses), measures the gauge and
+  /// lays out the blocks. Allocates where the window exceeds every earlier one.
   Status build(Window& w, const WindowOptions& o) {
     landmark_used.assign(w.points.size() + w.texts.size(), 0);
     camera_of_frame.assign(w.frames.size(), -1);
@@ -32220,7 +32143,7 @@ class BasicWindowStructure {
   }
 
  private:
-  // One pass of leaving out what the rest does not determine; true if it left out anything.
+  // One pass of leaving out what the rest does not determine. Whether it left out anything.
   bool prune(Window& w) {
     observations_.assign(landmark_used.size(), 0);
     equations_.assign(w.frames.size(), 0);
@@ -32283,7 +32206,7 @@ class BasicWindowStructure {
     at(parent_, std::max(ra, rb)) = std::min(ra, rb);
   }
 
-  // Counts the degrees of freedom that nothing takes away, for each set of frames that are connected through landmarks.
+  // Counts the degrees of freedom that nothing fixes, for each set of frames that landmarks connect.
   void measure_gauge(const Window& w, const WindowOptions& o) {
     const int frames = count(w.frames), points = count(w.points);
     parent_.resize(static_cast<std::size_t>(frames) + landmark_used.size());
@@ -32295,7 +32218,7 @@ class BasicWindowStructure {
     for (int k = 0; k < count(text_active); ++k)
       if (at(text_active, k)) join(at(w.text_observations, k).frame, at(w.texts, at(w.text_observations, k).text).host);
 
-    // A root is the smallest index of its set, and every set of interest holds a frame: roots index frames.
+    // A root is the smallest index of its set. Every set of interest holds a frame, so roots index frames.
     for (int f = 0; f < frames; ++f) {
       Anchor& anchor = at(anchors_, root(f));
       if (at(camera_of_frame, f) >= 0) anchor.free = true;
@@ -32310,8 +32233,7 @@ class BasicWindowStructure {
     }
     for (int t = 0; t < count(w.texts); ++t)
       if (at(w.texts, t).fixed && at(landmark_used, points + t)) at(anchors_, root(at(w.texts, t).host)).scale = true;
-    // Fixed points anchor each set that sees them; three leave no freedom (unless they are collinear, which the
-    // factorisation tells).
+    // Fixed points anchor each set that sees them. Three leave no freedom; the factorisation finds collinear ones.
     for (int k = 0; k < count(point_active); ++k)
       if (at(point_active, k) && at(w.points, at(w.point_observations, k).point).fixed)
         at(anchors_, root(at(w.point_observations, k).frame)).note_fixed_point(at(w.point_observations, k).point);
@@ -32343,7 +32265,7 @@ class BasicWindowStructure {
     host_slot.assign(text_active.size(), -1);
     target_slot.assign(text_active.size(), -1);
 
-    // First with duplicates, by counting; then each landmark's range is sorted, made unique and closed up.
+    // Counts and fills the ranges with duplicates, then sorts each, removes duplicates and closes the gaps.
     for_each_coupling(w, points, [&](int landmark, int, int&) { ++at(slot_begin, landmark + 1); });
     for (std::size_t l = 1; l < slot_begin.size(); ++l) slot_begin[l] += slot_begin[l - 1];
     slot_camera.assign(static_cast<std::size_t>(slot_begin.back()), -1);
@@ -32368,7 +32290,7 @@ class BasicWindowStructure {
     });
   }
 
-  // f(landmark, camera, slot to fill in) for each active observation of a free landmark by a free camera.
+  // Calls f(landmark, camera, its slot) for each active observation of a free landmark by a free camera.
   template <class F>
   void for_each_coupling(const Window& w, int points, F f) {
     for (int k = 0; k < count(point_active); ++k) {
@@ -32415,7 +32337,7 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-/// S is double: a template, so that a file which only includes the header pays for none of it.
+/// S is double. It is a template so that files that do not call it do not compile it.
 template <class S>
 class BasicWindowSchur {
  public:
@@ -32439,8 +32361,7 @@ class BasicWindowSchur {
     scale_row_.clear();
   }
 
-  /// The equality sum of row . x = 0 on the translations of two cameras (-1: a fixed frame, no entries): the scale
-  /// gauge.
+  /// The scale gauge: row_a . x_a + row_b . x_b = 0 for the translations of two cameras (-1: a fixed frame).
   void set_scale_row(int camera_a, const Vector3<S>& row_a, int camera_b, const Vector3<S>& row_b) {
     scale_row_.assign(camera_gradient_.size(), 0.0);
     for (int i = 0; i < 3; ++i) {
@@ -32468,8 +32389,8 @@ class BasicWindowSchur {
   }
   void add_coupling(int slot, const Matrix63& H) noexcept { at(coupling_, slot) += H; }
 
-  /// The same of two residuals e, whose derivatives are `rows`; `weighted` are derivatives times the weight, for a
-  /// coupling those by the camera.
+  /// The same from two residuals e with derivatives `rows`. `weighted`: derivatives times weight, by the camera for a
+  /// coupling.
   void add_camera(int camera, const Matrix26& weighted, const Matrix26& rows, const Vector2<S>& e) noexcept {
     add_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
     add_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
@@ -32482,9 +32403,9 @@ class BasicWindowSchur {
     add_rows<6, 3>(weighted.data(), rows.data(), at(coupling_, slot).data());
   }
 
-  /// Builds and factorises S of the system damped by lambda times its diagonal. False where numbers overflowed. With
-  /// lambda 0 landmarks and cameras that the system does not determine are marked (landmark_deficient(),
-  /// camera_deficient()) and held in those directions.
+  /// Builds and factorises S of the system, damped by lambda times its diagonal. False where numbers overflow. With
+  /// lambda 0 it marks undetermined landmarks and cameras (landmark_deficient(), camera_deficient()) and holds them in
+  /// those directions.
   bool reduce(double lambda) {
     const BasicWindowStructure<S>& s = *structure_;
     const int cameras = s.cameras(), landmarks = s.landmarks();
@@ -32542,7 +32463,7 @@ class BasicWindowSchur {
   Vector6<S> camera_step(int camera) const noexcept { return six(camera_step_, camera); }
   const Vector3<S>& landmark_step(int landmark) const noexcept { return at(landmark_step_, landmark); }
 
-  /// What the quadratic model says the step takes off the cost: -g.x + lambda x.D x.
+  /// The decrease of the quadratic model's cost: -g.x + lambda x.D x.
   double predicted_decrease() const noexcept {
     double sum = 0;
     for (std::size_t i = 0; i < camera_step_.size(); ++i)
@@ -32567,8 +32488,8 @@ class BasicWindowSchur {
 
   const Matrix3<S>& information(int landmark) const noexcept { return at(landmark_, landmark); }
 
-  /// After reduce(0): the landmark's 3 x 3 block of the inverse of the whole system (under the scale gauge):
-  /// V^-1 + V^-1 W^T S^-1 W V^-1.
+  /// After reduce(0): the landmark's 3 x 3 block of the system's inverse, V^-1 + V^-1 W^T S^-1 W V^-1, under the scale
+  /// gauge.
   Matrix3<S> covariance(int landmark) {
     const BasicWindowStructure<S>& s = *structure_;
     const int begin = at(s.slot_begin, landmark), end = at(s.slot_begin, landmark + 1);
@@ -32612,7 +32533,7 @@ class BasicWindowSchur {
     return v;
   }
 
-  // Marquardt's diagonal of the cameras, never zero.
+  // The cameras' Marquardt diagonal, never zero.
   void read_diagonal(int cameras) {
     diagonal_.resize(6 * static_cast<std::size_t>(cameras));
     double largest = 0;
@@ -32630,8 +32551,8 @@ class BasicWindowSchur {
     return d.cwiseMax(1e-9 * d.sum());
   }
 
-  // (V + lambda D)^-1. A landmark without parallax keeps a trace of damping even where lambda is 0; one without
-  // information does not move.
+  // (V + lambda D)^-1. A landmark without parallax is damped a little even where lambda is 0. One without information
+  // does not move.
   void invert(int l) noexcept {
     Matrix3<S> v = at(landmark_, l);
     v.diagonal() += lambda_ * damping(l);
@@ -32646,8 +32567,7 @@ class BasicWindowSchur {
     if (damped.ok()) at(inverse_, l) = damped.inverse();
   }
 
-  // With n the scale row, S + w n n^T has the same solutions under n.x = 0 and is regular where n carries the only
-  // missing direction.
+  // S <- S + w n n^T, n the scale row. Solutions with n.x = 0 stay, and the missing direction n is filled.
   void add_scale_weight() noexcept {
     if (scale_row_.empty()) return;
     double weight = 0;
@@ -32690,8 +32610,8 @@ using WindowSchur = BasicWindowSchur<double>;
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_WINDOW_SCHUR_HPP
-// The terms of a window's cost: reprojection errors of points and photometric errors of texts, their derivatives by
-// poses and landmarks, and their values at a trial state.
+// The terms of a window's cost, reprojection errors of points and photometric errors of texts: derivatives by poses and
+// landmarks, and values at a trial state.
 #ifndef TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
 #define TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
 
@@ -32704,18 +32624,18 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
-/// Cost of a trial on the visible sets of the last linearisation.
+/// Cost of a trial on the pixels that the last linearisation saw.
 struct WindowTrial {
   double cost = 0;
   double lost_fraction = 0;
   bool possible = false;  ///< False where a point went behind a camera or the cost is not finite.
 };
 
-/// S is double, as in BasicWindowSchur.
+/// S is double, see BasicWindowSchur.
 template <class S>
 class BasicWindowTerms {
  public:
-  /// Resets the out fields, finds unusable elements, linearises the texts. Allocates for the largest window so far.
+  /// Resets the out fields, marks unusable elements, linearises the texts. Allocates for the largest window so far.
   void prepare(Window& w, const WindowOptions& o, const WindowState& x) {
     path_ = Path::kernel;
     for (WindowFrame& f : w.frames) f.status = Status::ok;
@@ -32762,8 +32682,7 @@ class BasicWindowTerms {
         at(w.text_observations, k).status = linearise_text(w, o, x, k);
   }
 
-  /// Text normal equations at x, for the active observations; those that fail are taken out for good, with their
-  /// status.
+  /// Linearises the active texts at x. Those that fail are left out from now on, with their status.
   void linearise_texts(Window& w, const WindowOptions& o, const WindowState& x, BasicWindowStructure<S>& s) {
     for (int k = 0; k < count(s.text_active); ++k) {
       if (!at(s.text_active, k)) continue;
@@ -32772,7 +32691,7 @@ class BasicWindowTerms {
     }
   }
 
-  /// All sums at x, with the texts as linearised last. Returns the cost.
+  /// Sums all terms at x, texts as last linearised. Returns the cost.
   double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                     BasicWindowSchur<S>& out) const {
     out.begin(s);
@@ -32790,8 +32709,8 @@ class BasicWindowTerms {
     return cost;
   }
 
-  /// Cost of the trial y. A point that would go behind one of its cameras takes back its position in x: one such point
-  /// must not spoil the step of all others.
+  /// Cost of the trial y. A point that goes behind a camera returns to its position in x, so that it does not spoil the
+  /// step of all others.
   WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                        WindowState& y) {
     WindowTrial trial;
@@ -32828,7 +32747,7 @@ class BasicWindowTerms {
     return trial;
   }
 
-  /// Writes chi2, zncc and visible counts of all observations at x; texts as linearised last.
+  /// Writes chi2, zncc and visible counts of all observations at x, texts as last linearised.
   void report(Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s) {
     for (WindowPointObservation& k : w.point_observations) {
       Vector3<S> p_c;
@@ -32850,10 +32769,9 @@ class BasicWindowTerms {
       if (t.used_observations > 0) t.zncc /= t.used_observations;
   }
 
-  /// What computed the texts since prepare().
-  Path path() const noexcept { return path_; }
+  Path path() const noexcept { return path_; }  ///< What computed the texts since prepare().
 
-  /// Mean distance from the cameras of what the active observations see: the length that steps are compared with.
+  /// Mean depth of the active observations, the unit of length for step_tolerance.
   double mean_depth(const Window& w, const WindowOptions& o, const WindowState& x,
                     const BasicWindowStructure<S>& s) const {
     double sum = 0;
@@ -32949,7 +32867,7 @@ class BasicWindowTerms {
     return o.point_robust.rho(r2);
   }
 
-  // The 9 parameters (xi of T_t_h, left; theta) seen from the two world poses: host = Ad(T_t_h), target = -1.
+  // From xi of T_t_h (left) to the world poses: d xi / d xi_host = Ad(T_t_h), d xi / d xi_target = -1.
   double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                   int k, BasicWindowSchur<S>& out) const noexcept {
     const WindowTextObservation& ob = at(w.text_observations, k);
@@ -32991,12 +32909,12 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Memory of solve_window(), to be reused from call to call: a call allocates only where its window exceeds every
-/// earlier one, and then in its set-up. Not to be shared by two threads at a time.
+/// Memory of solve_window(), to be reused from call to call; for one thread at a time. A call allocates only in its
+/// set-up, where its window exceeds every earlier one.
 struct WindowWorkspace {
   detail::WindowState current;        ///< The estimate.
-  detail::WindowState trial;          ///< The one that a step leads to.
-  detail::WindowStructure structure;  ///< Which unknowns there are and how they meet.
+  detail::WindowState trial;          ///< The estimate after a step.
+  detail::WindowStructure structure;  ///< The unknowns and their couplings.
   detail::WindowTerms terms;          ///< The linearised texts.
   detail::WindowSchur system;         ///< The normal equations.
 };
@@ -33070,7 +32988,7 @@ class WindowSolver {
     return Status::iteration_limit;
   }
 
-  // y = x moved by the step of the system. Returns the largest move relative to the scale of its parameter.
+  // y = x moved by the step. Returns the largest move relative to the scale of its parameter.
   double move() {
     y_.T_w_c = x_.T_w_c;
     y_.landmark = x_.landmark;
@@ -33113,7 +33031,7 @@ class WindowSolver {
     cost_ = terms_.accumulate(w_, o_, x_, structure_, system_);
   }
 
-  // Costs below this are rounding: 1e-10 sigma an observation, and of texts the single precision of the kernels.
+  // Costs below this are rounding errors: 1e-10 sigma an observation, and for texts the kernels' float.
   double noise() const noexcept {
     const int texts = count(w_.text_observations);
     const double rounding = 1e-20 * (count(w_.point_observations) + texts);
@@ -33153,9 +33071,9 @@ class WindowSolver {
     ++sum_.undetermined;
   }
 
-  // Where no step lowers the cost: converged if the first one promised at most this share of it.
+  // Where no step lowers the cost: converged if the first one predicted a decrease of at most this share.
   static constexpr double kStall = 1e-3;
-  // Share of the cost that rounding makes in kernels that sum in float.
+  // Rounding error of kernels that sum in float, as a share of the cost.
   static constexpr double kSinglePrecision = 1e-7;
 
   Window& w_;
@@ -33170,11 +33088,10 @@ class WindowSolver {
 
 }  // namespace detail
 
-/// Adjusts the window in place: free poses, points and planes move, and the fields marked "out" are written. See
-/// WindowSummary for the statuses; unless is_ok(status) or diverged, poses, points and planes are as they were.
-/// Deterministic: the same window gives the same bits, whatever the workspace held before. Allocates as WindowWorkspace
-/// says (and throws std::bad_alloc like any container); never throws otherwise. One thread; calls on different windows
-/// and workspaces may run at the same time. (S is double: a template, so that including the header costs little.)
+/// Adjusts free poses, points and planes of the window in place, and writes the fields marked "out". Statuses: see
+/// WindowSummary; unless is_ok(status) or diverged, poses, points and planes stay as they were. Deterministic: the same
+/// window gives the same bits, with any workspace. Throws only std::bad_alloc, where it allocates as WindowWorkspace
+/// says. Thread-safe for distinct windows and workspaces. S is double, see BasicWindowSchur.
 template <class S = double>
 WindowSummary solve_window(Window& window, const WindowOptions& options, WindowWorkspace& workspace) {
   return detail::WindowSolver<S>(window, options, workspace).run();
@@ -33186,10 +33103,8 @@ WindowSummary solve_window(Window& window, const WindowOptions& options = {}) {
   return solve_window<S>(window, options, workspace);
 }
 
-#if defined(TEXTPLANE_EXTERN_KERNELS)
-TEXTPLANE_INSTANCE WindowSummary solve_window<double>(Window&, const WindowOptions&, WindowWorkspace&);
-TEXTPLANE_INSTANCE WindowSummary solve_window<double>(Window&, const WindowOptions&);
-#endif
+TEXTPLANE_INSTANCE(WindowSummary solve_window<double>(Window&, const WindowOptions&, WindowWorkspace&));
+TEXTPLANE_INSTANCE(WindowSummary solve_window<double>(Window&, const WindowOptions&));
 
 TEXTPLANE_END_NAMESPACE
 
