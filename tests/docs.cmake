@@ -26,6 +26,4 @@ if(Python3_FOUND)
     textplane_label(style.${check})
     set_tests_properties(style.${check} PROPERTIES SKIP_RETURN_CODE 77)
   endforeach()
-  # Not yet: lines, files, folders and functions are being cut to size.
-  set_tests_properties(style.columns style.file style.folder style.function PROPERTIES DISABLED ON)
 endif()
