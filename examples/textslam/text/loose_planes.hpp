@@ -1,7 +1,8 @@
 // Loose planes: text planes from map points alone, the paper's comparison for planes that take part in tracking.
 //
 // A text has the same life as in mode `text` (text_mapper.hpp). But with every key frame, three-point RANSAC over the
-// map points in its quad finds its plane anew. No pixel is compared (zncc stays 0); poses and points are as in `points`.
+// map points in its quad finds its plane anew. No pixel is compared, so zncc stays 0. Poses and points are those of
+// mode `points`.
 #ifndef TEXTSLAM_TEXT_LOOSE_PLANES_HPP
 #define TEXTSLAM_TEXT_LOOSE_PLANES_HPP
 
