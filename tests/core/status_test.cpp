@@ -9,7 +9,7 @@ namespace tp = textplane;
 
 namespace status_test {
 
-constexpr int kCount = static_cast<int>(tp::Status::diverged) + 1;
+constexpr int kCount = static_cast<int>(tp::Status::unsupported) + 1;
 
 TEST(StatusTest, OnlyTheFirstThreeCarryAResult) {
   for (int i = 0; i < kCount; ++i) EXPECT_EQ(tp::is_ok(static_cast<tp::Status>(i)), i < 3) << i;
