@@ -1,8 +1,7 @@
 // Loose planes: text planes from map points alone, the paper's comparison for planes that take part in tracking.
 //
-// A text has the same life as in mode `text` (text_mapper.hpp). But with every key frame, three-point RANSAC over the
-// map points in its quad finds its plane anew. No pixel is compared, so zncc stays 0. Poses and points are those of
-// mode `points`.
+// A text lives as in mode `text` (text_mapper.hpp), but every key frame finds its plane anew by three-point RANSAC over
+// the map points in its quad. No pixel is compared (zncc stays 0); poses and points are those of mode `points`.
 #ifndef TEXTSLAM_TEXT_LOOSE_PLANES_HPP
 #define TEXTSLAM_TEXT_LOOSE_PLANES_HPP
 

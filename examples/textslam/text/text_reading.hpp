@@ -1,7 +1,7 @@
 // Reading of the mapped texts once their planes are known.
 //
-// A detector's box round a slanted text is sheared, foreshortened and often blurred. So the text is rectified by its
-// plane and read in its sharpest views. The readings vote for its word.
+// A detector's box round a slanted text is sheared, foreshortened and often blurred. The plane rectifies the text, and
+// it is read in its sharpest views. The readings vote for its word.
 #ifndef TEXTSLAM_TEXT_TEXT_READING_HPP
 #define TEXTSLAM_TEXT_TEXT_READING_HPP
 
