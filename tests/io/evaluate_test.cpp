@@ -14,14 +14,6 @@ using random_similarity::Random;
 using random_similarity::Vector;
 using textplane::so3_exp;
 
-Similarity inverse(const Similarity& s) {
-  Similarity out;
-  out.scale = 1 / s.scale;
-  out.R = s.R.transpose();
-  out.t = -out.scale * (out.R * s.t);
-  return out;
-}
-
 StampedPose at(double time, const Vector& t, const Matrix3<double>& R = Matrix3<double>::Identity()) {
   StampedPose pose;
   pose.timestamp = time;
