@@ -104,7 +104,7 @@ TEST(QuadTest, ContainsAgreesWithTheWindingAngle) {
   Random random(2);
   for (int i = 0; i < 50; ++i) {
     const Quad q = random_convex(random, {0, 0}, 10);
-    const Polygon hull = tp::convex_hull(q);
+    const tp::ConvexPolygon<double> hull = tp::convex_hull(q);
     for (int k = 0; k < 100; ++k) {
       const Vector2d p = random.vector<2>(12);
       EXPECT_EQ(tp::contains(q, p), inside_by_angles(q, p));
