@@ -30,7 +30,7 @@ class FrameSource {
  public:
   FrameSource(const Sequence& sequence, const RunOptions& options)
       : sequence_(sequence),
-        parameters_(options.parameters),
+        pyramid_levels_(at_size(options.parameters, sequence.camera.width, sequence.camera.height).pyramid_levels),
         first_(static_cast<std::size_t>(options.first)),
         undistort_(sequence.camera),
         detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)),
@@ -53,11 +53,11 @@ class FrameSource {
   std::size_t at(int index) const { return first_ + static_cast<std::size_t>(index); }
   std::shared_ptr<const Pyramid> pyramid(const Image<std::uint8_t>& raw) const {
     const Image<std::uint8_t> image = undistort_(raw);
-    return std::make_shared<const Pyramid>(image.view(), parameters_.pyramid_levels);
+    return std::make_shared<const Pyramid>(image.view(), pyramid_levels_);
   }
 
   const Sequence& sequence_;
-  const Parameters& parameters_;
+  int pyramid_levels_;
   std::size_t first_;
   Undistorter undistort_;
   std::shared_ptr<TextDetector> detector_;

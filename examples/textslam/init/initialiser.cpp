@@ -45,7 +45,7 @@ bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) 
     restart(frame);
     return false;
   }
-  const RotationPrior prior = align_rotation(last_, frame, map.camera, Eigen::Matrix3d::Identity(), parameters_);
+  const RotationPrior prior = find_rotation(last_, frame, map.camera, Eigen::Matrix3d::Identity(), parameters_);
   std::vector<Vec2f> guesses;
   for (const Track& track : tracks_) {
     const Vec3 m = prior.R_b_a * map.camera.unproject(track.px.cast<double>());

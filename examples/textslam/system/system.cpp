@@ -17,7 +17,7 @@
 namespace textslam {
 
 System::System(const Pinhole<double>& camera, int width, int height, const Parameters& parameters)
-    : parameters_(parameters),
+    : parameters_(at_size(parameters, width, height)),
       initialiser_(parameters_),
       text_mapper_(map_, local_, parameters_),
       adjuster_(parameters_) {
@@ -151,7 +151,7 @@ void System::lose(FrameRecord& record) {
 
 bool System::keyframe_needed(const Frame& frame) const {
   const KeyFrame& last = map_.keyframe(last_keyframe_);
-  if (frame.index - last.frame.index < parameters_.keyframe_min_gap) return false;
+  const bool recent = frame.index - last.frame.index < parameters_.keyframe_min_gap;
   std::vector<double> flow;
   int points = 0;
   for (const Track& track : tracker_->tracks()) {
@@ -160,8 +160,8 @@ bool System::keyframe_needed(const Frame& frame) const {
     if (!observations.empty() && observations.back().keyframe == last_keyframe_)
       flow.push_back((observations.back().px - track.px.cast<double>()).norm());
   }
-  if (static_cast<int>(flow.size()) < parameters_.keyframe_min_tracks ||
-      points < parameters_.keyframe_min_share * last_keyframe_points_)
+  const double share = recent ? parameters_.keyframe_urgent_share : parameters_.keyframe_min_share;
+  if (static_cast<int>(flow.size()) < parameters_.keyframe_min_tracks || points < share * last_keyframe_points_)
     return true;
   return median(std::move(flow)) > parameters_.keyframe_flow;
 }

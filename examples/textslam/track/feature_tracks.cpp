@@ -10,10 +10,10 @@
 namespace textslam {
 namespace {
 
-textplane::KltOptions klt_options(const Parameters& parameters) {
+textplane::KltOptions klt_options(const Parameters& parameters, const Frame& from, const Frame& to) {
   textplane::KltOptions options;
   options.radius = parameters.klt_radius;
-  options.levels = parameters.pyramid_levels;
+  options.levels = std::min({parameters.pyramid_levels, from.image->levels(), to.image->levels()});
   options.max_forward_backward = parameters.max_forward_backward;
   options.min_zncc = parameters.min_track_zncc;
   return options;
@@ -48,7 +48,7 @@ void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>
   std::vector<Vec2f> start;
   for (const Track& track : tracks) start.push_back(track.px);
   const std::vector<textplane::KltResult> results =
-      follow(from, to, start, guesses, klt_options(parameters), parameters.klt_fine_levels);
+      follow(from, to, start, guesses, klt_options(parameters, from, to), parameters.klt_fine_levels);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (!textplane::is_ok(results[i].status)) continue;

@@ -19,6 +19,10 @@ struct RotationPrior {
 RotationPrior align_rotation(const Frame& a, const Frame& b, const Pinhole<double>& camera,
                              const Eigen::Matrix3d& start, const Parameters& parameters);
 
+/// The same; where the images do not agree well there, other rotations are tried, too.
+RotationPrior find_rotation(const Frame& a, const Frame& b, const Pinhole<double>& camera,
+                            const Eigen::Matrix3d& start, const Parameters& parameters);
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_TRACK_ROTATION_PRIOR_HPP

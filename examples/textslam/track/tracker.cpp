@@ -1,5 +1,8 @@
 #include "textslam/track/tracker.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "io/clock.hpp"
 #include "textplane/solver/pose.hpp"
 #include "textslam/map/text_geometry.hpp"
@@ -25,18 +28,22 @@ void Tracker::correct(const SE3d& T_c_w, double scale) {
 TrackReport Tracker::track(const Frame& frame) {
   TrackReport report;
   const double t0 = now_ms();
-  const SE3d predicted = follow_corners(frame);
+  const SE3d predicted = predict(frame);
+  std::vector<Track> corners = take_corners();
+  follow_points(frame, predicted);
   const double t1 = now_ms();
   SE3d pose = predicted;
   if (!fit_pose(frame, false, &pose, &report)) pose = predicted;
   const double t2 = now_ms();
-  reobserve(frame, pose, &report);
+  follow_corners(frame, pose, std::move(corners));
   const double t3 = now_ms();
-  report.ok = fit_pose(frame, parameters_.mode == Mode::text, &pose, &report);
+  reobserve(frame, pose, &report);
   const double t4 = now_ms();
-  report.klt_ms = t1 - t0;
-  report.reobserve_ms = t3 - t2;
-  report.pose_ms = (t2 - t1) + (t4 - t3);
+  report.ok = fit_pose(frame, parameters_.mode == Mode::text, &pose, &report);
+  const double t5 = now_ms();
+  report.klt_ms = (t1 - t0) + (t3 - t2);
+  report.reobserve_ms = t4 - t3;
+  report.pose_ms = (t2 - t1) + (t5 - t4);
   if (!report.ok) pose = predicted;
   report.T_c_w = pose;
 
@@ -49,32 +56,69 @@ TrackReport Tracker::track(const Frame& frame) {
   return report;
 }
 
-// Moves the tracks into the frame. Returns its predicted pose.
-SE3d Tracker::follow_corners(const Frame& frame) {
+SE3d Tracker::predict(const Frame& frame) const {
   const Eigen::Matrix3d last_turn = moving_ ? velocity_.R : Eigen::Matrix3d::Identity();
-  const RotationPrior prior = align_rotation(frame_, frame, map_.camera, last_turn, parameters_);
-  const bool aligned = prior.zncc > parameters_.rotation_min_zncc;
-  const Eigen::Matrix3d turn = aligned ? prior.R_b_a : last_turn;
-
-  // Alignment takes sideways motion for rotation, so it replaces the velocity only where they are far apart.
+  const RotationPrior prior = find_rotation(frame_, frame, map_.camera, last_turn, parameters_);
   SE3d predicted = (moving_ ? velocity_ : SE3d{}) * T_c_w_;
-  if (aligned &&
-      textplane::so3_log<double>(turn * last_turn.transpose()).norm() > radians(parameters_.rotation_max_change)) {
+  // Alignment takes sideways motion for rotation, so it replaces the velocity only where they are far apart.
+  if (prior.zncc > parameters_.rotation_min_zncc &&
+      textplane::so3_log<double>(prior.R_b_a * last_turn.transpose()).norm() >
+          radians(parameters_.rotation_max_change)) {
     const Vec3 centre = predicted.inverse().t;
-    predicted.R = turn * T_c_w_.R;
+    predicted.R = prior.R_b_a * T_c_w_.R;
     predicted.t = -(predicted.R * centre);
   }
-
-  // Points of the map are expected where the predicted pose sees them, corners without depth where the turn takes them.
-  constexpr double kMinDepth = 0.1;  // nearer, the projection of a guess means nothing
-  std::vector<Vec2f> guesses;
-  for (const Track& track : tracks_) {
-    const Vec3 turned = turn * map_.camera.unproject(track.px.cast<double>());
-    const Vec3 m = track.point >= 0 && track.inlier ? predicted * map_.point(track.point).p_w : turned;
-    guesses.push_back(m.z() > kMinDepth ? map_.camera.project(m).cast<float>() : track.px);
-  }
-  advance_tracks(frame_, frame, guesses, parameters_, tracks_);
   return predicted;
+}
+
+// The tracks that have no point of the map, which are left.
+std::vector<Track> Tracker::take_corners() {
+  const auto first = std::stable_partition(tracks_.begin(), tracks_.end(), [](const Track& t) { return t.point >= 0; });
+  std::vector<Track> corners(std::make_move_iterator(first), std::make_move_iterator(tracks_.end()));
+  tracks_.erase(first, tracks_.end());
+  return corners;
+}
+
+Vec2f Tracker::guess(const Vec3& p_c, const Vec2f& otherwise) const {
+  constexpr double kMinDepth = 0.1;  // nearer, the projection of a guess means nothing
+  return p_c.z() > kMinDepth ? map_.camera.project(p_c).cast<float>() : otherwise;
+}
+
+// Points of the map are expected where the predicted pose sees them.
+void Tracker::follow_points(const Frame& frame, const SE3d& predicted) {
+  const Eigen::Matrix3d turn = predicted.R * T_c_w_.R.transpose();
+  std::vector<Vec2f> guesses;
+  for (const Track& track : tracks_)
+    guesses.push_back(guess(track.inlier ? predicted * map_.point(track.point).p_w
+                                         : Vec3(turn * map_.camera.unproject(track.px.cast<double>())),
+                            track.px));
+  advance_tracks(frame_, frame, guesses, parameters_, tracks_);
+}
+
+// Corners without depth are expected as if they were as far away as the nearest point of the map.
+void Tracker::follow_corners(const Frame& frame, const SE3d& T_c_w, std::vector<Track> corners) {
+  struct Depth {
+    Vec2f px;
+    double z;
+  };
+  std::vector<Depth> depths;
+  for (const Track& track : tracks_) {
+    if (!track.inlier) continue;
+    const Vec3 p = T_c_w_ * map_.point(track.point).p_w;
+    if (p.z() > 0) depths.push_back({map_.camera.project(p).cast<float>(), p.z()});
+  }
+  const SE3d T_now_before = T_c_w * T_c_w_.inverse();
+  std::vector<Vec2f> guesses;
+  for (const Track& corner : corners) {
+    const Vec3 ray = map_.camera.unproject(corner.px.cast<double>());
+    const auto nearest = std::min_element(depths.begin(), depths.end(), [&](const Depth& a, const Depth& b) {
+      return (a.px - corner.px).squaredNorm() < (b.px - corner.px).squaredNorm();
+    });
+    guesses.push_back(guess(nearest == depths.end() ? Vec3(T_now_before.R * ray) : T_now_before * (nearest->z * ray),
+                            corner.px));
+  }
+  advance_tracks(frame_, frame, guesses, parameters_, corners);
+  tracks_.insert(tracks_.end(), std::make_move_iterator(corners.begin()), std::make_move_iterator(corners.end()));
 }
 
 void Tracker::reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report) {

@@ -1,8 +1,9 @@
 // Tracker: the pose of a frame by the map. It never changes the map, so it also fills in frames before the map began,
 // and tries a lost frame against an old key frame.
 //
-// Prediction (constant velocity, rotation by whole-image alignment) -> KLT -> pose from points -> search for other map
-// points and those that drifted, by their key frame's patch -> pose from points and text, coarse to fine.
+// Prediction (constant velocity, rotation by whole-image alignment) -> KLT of map points -> pose from points -> KLT of
+// other corners, expected by that pose -> search for other map points and those that drifted, by their key frame's patch
+// -> pose from points and text, coarse to fine.
 #ifndef TEXTSLAM_TRACK_TRACKER_HPP
 #define TEXTSLAM_TRACK_TRACKER_HPP
 
@@ -48,7 +49,11 @@ class Tracker {
     PointPrediction prediction;
   };
 
-  SE3d follow_corners(const Frame& frame);
+  SE3d predict(const Frame& frame) const;
+  std::vector<Track> take_corners();
+  Vec2f guess(const Vec3& p_c, const Vec2f& otherwise) const;
+  void follow_points(const Frame& frame, const SE3d& predicted);
+  void follow_corners(const Frame& frame, const SE3d& T_c_w, std::vector<Track> corners);
   void reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report);
   void relocate(const Frame& frame, const Candidate& candidate);
   bool fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report);
