@@ -21,7 +21,6 @@ void Initialiser::restart(const Frame& frame) {
   if (parameters_.mode == Mode::text) quads = quads_of(frame.detections);
   add_corners(frame, 0, quads, parameters_, tracks_);
   hypotheses_.clear();
-  waited_ = 0;
 }
 
 void Initialiser::add_detections(int frame, std::vector<Detection> detections) {
@@ -91,12 +90,12 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const Pinhol
     if (motion.cost <= limit * view.motions.front().cost) close.push_back(motion.T_b_a);
   if (close.size() < 2) return Motion{view.T_b_a, view.inlier};
   hypotheses_.begin(close);
+  began_ = last_.timestamp;
   for (Track& track : tracks_) track.observations.push_back({1, track.px.cast<double>()});
   return std::nullopt;
 }
 
 std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const Pinhole<double>& camera) {
-  ++waited_;
   std::vector<double> flow;
   for (const Track& track : tracks_) flow.push_back((track.observations.back().px - track.px.cast<double>()).norm());
   if (median(std::move(flow)) < parameters_.init_view_flow) return std::nullopt;
@@ -110,7 +109,7 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const Pinho
     restart(last_);
     return std::nullopt;
   }
-  if (!hypotheses_.won() && waited_ < parameters_.init_patience) return std::nullopt;
+  if (!hypotheses_.won() && last_.timestamp - began_ < parameters_.init_patience) return std::nullopt;
   const Motion best{hypotheses_.T_newest_a(), hypotheses_.inlier()};
   if (std::count(best.inlier.begin(), best.inlier.end(), 1) < matches_needed()) return std::nullopt;
   // The camera may have come back to where it began.

@@ -43,7 +43,7 @@ class Initialiser {
   Frame reference_, last_;
   std::vector<Track> tracks_;    // observations: in the reference frame, then in the views of the hypotheses
   MotionHypotheses hypotheses_;  // empty while two views may decide
-  int waited_ = 0;               // frames since there are hypotheses
+  double began_ = 0;             // time of the frame that the hypotheses are from, s
 };
 
 }  // namespace textslam

@@ -144,14 +144,15 @@ void System::follow(const Frame& frame, FrameRecord& record) {
 
 void System::lose(FrameRecord& record) {
   record.state = FrameState::lost;
-  ++lost_frames_;
+  if (lost_frames_++ == 0) lost_since_ = record.timestamp;
   const bool young = static_cast<int>(map_.keyframes.size()) < parameters_.young_map_keyframes;
-  if (lost_frames_ >= (young ? parameters_.young_map_patience : parameters_.lost_patience)) store_map();
+  const double patience = young ? parameters_.young_map_patience : parameters_.lost_patience;
+  if (record.timestamp - lost_since_ >= patience) store_map();
 }
 
 bool System::keyframe_needed(const Frame& frame) const {
   const KeyFrame& last = map_.keyframe(last_keyframe_);
-  const bool recent = frame.index - last.frame.index < parameters_.keyframe_min_gap;
+  const bool recent = frame.timestamp - last.frame.timestamp < parameters_.keyframe_min_gap;
   std::vector<double> flow;
   int points = 0;
   for (const Track& track : tracker_->tracks()) {

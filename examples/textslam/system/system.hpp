@@ -133,6 +133,7 @@ class System {
   int last_keyframe_ = -1;        // id of the newest
   int last_keyframe_points_ = 0;  // tracked in it
   int lost_frames_ = 0;           // in a row
+  double lost_since_ = 0;         // time of the first of them, s
 };
 
 }  // namespace textslam

@@ -51,7 +51,7 @@ class InitialiserTest : public testing::Test {
       }
     Frame frame;
     frame.index = index;
-    frame.timestamp = 0.04 * index;
+    frame.timestamp = interval * index;
     frame.image = std::make_shared<const Pyramid>(image.view(), parameters.pyramid_levels);
     for (const Vec2& board : boards) {
       Detection detection;
@@ -74,6 +74,7 @@ class InitialiserTest : public testing::Test {
   }
 
   static constexpr double kHalfWidth = 0.4, kHalfHeight = 0.16;
+  double interval = 0.04;                                // s between two frames
   const SE3d T_w_b = moved({0, 0, 2}, {0.25, 0.45, 0});  // z of the wall away from the reader
   std::vector<Vec2> boards = {{-0.35, -0.4}, {0.2, 0.3}};
   Parameters parameters;
@@ -110,6 +111,21 @@ TEST_F(InitialiserTest, OneSignAloneDoesNot) {
   boards.pop_back();
   EXPECT_EQ(begin(), -1);
   EXPECT_TRUE(map.keyframes.empty());
+}
+
+// Where no motion is ever clearly the best, one is taken after a time, and not after a number of frames.
+TEST_F(InitialiserTest, PatienceIsTime) {
+  parameters.init_clear = 1e3;
+  parameters.init_patience = 0;
+  const int earliest = begin();
+  parameters.init_patience = 0.4;
+  const int at_25_hz = begin();
+  interval = 0.2;
+  const int at_5_hz = begin();
+  ASSERT_GT(earliest, 0);
+  EXPECT_GE(at_25_hz, earliest + 10) << "as many frames take 0.4 s";
+  EXPECT_LT(at_5_hz, at_25_hz);
+  EXPECT_GE(at_5_hz, earliest);
 }
 
 }  // namespace initialiser_test

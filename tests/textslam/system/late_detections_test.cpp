@@ -104,7 +104,7 @@ TEST_F(LateDetections, ModePointsDoesNotLookAtThem) {
 // The map is left where the camera is in the dark for long; then its frames are those of another map.
 TEST_F(LateDetections, FramesOfAnotherMapAndLostOnesArePast) {
   Parameters parameters;
-  parameters.lost_patience = parameters.young_map_patience = 3;
+  parameters.lost_patience = parameters.young_map_patience = 0.05;
   auto out = system(parameters);
   int index = 0;
   for (; index < 50; ++index) out->process(load(index));
