@@ -26,8 +26,10 @@ constexpr std::array<Channel, 3> kEastChannels = {{{1, -123.68}, {1, -116.78}, {
 
 int in_steps(double side) { return kStep * std::max(1, static_cast<int>(std::lround(side / kStep))); }
 
-// Blue, green, red: from the frame's file, where it is one of this image; else the grey image.
+// Blue, green, red: the frame's own, or from its file, where it is one of this image; else the grey image.
 cv::Mat in_colour(const FrameRef& frame, ImageView8 raw_image) {
+  if (frame.colour.width() == 3 * raw_image.width() && frame.colour.height() == raw_image.height())
+    return {raw_image.height(), raw_image.width(), CV_8UC3, const_cast<std::uint8_t*>(frame.colour.data())};
   cv::Mat colour;
   if (!frame.path.empty()) colour = cv::imread(frame.path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (colour.cols == raw_image.width() && colour.rows == raw_image.height()) return colour;

@@ -31,8 +31,9 @@ class DnnDetector final : public TextDetector {
   /// or run, or has other outputs.
   explicit DnnDetector(const std::string& model, const DnnParameters& parameters = {});
 
-  /// Text kUnreadText, score in [0, 1]. The networks use colour, so an image file of this size is read again in colour.
-  /// Empty for an invalid view.
+  bool wants_colour() const override { return true; }
+  /// Text kUnreadText, score in [0, 1]. The networks use colour: the frame's own, else an image file of this size is
+  /// read again in colour. Empty for an invalid view.
   std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) override;
 
   bool is_east() const { return outputs_.size() == 2; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "io/input_error.hpp"
@@ -30,11 +31,29 @@ std::string_view take_number(std::string_view* text) {
   return number;
 }
 
-bool is_image_name(const fs::path& name) {
-  static const std::array<const char*, 5> kinds = {".png", ".jpg", ".jpeg", ".pgm", ".ppm"};
+constexpr std::array<const char*, 5> kRead = {".png", ".jpg", ".jpeg", ".pgm", ".ppm"};
+// Those that cameras and programs write, and that are not read.
+constexpr std::array<const char*, 11> kOtherImages = {".webp", ".heic", ".heif", ".avif", ".bmp", ".tif",
+                                                      ".tiff", ".gif",  ".jxl",  ".dng",  ".exr"};
+
+std::string extension_of(const fs::path& name) {
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), lower);
-  return std::find(kinds.begin(), kinds.end(), extension) != kinds.end() && name.string().front() != '.';
+  return name.string().front() == '.' ? "" : extension;
+}
+
+template <class Kinds>
+bool is_among(const Kinds& kinds, const std::string& extension) {
+  return std::find(kinds.begin(), kinds.end(), extension) != kinds.end();
+}
+
+InputError no_images(const std::string& folder, const std::map<std::string, int>& others) {
+  std::string what =
+      "the folder has neither images.txt nor rgb.txt, no mav0/cam0, and no images that are read: JPEG, "
+      "PNG, PGM, PPM";
+  for (const auto& [extension, count] : others)
+    what += "; " + std::to_string(count) + " *" + extension + (count == 1 ? " is" : " are") + " to be converted first";
+  return InputError(folder, 0, what);
 }
 
 }  // namespace
@@ -90,14 +109,19 @@ std::vector<FrameRef> read_frame_list(const std::string& folder, const std::stri
 
 std::vector<std::string> image_names(const std::string& folder) {
   std::vector<std::string> names;
+  std::map<std::string, int> others;
   std::error_code error;
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const fs::path name = entry->path().filename();
     std::error_code ignored;
-    if (is_image_name(name) && !entry->is_directory(ignored)) names.push_back(name.string());
+    if (entry->is_directory(ignored)) continue;
+    const std::string extension = extension_of(name);
+    if (is_among(kRead, extension)) names.push_back(name.string());
+    if (is_among(kOtherImages, extension)) ++others[extension];
   }
   if (error) throw InputError(folder, 0, error.message());
+  if (names.empty()) throw no_images(folder, others);
   std::sort(names.begin(), names.end(), natural_less);
   return names;
 }

@@ -7,9 +7,12 @@
 #ifndef TEXTSLAM_IO_FRAME_LIST_HPP
 #define TEXTSLAM_IO_FRAME_LIST_HPP
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/names.hpp"
 
 namespace textslam {
 
@@ -18,6 +21,8 @@ struct FrameRef {
   std::string path;      ///< the image, or the video
   std::string stem;      ///< of its detections' name: the file name without extension, or the number in a video
   int line = 0;          ///< in the list that names it; 0: no list
+  /// Of a video's frame on its way to a detector that wants_colour(): see load_colour(). Else empty.
+  Image<std::uint8_t> colour = {};
 };
 
 /// The path of images.txt, else of rgb.txt; empty where the folder has neither.
@@ -27,7 +32,8 @@ std::string find_list(const std::string& folder);
 /// missing path or times that do not increase, and for a list without images.
 std::vector<FrameRef> read_frame_list(const std::string& folder, const std::string& list);
 
-/// The names of the images in a folder, in order; may be empty. Throws InputError where the folder cannot be read.
+/// The names of the images in a folder, in order. Throws InputError where the folder cannot be read, and where it has
+/// no images: then it says which formats are read, and which of the folder's are not.
 std::vector<std::string> image_names(const std::string& folder);
 
 /// Frames for these names, `fps` (positive) a second.

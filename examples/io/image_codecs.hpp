@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "io/names.hpp"
 
@@ -14,6 +15,9 @@ namespace textslam {
 Image<std::uint8_t> decode_jpeg(const std::string& bytes, const std::string& path);
 Image<std::uint8_t> decode_png(const std::string& bytes, const std::string& path);
 Image<std::uint8_t> decode_pnm(const std::string& bytes, const std::string& path);
+
+/// EXIF's number of how a JPEG is to be turned; 1 where none is found.
+int jpeg_orientation(std::string_view bytes);
 
 /// Throws InputError for an empty or too large image, before its pixels are allocated.
 void check_image_size(std::size_t width, std::size_t height, const std::string& path);

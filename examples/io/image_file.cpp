@@ -21,6 +21,8 @@ void check_image_size(std::size_t width, std::size_t height, const std::string& 
 
 namespace {
 
+constexpr std::size_t kExifBytes = 1 << 17;  // it comes first, in a segment of at most half as many
+
 using Decoder = Image<std::uint8_t> (*)(const std::string& bytes, const std::string& path);
 
 // By the first bytes; null for an unknown format.
@@ -42,6 +44,14 @@ bool is_image_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   file.read(bytes, sizeof bytes);
   return decoder_of(std::string_view(bytes, static_cast<std::size_t>(file.gcount()))) != nullptr;
+}
+
+int image_orientation(const std::string& path) {
+  std::string bytes(kExifBytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return jpeg_orientation(bytes);
 }
 
 Image<std::uint8_t> load_grey(const std::string& path) {

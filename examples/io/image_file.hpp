@@ -1,8 +1,9 @@
 // Image files: JPEG (libjpeg), PNG (libpng) and the PGM/PPM family into 8-bit grey images, and back.
 //
 // The file's first bytes decide the format, not its name. Colour becomes grey by (299 R + 587 G + 114 B + 500) / 1000;
-// a YCbCr JPEG gives its luma, which has the same weights. Samples of more than 8 bits are scaled down. Alpha, gamma
-// and colour profiles are ignored. A file that decodes only in part counts as broken: half a frame must not be tracked.
+// a YCbCr JPEG gives its luma, which has the same weights; CMYK is white light less its inks. Samples of more than 8
+// bits are scaled down. Alpha, gamma and colour profiles are ignored. A file that decodes only in part counts as
+// broken: half a frame must not be tracked.
 #ifndef TEXTSLAM_IO_IMAGE_FILE_HPP
 #define TEXTSLAM_IO_IMAGE_FILE_HPP
 
@@ -19,6 +20,10 @@ constexpr int kMaxImagePixels = 1 << 27;
 
 /// Whether the file can be read and begins as an image of these formats.
 bool is_image_file(const std::string& path);
+
+/// How the image is to be turned for people, by its EXIF data: 1 as it is, 2 to 8 as EXIF numbers rotations and
+/// mirrorings. 1 for any other file. load_grey() takes images as they are stored.
+int image_orientation(const std::string& path);
 
 /// The image as grey values. Throws InputError (file, no line) when the file is missing, unreadable, of an unknown
 /// kind, corrupt, truncated or too large. Safe to call from several threads.

@@ -1,9 +1,11 @@
 // JPEG by libjpeg. Its errors come back by longjmp, which skips destructors: every setjmp below is in a function
 // that, like all that it calls, has nothing to destroy. Owners live in the callers.
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
+#include <vector>
 
 #include <jpeglib.h>
 
@@ -62,22 +64,62 @@ class JpegReader {
     return true;
   }
 
-  bool read_pixels(std::uint8_t* pixels) {
+  /// Of four inks; libjpeg makes no grey of them.
+  bool is_cmyk() const { return codec_.jpeg_color_space == JCS_CMYK || codec_.jpeg_color_space == JCS_YCCK; }
+
+  /// `inks`: of a row, four a pixel; used for CMYK alone.
+  bool read_pixels(std::uint8_t* pixels, std::uint8_t* inks) {
     if (setjmp(errors_.jump)) return false;
-    codec_.out_color_space = JCS_GRAYSCALE;
+    codec_.out_color_space = is_cmyk() ? JCS_CMYK : JCS_GRAYSCALE;
     jpeg_start_decompress(&codec_);
     while (codec_.output_scanline < codec_.output_height) {
       JSAMPROW row = pixels + std::size_t(codec_.output_scanline) * codec_.output_width;
-      jpeg_read_scanlines(&codec_, &row, 1);
+      jpeg_read_scanlines(&codec_, is_cmyk() ? &inks : &row, 1);
+      if (is_cmyk()) grey_of_inks(inks, row);
     }
     jpeg_finish_decompress(&codec_);
     return true;
   }
 
  private:
+  // Adobe, whose marker tells it, stores what an ink leaves of the light in place of the ink.
+  void grey_of_inks(const std::uint8_t* inks, std::uint8_t* row) const {
+    for (JDIMENSION x = 0; x < codec_.output_width; ++x, inks += 4) {
+      const auto left = [&](int ink) { return codec_.saw_Adobe_marker ? inks[ink] : 255 - inks[ink]; };
+      const auto light = [&](int ink) { return (left(ink) * left(3) + 127) / 255; };
+      row[x] = grey_of(light(0), light(1), light(2));
+    }
+  }
+
   jpeg_decompress_struct codec_{};
   JpegErrors errors_{};
 };
+
+// A number of `size` bytes at `at`, the high byte first or last; -1 beyond the end.
+long number_at(std::string_view bytes, std::size_t at, std::size_t size, bool high_first) {
+  if (at > bytes.size() || bytes.size() - at < size) return -1;
+  long value = 0;
+  for (std::size_t i = 0; i < size; ++i)
+    value = 256 * value + static_cast<unsigned char>(bytes[at + (high_first ? i : size - 1 - i)]);
+  return value;
+}
+
+// The tag of the first directory of EXIF's TIFF data.
+int tiff_orientation(std::string_view tiff) {
+  constexpr long kOrientation = 0x0112;
+  const bool high_first = tiff.substr(0, 4) == std::string_view("MM\0*", 4);
+  if (!high_first && tiff.substr(0, 4) != std::string_view("II*\0", 4)) return 1;
+  const long directory = number_at(tiff, 4, 4, high_first);
+  const auto first = static_cast<std::size_t>(std::max(directory, 0L));
+  const long entries = number_at(tiff, first, 2, high_first);
+  for (long i = 0; i < entries; ++i) {
+    const std::size_t entry = first + 2 + 12 * static_cast<std::size_t>(i);
+    if (number_at(tiff, entry, 2, high_first) != kOrientation) continue;
+    const long value = number_at(tiff, entry + 8, 2, high_first);
+    return value >= 1 && value <= 8 ? static_cast<int>(value) : 1;
+  }
+  return 1;
+}
 
 class JpegWriter {
  public:
@@ -126,8 +168,22 @@ Image<std::uint8_t> decode_jpeg(const std::string& bytes, const std::string& pat
   if (!reader.read_header(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size())) fail();
   check_image_size(reader.width(), reader.height(), path);
   Image<std::uint8_t> image(static_cast<int>(reader.width()), static_cast<int>(reader.height()));
-  if (!reader.read_pixels(image.data())) fail();
+  std::vector<std::uint8_t> inks(reader.is_cmyk() ? 4 * reader.width() : 0);
+  if (!reader.read_pixels(image.data(), inks.data())) fail();
   return image;
+}
+
+int jpeg_orientation(std::string_view bytes) {
+  constexpr std::string_view kExif("Exif\0\0", 6);
+  if (bytes.substr(0, 2) != "\xFF\xD8") return 1;
+  for (std::size_t at = 2; number_at(bytes, at, 1, true) == 0xFF;) {
+    const long kind = number_at(bytes, at + 1, 1, true), length = number_at(bytes, at + 2, 2, true);
+    if (length < 2 || kind == 0xDA) break;  // the picture begins
+    const std::string_view segment = bytes.substr(at + 4, static_cast<std::size_t>(length - 2));
+    if (kind == 0xE1 && segment.substr(0, kExif.size()) == kExif) return tiff_orientation(segment.substr(kExif.size()));
+    at += 2 + static_cast<std::size_t>(length);
+  }
+  return 1;
 }
 
 std::string encode_jpeg(ImageView8 image, int quality) {

@@ -85,9 +85,6 @@ void read_euroc(Sequence* sequence, const EurocFiles& files, const SequenceOptio
 void read_images(Sequence* sequence, const SequenceOptions& options) {
   const std::string& folder = sequence->folder;
   const std::vector<std::string> names = image_names(folder);
-  if (names.empty())
-    throw InputError(folder, 0,
-                     "the folder has neither images.txt nor rgb.txt, no mav0/cam0, and no images (png, jpg, pgm)");
   sequence->images_file = folder;
   sequence->frames = number_frames(folder, names, kUsualFps);
   const std::string camera = inside(folder, "camera.yaml");
@@ -95,6 +92,22 @@ void read_images(Sequence* sequence, const SequenceOptions& options) {
   const double fps = options.fps > 0 ? options.fps : sequence->camera.fps > 0 ? sequence->camera.fps : kUsualFps;
   sequence->frames = number_frames(folder, names, fps);
   sequence->groundtruth = read_groundtruth(folder);
+}
+
+// Of the first image: those of one camera are turned alike.
+void note_orientation(Sequence* sequence) {
+  const int orientation = image_orientation(sequence->frames.front().path);
+  if (orientation == 1) return;
+  sequence->notes.push_back("by their EXIF data (orientation " + std::to_string(orientation) +
+                            ") the images are to be turned or mirrored; they are taken as they are stored. If the text "
+                            "in them is not upright, turn the files first, as exiftran -ai does");
+}
+
+void note_damage(Sequence* sequence) {
+  const std::size_t damaged = sequence->video->damaged();
+  if (damaged > 0)
+    sequence->notes.push_back(sequence->images_file + ": " + std::to_string(damaged) +
+                              (damaged == 1 ? " frame is" : " frames are") + " damaged and left out");
 }
 
 void refuse_fps(const std::string& path, const SequenceOptions& options) {
@@ -124,6 +137,10 @@ Sequence read_sequence(const std::string& path, const SequenceOptions& options) 
     read_images(&sequence, options);
   }
   sequence.has_detections = has_detections(sequence);
+  if (sequence.video)
+    note_damage(&sequence);
+  else
+    note_orientation(&sequence);
   return sequence;
 }
 
@@ -151,6 +168,10 @@ Image<std::uint8_t> load_image(const Sequence& sequence, std::size_t index) {
     if (frame.line == 0) throw;
     throw InputError(sequence.images_file, frame.line, error.what());
   }
+}
+
+Image<std::uint8_t> load_colour(const Sequence& sequence, std::size_t index) {
+  return sequence.video ? sequence.video->load_colour(index) : Image<std::uint8_t>();
 }
 
 Image<std::uint8_t> load_frame(const Sequence& sequence, std::size_t index) {

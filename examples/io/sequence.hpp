@@ -44,6 +44,7 @@ struct Sequence {
   std::string detections;                ///< SequenceOptions::detections
   bool has_detections = false;           ///< a folder of detections exists, or a file beside the first image
   std::shared_ptr<VideoFile> video;      ///< null for images
+  std::vector<std::string> notes;        ///< what the user should know of it: lines without their ends
 };
 
 /// Reads everything but images and detections. Throws InputError, with file and line where there is one, for input that
@@ -63,6 +64,9 @@ std::string frame_name(const Sequence& sequence, std::size_t index);
 Image<std::uint8_t> load_frame(const Sequence& sequence, std::size_t index);
 /// The same for an image of any size.
 Image<std::uint8_t> load_image(const Sequence& sequence, std::size_t index);
+/// A frame of a video in colour: blue, green and red of each pixel in turn, so three times as wide. Quick after
+/// load_image() of the same frame. Empty for images, whose files have their colours.
+Image<std::uint8_t> load_colour(const Sequence& sequence, std::size_t index);
 
 }  // namespace textslam
 

@@ -22,6 +22,11 @@ class VideoFile {
   /// The frame as grey values, upright as the file says it is to be shown. Quick in the order of time, and against it.
   /// Throws InputError (file, no line) where it does not decode.
   virtual Image<std::uint8_t> load(std::size_t index) = 0;
+  /// The same in colour: blue, green and red of each pixel in turn, so three times as wide. Quick after load() of the
+  /// same frame.
+  virtual Image<std::uint8_t> load_colour(std::size_t index) = 0;
+  /// How many frames did not decode and are left out.
+  virtual std::size_t damaged() const = 0;
 };
 
 using VideoOpener = std::unique_ptr<VideoFile> (*)(const std::string& path);

@@ -22,6 +22,7 @@ namespace textslam {
 namespace {
 
 constexpr std::size_t kKeptBytes = std::size_t(1) << 27;
+constexpr int kMaxErrors = 1000;  // in a row: a decoder that goes on failing has ended
 
 struct Free {
   void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
@@ -39,16 +40,16 @@ std::string reason(int error) {
   return text;
 }
 
-// `image` rotated clockwise by multiples of 90 degrees.
-Image<std::uint8_t> turned(const Image<std::uint8_t>& image, int quarters) {
+// `image`, of so many bytes a pixel, rotated clockwise by multiples of 90 degrees.
+Image<std::uint8_t> turned(const Image<std::uint8_t>& image, int channels, int quarters) {
   if (quarters == 0) return image;
-  const int w = image.width(), h = image.height();
-  Image<std::uint8_t> out(quarters == 2 ? w : h, quarters == 2 ? h : w, 0);
+  const int w = image.width() / channels, h = image.height();
+  Image<std::uint8_t> out(channels * (quarters == 2 ? w : h), quarters == 2 ? h : w, 0);
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
       const int X = quarters == 1 ? h - 1 - y : quarters == 2 ? w - 1 - x : y;
       const int Y = quarters == 1 ? x : quarters == 2 ? h - 1 - y : w - 1 - x;
-      out(X, Y) = image(x, y);
+      std::copy_n(&image(channels * x, y), channels, &out(channels * X, Y));
     }
   }
   return out;
@@ -65,6 +66,7 @@ class LibavVideo final : public VideoFile {
       if (stamp != AV_NOPTS_VALUE && (stamps_.empty() || stamp > stamps_.back())) stamps_.push_back(stamp);
     }
     if (stamps_.empty()) throw InputError(path_, 0, "the video has no frame that decodes");
+    damaged_of_file_ = damaged_;
     for (const std::int64_t stamp : stamps_)
       times_.push_back(static_cast<double>(stamp - stamps_.front()) * av_q2d(stream_->time_base));
     open();
@@ -72,23 +74,38 @@ class LibavVideo final : public VideoFile {
 
   const std::vector<double>& times() const override { return times_; }
 
-  Image<std::uint8_t> load(std::size_t index) override {
-    for (const auto& [at, image] : kept_) {
-      if (at == index) return image;
-    }
-    const bool ahead = position_ == 0 || stamps_.at(index) > stamps_[position_ - 1];
-    if (!ahead) seek(stamps_[index]);
-    if (advance_to(index)) return kept_.back().second;
-    // The seek landed after the frame.
-    open();
-    if (advance_to(index)) return kept_.back().second;
-    throw InputError(path_, 0, "frame " + std::to_string(index) + " does not decode");
+  std::size_t damaged() const override { return damaged_of_file_; }
+
+  Image<std::uint8_t> load(std::size_t index) override { return picture(index).grey; }
+
+  Image<std::uint8_t> load_colour(std::size_t index) override {
+    with_colour_ = true;
+    return picture(index).colour;
   }
 
  private:
+  struct Picture {
+    std::size_t index;
+    Image<std::uint8_t> grey, colour;  // colour since it was first asked for
+  };
+
+  const Picture& picture(std::size_t index) {
+    for (const Picture& kept : kept_) {
+      if (kept.index == index && (!with_colour_ || kept.colour.width() > 0)) return kept;
+    }
+    const bool ahead = position_ == 0 || stamps_.at(index) > stamps_[position_ - 1];
+    if (!ahead) seek(stamps_[index]);
+    if (advance_to(index)) return kept_.back();
+    // The seek landed after the frame.
+    open();
+    if (advance_to(index)) return kept_.back();
+    throw InputError(path_, 0, "frame " + std::to_string(index) + " does not decode");
+  }
+
   // Opens the file again, with the decoder before its first frame.
   void open() {
-    scaler_.reset();
+    grey_scaler_.reset();
+    colour_scaler_.reset();
     decoder_.reset();
     format_.reset();
     AVFormatContext* format = nullptr;
@@ -140,22 +157,26 @@ class LibavVideo final : public VideoFile {
 
   // Decodes the next picture into frame_; false at the end. Damaged pictures are skipped.
   bool next_picture() {
-    for (;;) {
+    for (int errors = 0; errors < kMaxErrors;) {
       const int got = avcodec_receive_frame(decoder_.get(), frame_.get());
-      if (got == 0) {
-        if (frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return true;
+      if (got == 0 && frame_->decode_error_flags == 0 && (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0) return true;
+      if (got == AVERROR_EOF || (got == AVERROR(EAGAIN) && drained_)) return false;
+      if (got == AVERROR(EAGAIN)) {
+        send_packet();
         continue;
       }
-      if (got != AVERROR(EAGAIN) || drained_) return false;
-      send_packet();
+      ++damaged_;
+      errors = got == 0 ? 0 : errors + 1;
     }
+    return false;
   }
 
   // Sends the next packet of the video to the decoder; at the end of the file, the request to flush.
   void send_packet() {
     while (av_read_frame(format_.get(), packet_.get()) >= 0) {
       const bool ours = packet_->stream_index == stream_->index;
-      if (ours) avcodec_send_packet(decoder_.get(), packet_.get());  // a broken packet gives no picture
+      // A broken packet gives no picture: some decoders say so here, others when the picture is asked for.
+      if (ours && avcodec_send_packet(decoder_.get(), packet_.get()) < 0) ++damaged_;
       av_packet_unref(packet_.get());
       if (ours) return;
     }
@@ -172,34 +193,37 @@ class LibavVideo final : public VideoFile {
       const auto at = static_cast<std::size_t>(found - stamps_.begin());
       position_ = at + 1;
       if (at > index) return false;
-      keep(at, grey());
+      keep({at, pixels(AV_PIX_FMT_GRAY8, 1, grey_scaler_),
+            with_colour_ ? pixels(AV_PIX_FMT_BGR24, 3, colour_scaler_) : Image<std::uint8_t>()});
       if (at == index) return true;
     }
     return false;
   }
 
-  void keep(std::size_t index, Image<std::uint8_t> image) {
-    const auto size = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
-    const std::size_t most = std::max<std::size_t>(kKeptBytes / size, 2);
-    kept_.emplace_back(index, std::move(image));
+  void keep(Picture picture) {
+    const auto wide = static_cast<std::size_t>(picture.grey.width() + picture.colour.width());
+    const std::size_t most = std::max<std::size_t>(kKeptBytes / (wide * std::size_t(picture.grey.height())), 2);
+    kept_.push_back(std::move(picture));
     while (kept_.size() > most) kept_.pop_front();
   }
 
-  Image<std::uint8_t> grey() {
+  // The picture in frame_, upright.
+  Image<std::uint8_t> pixels(AVPixelFormat format, int channels, Owned<SwsContext>& scaler) {
     const int w = frame_->width, h = frame_->height;
     check_image_size(static_cast<std::size_t>(w), static_cast<std::size_t>(h), path_);
-    scaler_.reset(sws_getCachedContext(scaler_.release(), w, h, static_cast<AVPixelFormat>(frame_->format), w, h,
-                                       AV_PIX_FMT_GRAY8, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
-    if (!scaler_) throw InputError(path_, 0, "the video's pixels are of a kind that cannot be made grey");
+    scaler.reset(sws_getCachedContext(scaler.release(), w, h, static_cast<AVPixelFormat>(frame_->format), w, h, format,
+                                      SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
+    if (!scaler) throw InputError(path_, 0, "the video's pixels are of a kind that cannot be made grey or coloured");
     // libswscale may write past the end of a row, up to its alignment.
-    const int stride = (w + 63) / 64 * 64;
+    const int stride = (channels * w + 63) / 64 * 64;
     std::vector<std::uint8_t> rows(static_cast<std::size_t>(stride) * static_cast<std::size_t>(h) + 64);
     std::uint8_t* const planes[1] = {rows.data()};
     const int strides[1] = {stride};
-    sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, h, planes, strides);
-    Image<std::uint8_t> image(w, h, 0);
-    for (int y = 0; y < h; ++y) std::copy_n(rows.data() + static_cast<std::ptrdiff_t>(y) * stride, w, &image(0, y));
-    return turned(image, quarters_);
+    sws_scale(scaler.get(), frame_->data, frame_->linesize, 0, h, planes, strides);
+    Image<std::uint8_t> image(channels * w, h, 0);
+    for (int y = 0; y < h; ++y)
+      std::copy_n(rows.data() + static_cast<std::ptrdiff_t>(y) * stride, channels * w, &image(0, y));
+    return turned(image, channels, quarters_);
   }
 
   std::string path_;
@@ -207,14 +231,16 @@ class LibavVideo final : public VideoFile {
   Owned<AVFrame> frame_;
   Owned<AVFormatContext> format_;
   Owned<AVCodecContext> decoder_;
-  Owned<SwsContext> scaler_;
+  Owned<SwsContext> grey_scaler_, colour_scaler_;
   AVStream* stream_ = nullptr;
   int quarters_ = 0;          // clockwise turns of 90 degrees that make the picture upright
   std::size_t position_ = 0;  // one past the last frame that came from the decoder; 0 after a restart
   bool drained_ = false;      // the decoder has received the last packet
   std::vector<std::int64_t> stamps_;
   std::vector<double> times_;
-  std::deque<std::pair<std::size_t, Image<std::uint8_t>>> kept_;
+  std::size_t damaged_ = 0, damaged_of_file_ = 0;  // pictures, also those decoded again; once through the file
+  bool with_colour_ = false;
+  std::deque<Picture> kept_;
 };
 
 }  // namespace

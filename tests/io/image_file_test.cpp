@@ -122,6 +122,33 @@ TEST(ImageFile, ColourJpegGivesItsLuma) {
   }
 }
 
+// By hand: 60 % cyan, no magenta, 20 % yellow and 40 % black leave (.4, 1, .8) * .6 of the light.
+TEST(ImageFile, InksOfACmykJpegGiveItsGrey) {
+  const TemporaryFolder folder;
+  const int expected = grey_of(61, 153, 122);
+  for (const bool adobe : {false, true}) {
+    const Image<std::uint8_t> image = load_grey(folder.write("c.jpg", cmyk_jpeg(17, 9, 153, 0, 51, 102, adobe)));
+    ASSERT_EQ(image.width(), 17);
+    ASSERT_EQ(image.height(), 9);
+    EXPECT_NEAR(image(0, 0), expected, 2) << adobe;
+    EXPECT_NEAR(image(16, 8), expected, 2) << adobe;
+  }
+}
+
+TEST(ImageFile, OrientationByExif) {
+  const std::string jpeg = encode_jpeg(ramp(8, 6).view(), 90);
+  EXPECT_EQ(jpeg_orientation(jpeg), 1);
+  for (const bool high_first : {true, false})
+    for (int value = 0; value < 10; ++value) {
+      const std::string turned = jpeg.substr(0, 2) + exif_segment(value, high_first) + jpeg.substr(2);
+      EXPECT_EQ(jpeg_orientation(turned), value >= 1 && value <= 8 ? value : 1);
+      EXPECT_EQ(decode_jpeg(turned, "turned").width(), 8) << "as it is stored";
+      for (std::size_t size = 0; size < 28; ++size)
+        EXPECT_EQ(jpeg_orientation(turned.substr(0, size)), 1) << "cut off before it";
+    }
+  EXPECT_EQ(image_orientation("/no/such/file.jpg"), 1);
+}
+
 TEST(ImageFile, PgmAndPpm) {
   const TemporaryFolder folder;
   Image<std::uint8_t> image =

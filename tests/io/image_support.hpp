@@ -85,6 +85,55 @@ inline std::string colour_jpeg(int width, int height, int r, int g, int b, bool 
   return bytes;
 }
 
+// A JPEG of four inks, 0 to 255 each. With Adobe's marker, what they leave of the light is stored.
+inline std::string cmyk_jpeg(int width, int height, int c, int m, int y, int k, bool adobe) {
+  jpeg_compress_struct codec{};
+  jpeg_error_mgr errors;
+  codec.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&codec);
+  unsigned char* buffer = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&codec, &buffer, &size);
+  codec.image_width = static_cast<JDIMENSION>(width);
+  codec.image_height = static_cast<JDIMENSION>(height);
+  codec.input_components = 4;
+  codec.in_color_space = JCS_CMYK;
+  jpeg_set_defaults(&codec);
+  jpeg_set_quality(&codec, 95, TRUE);
+  codec.write_Adobe_marker = adobe ? TRUE : FALSE;
+  jpeg_start_compress(&codec, TRUE);
+  std::vector<unsigned char> row;
+  for (int x = 0; x < width; ++x)
+    for (const int ink : {c, m, y, k}) row.push_back(static_cast<unsigned char>(adobe ? 255 - ink : ink));
+  for (int line = 0; line < height; ++line) {
+    JSAMPROW pointer = row.data();
+    jpeg_write_scanlines(&codec, &pointer, 1);
+  }
+  jpeg_finish_compress(&codec);
+  jpeg_destroy_compress(&codec);
+  std::string bytes(reinterpret_cast<const char*>(buffer), size);
+  std::free(buffer);
+  return bytes;
+}
+
+// EXIF data that holds an orientation and nothing else, as it stands after the first two bytes of a JPEG.
+inline std::string exif_segment(int orientation, bool high_first) {
+  std::string tiff(high_first ? "MM" : "II");
+  const auto add = [&](int value, int size) {
+    for (int i = 0; i < size; ++i) tiff += static_cast<char>(value >> 8 * (high_first ? size - 1 - i : i) & 0xFF);
+  };
+  add(42, 2);
+  add(8, 4);  // where the directory is
+  add(1, 2);  // entries
+  add(0x0112, 2);
+  add(3, 2);  // 16 bits
+  add(1, 4);
+  add(orientation, 2);
+  add(0, 6);
+  const std::string exif = std::string("Exif\0\0", 6) + tiff;
+  return std::string("\xFF\xE1\0", 3) + static_cast<char>(exif.size() + 2) + exif;
+}
+
 inline void expect_broken(const TemporaryFolder& folder, const std::string& bytes, const std::string& part) {
   const std::string path = folder.write("image", bytes);
   expect_input_error([&] { load_grey(path); }, path, 0, part);

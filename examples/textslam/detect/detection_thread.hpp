@@ -24,8 +24,12 @@ namespace textslam {
 
 class DetectionThread {
  public:
-  using RawImage = std::shared_ptr<const Image<std::uint8_t>>;
-  using Detect = std::function<std::vector<Detection>(int frame, const Image<std::uint8_t>& raw)>;
+  struct Pixels {
+    Image<std::uint8_t> grey;
+    Image<std::uint8_t> colour = {};  ///< See load_colour(); empty where the detector does not want it.
+  };
+  using RawImage = std::shared_ptr<const Pixels>;
+  using Detect = std::function<std::vector<Detection>(int frame, const Pixels& raw)>;
 
   struct Result {
     int frame = -1;  ///< Index of the frame.

@@ -25,6 +25,7 @@ class ReadingDetector final : public TextDetector {
  public:
   ReadingDetector(std::unique_ptr<TextDetector> detector, std::unique_ptr<TextReader> reader)
       : detector_(std::move(detector)), reader_(std::move(reader)) {}
+  bool wants_colour() const override { return detector_->wants_colour(); }
   std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) override {
     std::vector<Detection> found = detector_->detect(frame, raw_image);
     for (Detection& detection : found) {

@@ -16,6 +16,8 @@ namespace textslam {
 class TextDetector {
  public:
   virtual ~TextDetector() = default;
+  /// Whether frames of a video should bring their colours: FrameRef::colour. Files have theirs.
+  virtual bool wants_colour() const { return false; }
   /// Quads in raw image pixels, clockwise from the text's top left. May throw InputError. Called by one thread at a
   /// time, not always the one that made it.
   virtual std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) = 0;

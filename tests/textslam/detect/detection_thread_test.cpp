@@ -20,14 +20,14 @@ using Results = std::vector<DetectionThread::Result>;
 class GatedDetector {
  public:
   DetectionThread::Detect detect() {
-    return [this](int frame, const Image<std::uint8_t>& raw) {
+    return [this](int frame, const DetectionThread::Pixels& raw) {
       std::unique_lock<std::mutex> lock(mutex_);
       begun_.push_back(frame);
       changed_.notify_all();
       changed_.wait(lock, [this] { return released_ > 0; });
       --released_;
       Detection detection;
-      detection.quad.corner[0].x() = raw(0, 0);
+      detection.quad.corner[0].x() = raw.grey(0, 0);
       return std::vector<Detection>{detection};
     };
   }
@@ -51,7 +51,8 @@ class GatedDetector {
 };
 
 DetectionThread::RawImage image(int frame) {
-  return std::make_shared<const Image<std::uint8_t>>(4, 4, static_cast<std::uint8_t>(10 + frame));
+  return std::make_shared<const DetectionThread::Pixels>(
+      DetectionThread::Pixels{Image<std::uint8_t>(4, 4, static_cast<std::uint8_t>(10 + frame))});
 }
 
 Results collect(DetectionThread& thread, std::size_t count) {
@@ -117,7 +118,7 @@ TEST(DetectionThread, EndsUnused) {
 
 TEST(DetectionThread, GivesTheDetectorsErrorAfterWhatCameBefore) {
   int calls = 0;
-  DetectionThread thread([&calls](int frame, const Image<std::uint8_t>&) {
+  DetectionThread thread([&calls](int frame, const DetectionThread::Pixels&) {
     ++calls;
     if (frame == 1) throw InputError("model.onnx", 0, "no text detector");
     return std::vector<Detection>(3);
