@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "cli/command_line.hpp"
 #include "io/input_error.hpp"
 #include "textslam_map/text_query.hpp"
 
 namespace {
 
-constexpr int kNotFound = 1, kInputError = 2;
+using textslam::kInputError;
+constexpr int kNotFound = 1;
 
 void print(const textslam::IndexedText& text) {
   const auto& p = text.position;
@@ -23,31 +25,31 @@ void print(const textslam::IndexedText& text) {
   std::printf("\n");
 }
 
-// Exit code 1 where no text was found, or, with a limit, where two normals are farther apart.
-int show_angles(const std::vector<textslam::IndexedText>& texts, double within) {
+void print_angles(const std::vector<textslam::IndexedText>& texts, const textslam::LargestAngle& largest) {
   std::printf("%4s  %-20s %5s  %-22s  degrees to text", "text", "word", "votes", "normal");
   for (const textslam::IndexedText& text : texts) std::printf(" %5d", text.id);
   std::printf("\n");
-  double largest = 0;
-  std::size_t first = 0, second = 0;
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const auto& n = texts[i].normal;
-    std::printf("%4d  %-20s %3.0f %%  %7.3f %7.3f %7.3f %15s", texts[i].id, texts[i].text.c_str(), 100 * texts[i].score,
-                n.x(), n.y(), n.z(), "");
-    for (std::size_t j = 0; j < texts.size(); ++j) {
-      const double angle = angle_between(texts[i], texts[j]);
-      std::printf(" %5.1f", angle);
-      if (angle <= largest) continue;
-      largest = angle;
-      first = i;
-      second = j;
-    }
+  for (const textslam::IndexedText& text : texts) {
+    const auto& n = text.normal;
+    std::printf("%4d  %-20s %3.0f %%  %7.3f %7.3f %7.3f %15s", text.id, text.text.c_str(), 100 * text.score, n.x(),
+                n.y(), n.z(), "");
+    for (const textslam::IndexedText& other : texts) std::printf(" %5.1f", angle_between(text, other));
     std::printf("\n");
   }
   if (texts.size() > 1)
-    std::printf("largest angle %.2f degrees, between texts %d and %d\n", largest, texts[first].id, texts[second].id);
-  if (!(largest > within)) return 0;
-  std::fprintf(stderr, "textslam-map: an angle of %.2f degrees is more than %g\n", largest, within);
+    std::printf("largest angle %.2f degrees, between texts %d and %d\n", largest.degrees, largest.first,
+                largest.second);
+}
+
+// Exit code 1 where no text was found, or, with a limit, where two normals are farther apart.
+int show_angles(const std::vector<textslam::IndexedText>& texts, double within, bool json) {
+  const textslam::LargestAngle largest = textslam::largest_angle(texts);
+  if (json)
+    std::printf("%s", textslam::angles_json(texts).c_str());
+  else
+    print_angles(texts, largest);
+  if (!(largest.degrees > within)) return 0;
+  std::fprintf(stderr, "textslam-map: an angle of %.2f degrees is more than %g\n", largest.degrees, within);
   return kNotFound;
 }
 
@@ -66,18 +68,12 @@ int execute(int argc, char** argv) {
   CLI::App* angles = app.add_subcommand("angles", "How do texts lie to each other? The angles between their normals");
   angles->add_option("DIR", folder, "Output folder of textslam")->required();
   angles->add_option("WORD", words, "Of each the text that query finds first; without any, all texts of the map");
+  angles->add_flag("--json", json, "Print texts, the angles between them and the largest as JSON");
   angles->add_option("--within", within, "Degrees: exit code 1 where two normals are farther apart")
-      ->check(CLI::Range(0.0, 180.0));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "textslam-map: %s (see textslam-map --help)\n", error.what());
-    return kInputError;
-  }
+      ->check(textslam::within(0, 180));
+  if (const auto code = textslam::parse_command_line(app, "textslam-map", argc, argv)) return *code;
   const std::vector<textslam::IndexedText> texts = textslam::read_text_index(folder + "/text_index.json");
-  if (angles->parsed() && words.empty()) return show_angles(texts, within);
+  if (angles->parsed() && words.empty()) return show_angles(texts, within, json);
   if (query->parsed()) words = {word};
   std::vector<textslam::IndexedText> found;
   for (const std::string& wanted : words) {
@@ -88,7 +84,7 @@ int execute(int argc, char** argv) {
     }
     found.insert(found.end(), alike.begin(), angles->parsed() ? alike.begin() + 1 : alike.end());
   }
-  if (angles->parsed()) return show_angles(found, within);
+  if (angles->parsed()) return show_angles(found, within, json);
   if (json)
     std::printf("%s", textslam::text_index_json(found).c_str());
   else

@@ -9,7 +9,7 @@
 namespace textslam {
 namespace {
 
-constexpr int kNoMatch = 4;
+constexpr int kNoMatch = 6;
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -20,11 +20,14 @@ std::string lower(std::string text) {
 int rank(const IndexedText& text, const std::string& word) {
   const auto holds = [&](const std::string& reading) { return lower(reading).find(word) != std::string::npos; };
   if (lower(text.text) == word) return 0;
-  if (is_read(text.text) && holds(text.text)) return 1;
+  if (is_read(text.text) && holds(text.text)) {
+    if (lower(text.text).compare(0, word.size(), word) == 0) return 1;
+    return lower(text.text).find(" " + word) != std::string::npos ? 2 : 3;
+  }
   for (const auto& [reading, votes] : text.readings)
-    if (holds(reading)) return 2;
+    if (holds(reading)) return 4;
   for (const auto& [reading, votes] : text.readings)
-    if (word_similarity(lower(reading), word) >= Parameters{}.same_word) return 3;
+    if (word_similarity(lower(reading), word) >= Parameters{}.same_word) return 5;
   return kNoMatch;
 }
 
@@ -63,5 +66,31 @@ std::vector<IndexedText> query(const std::vector<IndexedText>& texts, const std:
 }
 
 double angle_between(const IndexedText& a, const IndexedText& b) { return degrees_between(a.normal, b.normal); }
+
+LargestAngle largest_angle(const std::vector<IndexedText>& texts) {
+  LargestAngle largest;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (std::size_t j = i + 1; j < texts.size(); ++j) {
+      const double angle = angle_between(texts[i], texts[j]);
+      if (largest.first < 0 || angle > largest.degrees) largest = {angle, texts[i].id, texts[j].id};
+    }
+  return largest;
+}
+
+std::string angles_json(const std::vector<IndexedText>& texts) {
+  using nlohmann::json;
+  json list = json::array(), degrees = json::array();
+  for (const IndexedText& text : texts) {
+    const auto& n = text.normal;
+    list.push_back({{"id", text.id}, {"text", text.text}, {"score", text.score}, {"normal", {n.x(), n.y(), n.z()}}});
+    json row = json::array();
+    for (const IndexedText& other : texts) row.push_back(angle_between(text, other));
+    degrees.push_back(row);
+  }
+  const LargestAngle most = largest_angle(texts);
+  const json largest =
+      texts.size() < 2 ? json() : json{{"degrees", most.degrees}, {"texts", {most.first, most.second}}};
+  return json{{"texts", list}, {"degrees", degrees}, {"largest", largest}}.dump(1) + "\n";
+}
 
 }  // namespace textslam

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "io/io_support.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam_map/text_query.hpp"
@@ -93,6 +95,42 @@ TEST(TextIndex, QueriesFindWordsAndReadings) {
   EXPECT_TRUE(query(texts, "door").empty());
   EXPECT_TRUE(query(texts, "").empty());
   EXPECT_TRUE(query(texts, "##").empty()) << "what nobody read is no word";
+}
+
+TEST(TextIndex, WordsThatBeginSoGoBeforeThoseThatHoldIt) {
+  std::vector<IndexedText> texts;
+  for (const char* word : {"ROOM", "EXIT MAIN", "Men", "M", "m"}) {
+    IndexedText text;
+    text.id = static_cast<int>(texts.size());
+    text.text = word;
+    text.score = 1 - 0.1 * text.id;
+    texts.push_back(text);
+  }
+  std::vector<int> ids;
+  for (const IndexedText& found : query(texts, "M")) ids.push_back(found.id);
+  EXPECT_EQ(ids, (std::vector<int>{3, 4, 2, 1, 0}));
+}
+
+TEST(TextIndex, AnglesAsJson) {
+  std::vector<IndexedText> texts(3);
+  for (int i = 0; i < 3; ++i) {
+    texts[static_cast<std::size_t>(i)].id = 7 + i;
+    texts[static_cast<std::size_t>(i)].text = std::string(1, static_cast<char>('A' + i));
+    texts[static_cast<std::size_t>(i)].normal =
+        textplane::so3_exp<double>(Vec3(0, i * i * M_PI / 180, 0)) * Vec3(0, 0, -1);
+  }
+  const nlohmann::json json = nlohmann::json::parse(angles_json(texts));
+  ASSERT_EQ(json.at("texts").size(), 3u);
+  EXPECT_EQ(json.at("texts")[1].at("id"), 8);
+  EXPECT_EQ(json.at("texts")[1].at("text"), "B");
+  EXPECT_EQ(json.at("texts")[0].at("normal"), (std::vector<double>{0, 0, -1}));
+  const double expected[3][3] = {{0, 1, 4}, {1, 0, 3}, {4, 3, 0}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(json.at("degrees")[i][j].get<double>(), expected[i][j], 1e-9);
+  EXPECT_NEAR(json.at("largest").at("degrees").get<double>(), 4, 1e-9);
+  EXPECT_EQ(json.at("largest").at("texts"), (std::vector<int>{7, 9}));
+  texts.resize(1);
+  EXPECT_TRUE(nlohmann::json::parse(angles_json(texts)).at("largest").is_null());
 }
 
 TEST(TextIndex, AnglesBetweenNormals) {
