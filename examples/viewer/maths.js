@@ -14,6 +14,9 @@ const median = (values) => {
   return sorted.length ? sorted[sorted.length >> 1] : null;
 };
 
+/// `1 text`, `3 texts`.
+const counted = (count, thing) => `${count} ${thing}${count === 1 ? "" : "s"}`;
+
 /// v turned by the pose's quaternion.
 function turned(pose, v) {
   const u = [pose[3], pose[4], pose[5]], t = scaled(cross(u, v), 2);

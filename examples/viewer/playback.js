@@ -61,9 +61,10 @@ class Playback {
   describe(frame) {
     const s = this.data.series, i = frame.frame;
     const state = { w: "before the map", t: "tracked", f: "filled in afterwards", l: "lost" }[s.state[i]];
-    const zncc = frame.texts.map((t) => t.zncc);
+    const drawn = frame.texts.filter((t) => t.quad), zncc = drawn.map((t) => t.zncc);
     let text = `Frame ${i} of ${s.time.length}, ${s.time[i].toFixed(2)} s: ${state}`;
-    if (s.points[i] || s.texts[i]) text += `, ${s.points[i]} points, ${s.texts[i]} texts`;
+    // The texts that the picture shows: tracking may have used fewer when the frame came.
+    if (s.points[i] || drawn.length) text += `, ${counted(s.points[i], "point")}, ${counted(drawn.length, "text")}`;
     if (zncc.length) text += `; ZNCC ${Math.min(...zncc).toFixed(2)} to ${Math.max(...zncc).toFixed(2)}`;
     by_id("frame-text").textContent = text;
   }

@@ -8,6 +8,7 @@ function show_tiles(data) {
   tile("Frames tracked", `${s.tracked} of ${s.frames}`);
   tile("Key frames", String(s.keyframes));
   tile("Points", String(s.points));
+  if (s.reprojection_px) tile("Reprojection error", `${brief(s.reprojection_px)} px`);
   tile("Texts", String(s.texts));
   if (s.loops) tile("Loops closed", String(s.loops));
   if (s.ate_rmse !== undefined) {
@@ -45,6 +46,8 @@ function show_provenance(data, run) {
     const date = data.start > 1e8 ? `, ${new Date(1000 * data.start).toISOString().replace(/\.\d+Z/, " UTC").replace("T", " ")}` : "";
     facts.push(["Time stamps", `${data.start} to ${Number(end.toFixed(6))} s${date}`]);
   }
+  const detection = run.detect_ms > 0 ? `, and ${digits(run.detect_ms, 1)} ms of detection` : "";
+  facts.push(["Time a frame, median", `${digits(run.frame_ms, 1)} ms${detection}`]);
   const c = data.camera;
   const fov = c.approximate_fov_deg;
   const guess = fov === undefined ? "" : `: approximate, a pinhole of ${fov}\u00b0 (--fov), not calibrated`;

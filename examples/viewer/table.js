@@ -68,6 +68,6 @@ class TextTable {
       button.textContent = here ? `${name} ${this.rising ? "\u2191" : "\u2193"}` : name;
     });
     const all = this.data.texts.length;
-    by_id("count").textContent = texts.length === all ? `${all} texts` : `${texts.length} of ${all} texts`;
+    by_id("count").textContent = texts.length === all ? counted(all, "text") : `${texts.length} of ${counted(all, "text")}`;
   }
 }

@@ -79,6 +79,15 @@ def test_playback(browser):
     check(frame() == 0, "it starts at the first frame")
     browser.until("document.getElementById('picture').width > 300", "the frame is not drawn")
     check(colours(browser, "picture") > 30, "the frame is blank")
+    # Under each picture stand the texts that it shows, and one is no plural.
+    for at in range(browser.run("report.data.frames.length")):
+        browser.run(f"report.playback.select({at})")
+        shown = browser.run(f"report.data.frames[{at}].texts.length")
+        caption = browser.run("document.getElementById('frame-text').textContent")
+        if "before the map" not in caption or shown:
+            check(f", {shown} text{'' if shown == 1 else 's'}" in caption.split(";")[0] + ";", f"{shown} texts are drawn: {caption}")
+        check(", 1 texts" not in caption and ", 1 points" not in caption, caption)
+    browser.run("report.playback.select(0)")
     before, text = browser.run(picture), browser.run("document.getElementById('frame-text').textContent")
     browser.key("ArrowRight")
     check(frame() == 1, "the right arrow does not go to the next frame")
