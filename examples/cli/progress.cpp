@@ -24,6 +24,10 @@ void Progress::show(std::size_t done, std::size_t total, const std::string& deta
   std::fprintf(stderr, "\r%s\033[K", progress_line(what_, done, total, now - start_ms_, detail).c_str());
 }
 
+std::string counted(int count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_ms,
                           const std::string& detail) {
   const double seconds = std::max(elapsed_ms, 1e-3) / 1000, count = static_cast<double>(done);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/command_line.hpp"
 #include "io/sequence.hpp"
 
 namespace textslam {
@@ -14,17 +15,19 @@ constexpr const char* kSequenceHelp =
 
 // The angle of a camera_from_fov() that is a lens for images of planes; beyond it nothing is a pinhole.
 constexpr double kLeastFov = 1, kLargestFov = 170;
+constexpr double kLeastFps = 1e-3, kLargestFps = 1e5;
 
 inline void add_sequence_options(CLI::App& app, SequenceOptions& options) {
   CLI::Option* camera =
       app.add_option("--camera", options.camera, "camera.yaml, or EuRoC's sensor.yaml, in place of the sequence's own");
   app.add_option("--fov", options.fov,
-                 "Where there is no calibration: horizontal field of view, degrees; the camera is approximate")
-      ->check(CLI::Range(kLeastFov, kLargestFov))
+                 "Horizontal field of view, degrees, where there is no calibration, else it is refused; the camera is "
+                 "approximate")
+      ->check(within(kLeastFov, kLargestFov))
       ->excludes(camera);
   app.add_option("--fps", options.fps,
                  "Of a folder of images, frames a second; by default what its camera.yaml says, or 30")
-      ->check(CLI::PositiveNumber);
+      ->check(within(kLeastFps, kLargestFps));
   app.add_option("--detections", options.detections,
                  "Folder with a file of text boxes an image (ICDAR), in place of the sequence's own");
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "cli/command_line.hpp"
 #include "cli/detector_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/sequence_options.hpp"
@@ -16,7 +17,8 @@
 
 namespace {
 
-constexpr int kInputError = 2;
+using textslam::kInputError;
+constexpr int kNoMap = 3;
 constexpr int kSignal = 128;  // plus the signal's number, as shells have it
 
 struct Command {
@@ -46,6 +48,9 @@ void add_run_options(CLI::App& app, textslam::RunOptions& run) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--last", run.last, "Index of the last frame")->check(CLI::NonNegativeNumber);
+  app.add_option("--every", run.every, "Use one frame of so many")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_flag("--skip-broken", run.skip_broken,
+               "Pass over frames that cannot be read, and say how many they are; without it the first ends the run");
   app.add_flag("!--no-report", run.report, "Leave out report.html");
   app.add_flag("--json-lines", run.json_lines,
                "Print a JSON object for each frame as it is processed, then one with the metrics, and no table");
@@ -74,10 +79,14 @@ void add_render_options(CLI::App& app, Command& command) {
   add("--false", render.detector.false_per_frame, "Mean number of false detections a frame")->capture_default_str();
 }
 
-void render(const textslam::RenderOptions& options) {
+// Where no terminal shows how far it is, every quarter has a line, unless a program reads them.
+void render(const textslam::RenderOptions& options, bool quiet) {
   textslam::Progress progress("rendering");
   textslam::render_sequence(options, [&](int done, int total) {
     progress.show(static_cast<std::size_t>(done), static_cast<std::size_t>(total), options.kind);
+    if (quiet || progress.on_terminal() || 4 * done / total == 4 * (done - 1) / total) return;
+    std::printf("rendering %s: %d of %d frames\n", options.kind.c_str(), done, total);
+    std::fflush(stdout);
   });
 }
 
@@ -89,7 +98,15 @@ int run_and_print(const textslam::RunOptions& options) {
                 (result.report.empty() ? options.output : result.report).c_str());
   for (const std::string& warning : textslam::warnings(result.summary))
     std::fprintf(stderr, "textslam: warning: %s\n", warning.c_str());
-  if (result.error.empty()) return 0;
+  if (result.error.empty() && result.summary.tracked > 0) return 0;
+  if (result.error.empty()) {
+    std::fprintf(
+        stderr,
+        "textslam: none of the %zu frames could be tracked, so there is no map: the images show too little, or "
+        "move too little\n",
+        result.summary.frames);
+    return kNoMap;
+  }
   std::fprintf(stderr, "textslam: %s\n", result.error.c_str());
   return result.interrupted ? kSignal + textslam::interrupted() : kInputError;
 }
@@ -102,19 +119,14 @@ int execute(int argc, char** argv) {
   CLI::App app{"SLAM with points and planar text: a sequence of images becomes a trajectory and a 3D text map."};
   add_run_options(app, options);
   add_render_options(app, command);
-  try {
-    app.parse(argc, argv);
+  const auto check = [&] {
     if (options.sequence.empty() == command.render.kind.empty())
       throw CLI::ValidationError("give either SEQUENCE or --render KIND");
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "textslam: %s (see textslam --help)\n", error.what());
-    return kInputError;
-  }
+  };
+  if (const auto code = textslam::parse_command_line(app, "textslam", argc, argv, check)) return *code;
   if (!command.render.kind.empty()) {
     options.sequence = command.render.output = options.output + "/sequence";
-    render(command.render);
+    render(command.render, options.json_lines);
     if (command.render_only) return 0;
   }
   return run_and_print(options);

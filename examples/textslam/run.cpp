@@ -3,6 +3,7 @@
 #include <chrono>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 #include "cli/progress.hpp"
@@ -24,33 +25,45 @@ namespace textslam {
 namespace {
 
 using RawImage = DetectionThread::RawImage;
+using Pixels = DetectionThread::Pixels;
 
-// Loads, detects and undistorts. Frame indices count from the run's first frame. Another thread may call detect().
+// Loads, detects and undistorts. Frames are numbered in the order in which they were taken. Another thread may call
+// detect().
 class FrameSource {
  public:
   FrameSource(const Sequence& sequence, const RunOptions& options)
       : sequence_(sequence),
         pyramid_levels_(at_size(options.parameters, sequence.camera.width, sequence.camera.height).pyramid_levels),
-        first_(static_cast<std::size_t>(options.first)),
         undistort_(sequence.camera),
         detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)),
         reader_(options.parameters.mode == Mode::points ? nullptr : make_reader(options.detector)) {}
 
-  double timestamp(int index) const { return sequence_.frames[at(index)].timestamp; }
-  RawImage load(int index) const {
-    return std::make_shared<const Image<std::uint8_t>>(load_frame(sequence_, at(index)));
+  /// Takes the frame `at` of the sequence as the next one. Throws InputError where it cannot be read.
+  RawImage take(std::size_t at) {
+    Pixels pixels{load_frame(sequence_, at)};
+    if (parameters_.mode != Mode::points && detector_->wants_colour()) pixels.colour = load_colour(sequence_, at);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    taken_.push_back(at);
+    return std::make_shared<const Pixels>(std::move(pixels));
   }
-  std::vector<Detection> detect(int index, const Image<std::uint8_t>& raw) {
-    return undistort_(detector_->detect(sequence_.frames[at(index)], raw.view()));
+  double timestamp(int index) const { return sequence_.frames[at(index)].timestamp; }
+  std::string name(int index) const { return frame_name(sequence_, at(index)); }
+  std::vector<Detection> detect(int index, const Pixels& raw) {
+    FrameRef frame = sequence_.frames[at(index)];
+    frame.colour = raw.colour;
+    return undistort_(detector_->detect(frame, raw.grey.view()));
   }
   Frame frame(int index, const Image<std::uint8_t>& raw) const { return {index, timestamp(index), pyramid(raw), {}}; }
+  Frame frame(int index) const { return frame(index, load_frame(sequence_, at(index))); }
   void read_texts(System& system) const {
     if (reader_) system.read_texts(*reader_);
   }
-  std::shared_ptr<const Pyramid> image(int index) { return pyramid(load_frame(sequence_, at(index))); }
 
  private:
-  std::size_t at(int index) const { return first_ + static_cast<std::size_t>(index); }
+  std::size_t at(int index) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return taken_[static_cast<std::size_t>(index)];
+  }
   std::shared_ptr<const Pyramid> pyramid(const Image<std::uint8_t>& raw) const {
     const Image<std::uint8_t> image = undistort_(raw);
     return std::make_shared<const Pyramid>(image.view(), pyramid_levels_);
@@ -58,7 +71,8 @@ class FrameSource {
 
   const Sequence& sequence_;
   int pyramid_levels_;
-  std::size_t first_;
+  mutable std::mutex mutex_;        // of taken_
+  std::vector<std::size_t> taken_;  // frames of the sequence
   Undistorter undistort_;
   std::shared_ptr<TextDetector> detector_;
   std::unique_ptr<TextReader> reader_;
@@ -100,11 +114,11 @@ class Detections {
     in_step_ = !parameters.real_time || (!options.own_detector && options.detector.name == "files");
     if (in_step_) return;
     thread_ = std::make_unique<DetectionThread>(
-        [&source](int index, const Image<std::uint8_t>& raw) { return source.detect(index, raw); });
+        [&source](int index, const Pixels& raw) { return source.detect(index, raw); });
   }
 
   /// Before the frame is processed. Returns the ms it took.
-  double before(Frame& frame, const Image<std::uint8_t>& raw, System& system) {
+  double before(Frame& frame, const Pixels& raw, System& system) {
     of_frames_.add({});
     if (thread_)
       for (DetectionThread::Result& result : thread_->collect()) {
@@ -124,16 +138,20 @@ class Detections {
     thread_->offer(index, raw, keyframe);
   }
   void end() { thread_.reset(); }
+  /// Boxes of all frames.
+  std::size_t count() const { return count_; }
   /// By the index of the frame, of as many as a report can show.
   const std::map<int, std::vector<Detection>>& of_frames() const { return of_frames_.kept(); }
 
  private:
   void remember(int frame, const std::vector<Detection>& detections) {
+    count_ += detections.size();
     if (std::vector<Detection>* kept = of_frames_.find(frame)) *kept = detections;
   }
 
   FrameSource& source_;
   bool in_step_ = false;
+  std::size_t count_ = 0;
   BoundedSampler<std::vector<Detection>> of_frames_{2 * kReportFrames};
   std::unique_ptr<DetectionThread> thread_;
 };
@@ -148,36 +166,53 @@ void keep_going(RunResult& result, Step step) {
   }
 }
 
-// How many frames the options ask for.
-int count_frames(const Sequence& sequence, const RunOptions& options) {
+// The frames that the options ask for.
+std::vector<std::size_t> frames_asked(const Sequence& sequence, const RunOptions& options) {
   const int count = static_cast<int>(sequence.frames.size());
   const int last = options.last < 0 ? count - 1 : options.last;
   if (options.first < 0 || options.first > last || last >= count)
     throw InputError(sequence.images_file, 0,
                      "frames " + std::to_string(options.first) + " to " + std::to_string(last) +
                          " asked for, but it has 0 to " + std::to_string(count - 1));
-  return last - options.first + 1;
+  std::vector<std::size_t> frames;
+  for (int at = options.first; at <= last; at += options.every) frames.push_back(static_cast<std::size_t>(at));
+  return frames;
+}
+
+// The next frame; null where it is broken and is to be passed over.
+RawImage take(std::size_t at, const RunOptions& options, FrameSource& source, RunResult& result) {
+  try {
+    return source.take(at);
+  } catch (const InputError&) {
+    if (!options.skip_broken) throw;
+    ++result.summary.broken;
+    return nullptr;
+  }
 }
 
 // Takes the frames one by one, until the last or a signal.
-void track_frames(const RunOptions& options, int total, FrameSource& source, Clock& clock, Detections& detections,
-                  System& system, RunResult& result) {
+void track_frames(const RunOptions& options, const Sequence& sequence, const std::vector<std::size_t>& asked,
+                  FrameSource& source, Clock& clock, Detections& detections, System& system, RunResult& result) {
   Progress progress("tracking");
-  for (int index = 0; index < total && !result.interrupted; ++index) {
-    clock.wait_for(source.timestamp(index));
-    const RawImage raw = source.load(index);
-    Frame frame = source.frame(index, *raw);
+  int index = 0;
+  for (std::size_t i = 0; i < asked.size() && !result.interrupted; ++i) {
+    clock.wait_for(sequence.frames[asked[i]].timestamp);
+    const RawImage raw = take(asked[i], options, source, result);
+    if (!raw) continue;
+    Frame frame = source.frame(index, raw->grey);
     const double detect_ms = detections.before(frame, *raw, system);
     const FrameRecord& record = system.process(frame, detect_ms);
     clock.done();
     detections.after(index, raw, system.map());
-    progress.show(static_cast<std::size_t>(index + 1), static_cast<std::size_t>(total),
-                  std::string(to_string(record.state)) + ", " + std::to_string(record.points) + " points, " +
-                      std::to_string(record.texts) + " texts");
+    progress.show(i + 1, asked.size(),
+                  std::string(to_string(record.state)) + ", " + counted(record.points, "point") + ", " +
+                      counted(record.texts, "text"));
     if (options.json_lines) print_line(frame_line(index, record, system.map()));
-    if (interrupted() == 0 || index + 1 == total) continue;
+    ++index;
+    if (interrupted() == 0 || i + 1 == asked.size()) continue;
     result.interrupted = true;
-    result.error = "interrupted after frame " + std::to_string(index) + "; what was computed is in " + options.output;
+    result.error =
+        "interrupted after frame " + std::to_string(index - 1) + "; what was computed is in " + options.output;
   }
 }
 
@@ -185,7 +220,7 @@ void track_frames(const RunOptions& options, int total, FrameSource& source, Clo
 
 RunResult run(const RunOptions& options) {
   const Sequence sequence = read_sequence(options.sequence, options.input);
-  const int total = count_frames(sequence, options);
+  const std::vector<std::size_t> asked = frames_asked(sequence, options);
   FrameSource source(sequence, options);
   create_output_folder(options.output);
 
@@ -193,15 +228,21 @@ RunResult run(const RunOptions& options) {
   System system(sequence.camera.pinhole(), sequence.camera.width, sequence.camera.height, options.parameters);
   Clock clock(options.parameters.real_time);
   Detections detections(source, options);
-  keep_going(result, [&] { track_frames(options, total, source, clock, detections, system, result); });
+  keep_going(result, [&] { track_frames(options, sequence, asked, source, clock, detections, system, result); });
   detections.end();
   system.finish();
   source.read_texts(system);
-  keep_going(result, [&] { system.fill_in([&](int index) { return source.frame(index, *source.load(index)); }); });
+  keep_going(result, [&] { system.fill_in([&](int index) { return source.frame(index); }); });
 
   RunSummary& summary = result.summary;
-  summary = summarise(system, sequence, static_cast<std::size_t>(total));
+  const std::size_t broken = summary.broken;
+  summary = summarise(system, sequence, asked.size());
+  summary.broken = broken;
   summary.latency_ms = clock.latency_ms();
+  if (options.parameters.mode != Mode::points)
+    summary.detector = options.own_detector ? "of the program" : options.detector.name;
+  if (summary.detector == "files") summary.median_detect_ms = 0;  // they were only read
+  summary.detected = detections.count();
   std::vector<TrueSign> signs;
   if (is_aligned(summary))
     keep_going(result, [&] {
@@ -210,14 +251,14 @@ RunResult run(const RunOptions& options) {
     });
   std::exception_ptr failure;
   try {
-    const auto image = [&](int index) { return frame_name(sequence, static_cast<std::size_t>(options.first + index)); };
+    const auto image = [&](int index) { return source.name(index); };
     write_outputs(options.output, system, summary, image);
   } catch (const std::exception&) {
     failure = std::current_exception();
   }
   if (options.report)
     keep_going(result, [&] {
-      const auto picture = [&](int index) { return source.image(index); };
+      const auto picture = [&](int index) { return source.frame(index).image; };
       const ReportInput input{system,  options.parameters, sequence,     summary, signs, detections.of_frames(),
                               picture, options.command,    options.first};
       const std::string path = options.output + "/report.html";

@@ -19,6 +19,8 @@ struct RunOptions {
   std::shared_ptr<TextDetector> own_detector;  ///< If set, in place of `detector`.
   int first = 0;                               ///< Index of the first frame.
   int last = -1;                               ///< Index of the last frame; -1: the sequence's last.
+  int every = 1;                               ///< One frame of so many is used.
+  bool skip_broken = false;                    ///< Frames that cannot be read are passed over; else the first ends it.
   Parameters parameters;
   bool report = true;       ///< Write report.html.
   bool json_lines = false;  ///< An object a frame on standard output (frame_line()), then one with the metrics.

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "cli/command_line.hpp"
 #include "cli/detector_options.hpp"
 #include "cli/progress.hpp"
 #include "io/evaluate_detections.hpp"
@@ -15,7 +16,7 @@
 
 namespace {
 
-constexpr int kInputError = 2;
+using textslam::kInputError;
 
 // A sequence, or an image by itself.
 textslam::Sequence read_input(const std::string& path, const textslam::SequenceOptions& options) {
@@ -46,24 +47,21 @@ int execute(int argc, char** argv) {
   app.add_option("--detections", input_options.detections,
                  "Of --detector files: their folder, if not the sequence's own");
   textslam::add_detector_options(app, detector);
-  try {
-    app.parse(argc, argv);
+  const auto check = [&] {
     if (writes->empty() && !evaluate) throw CLI::RequiredError("--output or --evaluate");
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "textslam-detect: %s (see textslam-detect --help)\n", error.what());
-    return kInputError;
-  }
+  };
+  if (const auto code = textslam::parse_command_line(app, "textslam-detect", argc, argv, check)) return *code;
   textslam::DetectionCounts counts;
   for (const std::string& input : inputs) {
     const textslam::Sequence sequence = read_input(input, input_options);
+    for (const std::string& note : sequence.notes) std::fprintf(stderr, "textslam-detect: warning: %s\n", note.c_str());
     const auto detect = textslam::make_detector(detector, sequence);
     if (!output.empty()) textslam::create_output_folder(output);
     textslam::Progress progress("detecting");
     for (std::size_t i = 0; i < sequence.frames.size(); i += every) {
-      const textslam::FrameRef& frame = sequence.frames[i];
+      textslam::FrameRef frame = sequence.frames[i];
       const textslam::Image<std::uint8_t> image = textslam::load_image(sequence, i);
+      if (detect->wants_colour()) frame.colour = textslam::load_colour(sequence, i);
       const std::vector<textslam::Detection> found = detect->detect(frame, image.view());
       if (!output.empty()) textslam::write_detections(output + "/" + frame.stem + ".txt", found);
       if (evaluate) textslam::count_detections(textslam::read_true_texts(sequence, frame), found, &counts);

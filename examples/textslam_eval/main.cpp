@@ -3,12 +3,13 @@
 #include <cstdio>
 #include <exception>
 
+#include "cli/command_line.hpp"
 #include "io/input_error.hpp"
 #include "textslam_eval/format.hpp"
 
 namespace {
 
-constexpr int kInputError = 2;
+using textslam::kInputError;
 
 int execute(int argc, char** argv) {
   std::vector<std::string> runs;
@@ -28,14 +29,7 @@ int execute(int argc, char** argv) {
       ->capture_default_str();
   CLI::Option* markdown_flag = app.add_flag("--markdown", markdown, "A Markdown table, a column a run");
   app.add_flag("--csv", csv, "CSV, a line a run")->excludes(markdown_flag);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "textslam-eval: %s (see textslam-eval --help)\n", error.what());
-    return kInputError;
-  }
+  if (const auto code = textslam::parse_command_line(app, "textslam-eval", argc, argv)) return *code;
 
   std::vector<textslam::RunEvaluation> evaluations;
   for (const std::string& run : runs) evaluations.push_back(textslam::evaluate_run(run, truth, scale == "sim3"));

@@ -44,7 +44,7 @@ TEST_F(TextslamInput, BadNumbers) {
   write("images.txt", list);
 
   write("camera.yaml", camera + "Camera.RGB: 1\n");
-  expect_success(run());
+  expect_no_map(run());
   replace("camera.yaml", "Camera.width: 64", "Camera.width: wide");
   expect_refused(run(), 2, sequence("camera.yaml") + ":1: ", "'wide'");
   write("camera.yaml", camera);

@@ -100,6 +100,11 @@ inline void expect_success(const ProgramResult& result) {
   EXPECT_EQ(result.err, "");
 }
 
+/// The program ran to its end, and no frame could be tracked.
+inline void expect_no_map(const ProgramResult& result) {
+  expect_refused(result, 3, "", "could be tracked, so there is no map");
+}
+
 /// Every output file is there and whole, nothing else beside them but `more`.
 inline void expect_all_outputs(const std::string& folder, const std::set<std::string>& more = {}) {
   for (const char* name : kOutputs) EXPECT_TRUE(std::filesystem::exists(folder + "/" + name)) << name;

@@ -1,5 +1,7 @@
 #include "textslam/map/observations.hpp"
 
+#include <cmath>
+
 #include "textslam/common/algorithms.hpp"
 
 namespace textslam {
@@ -35,6 +37,22 @@ std::vector<int> shared_points(const Map& map, const std::vector<int>& points) {
   for (const int id : points)
     for (const PointObservation& o : map.point(id).observations) ++shared[static_cast<std::size_t>(o.keyframe)];
   return shared;
+}
+
+double reprojection_error(const Map& map) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const int id : map.keyframe_ids()) {
+    const SE3d T_c_w = map.keyframe(id).T_w_c.inverse();
+    for (const int point : map.keyframe(id).points) {
+      const Vec3 p = T_c_w * map.point(point).p_w;
+      const Vec2* const seen = observed_in(map.point(point).observations, id);
+      if (!seen || !(p.z() > 0)) continue;
+      sum += (map.camera.project(p) - *seen).squaredNorm();
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
 double median_depth(const Map& map, int id) {

@@ -23,6 +23,9 @@ const Vec2* observed_in(const std::vector<PointObservation>& observations, int k
 /// How many of the points each key frame observes.
 std::vector<int> shared_points(const Map& map, const std::vector<int>& points);
 
+/// px, rms over all observations of the points: how well the map explains where it was seen. 0 without points.
+double reprojection_error(const Map& map);
+
 /// Median depth of the points observed by key frame `id`, 0 where it has none.
 double median_depth(const Map& map, int id);
 

@@ -1,9 +1,11 @@
 #include "textslam/report/summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/text_file.hpp"
 #include "textslam/common/algorithms.hpp"
+#include "textslam/map/observations.hpp"
 
 namespace textslam {
 namespace {
@@ -29,11 +31,26 @@ void add_loops(Fields& fields, const std::vector<LoopRecord>& loops) {
              100 * largest->found.translation, largest->found.rotation, largest->found.scale);
 }
 
+// Texts, and where there are none, whose doing that is.
+void add_texts(Fields& fields, const RunSummary& s) {
+  fields.add("texts", "texts", s.texts);
+  if (s.texts > 0 || s.detector.empty())
+    fields.row("text objects", "%zu", s.texts);
+  else if (s.detected > 0)
+    fields.row("text objects", "0, of %zu detected boxes", s.detected);
+  else if (s.detector != "files")
+    fields.row("text objects", "0: the detector %s found no text", s.detector.c_str());
+  else
+    fields.row("text objects", s.has_detections ? "0: the sequence's detections hold none"
+                                                : "0: the sequence has no detections, see --detector");
+}
+
 void add_counts(Fields& fields, const RunSummary& s) {
   const double frames = s.frames == 0 ? 1 : static_cast<double>(s.frames), tracked = static_cast<double>(s.tracked);
   fields.add("frames", "frames", s.frames);
   fields.add("tracked", "tracked", s.tracked);
   fields.add("tracked_live", "tracked_live", s.tracked_live);
+  fields.add("broken", nullptr, s.broken);
   fields.row("frames tracked", "%zu of %zu (%.1f %%)", s.tracked, s.frames, 100 * tracked / frames);
   fields.add("map_began_at_frame", nullptr, s.first_tracked_live);
   if (s.first_tracked_live >= 0) fields.row("map began at frame", "%d", s.first_tracked_live);
@@ -41,9 +58,11 @@ void add_counts(Fields& fields, const RunSummary& s) {
   fields.add("keyframes", "keyframes", s.keyframes);
   fields.add("points", "points", s.points);
   fields.row("key frames, points", "%zu, %zu", s.keyframes, s.points);
-  fields.add("texts", "texts", s.texts);
-  const bool could_be = s.texts > 0 || s.has_detections;
-  fields.row("text objects", could_be ? "%zu" : "%zu: the sequence has no detections, see --detector", s.texts);
+  if (s.points > 0) {
+    fields.add("reprojection_px", "reprojection_px", s.reprojection_px);
+    fields.row("reprojection error", "%.4f px rms", s.reprojection_px);
+  }
+  add_texts(fields, s);
   fields.add(nullptr, "loops", s.loops.size());
   fields.add("maps", nullptr, s.map_frames.size());
   fields.add("map_frames", "map_frames", s.map_frames);
@@ -83,6 +102,9 @@ void add_trajectories(Fields& fields, const RunSummary& s) {
   if (!is_aligned(s)) return;
   fields.page.update(of_final.page);
   fields.table += of_final.table;
+  fields.add("filled_in", nullptr, Json{{"poses", s.filled_in.poses}, {"ate_rmse", s.filled_in.ate_rmse}});
+  if (s.filled_in.poses > 0)
+    fields.row("ATE filled in", "%.2f mm rmse, %zu poses", 1000 * s.filled_in.ate_rmse, s.filled_in.poses);
 }
 
 void add_signs(Fields& fields, const TextEvaluation& text) {
@@ -128,31 +150,48 @@ std::vector<StampedPose> live_trajectory(const System& system) {
   return poses;
 }
 
+FilledIn compare_filled_in(const System& system, const Sequence& sequence, const Similarity& alignment) {
+  std::vector<StampedPose> poses;
+  for (const FrameRecord& record : system.records())
+    if (record.state == FrameState::tracked && !record.live)
+      poses.push_back({record.timestamp, system.final_pose(record)});
+  double sum = 0;
+  const std::vector<PosePair> pairs = associate(poses, sequence.groundtruth, EvaluationOptions{}.tolerance);
+  for (const PosePair& pair : pairs)
+    sum += (alignment * poses[pair.estimate].T_w_c.t - sequence.groundtruth[pair.truth].T_w_c.t).squaredNorm();
+  return {poses.size(), pairs.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(pairs.size()))};
+}
+
 RunSummary summarise(const System& system, const Sequence& sequence, std::size_t frames) {
   RunSummary s;
   s.frames = frames;
-  std::vector<double> ms;
+  std::vector<double> ms, detect_ms;
   for (std::size_t i = 0; i < system.records().size(); ++i) {
     const FrameRecord& record = system.records()[i];
     s.tracked += record.state == FrameState::tracked ? 1 : 0;
+    if (record.detect_ms > 0) detect_ms.push_back(record.detect_ms);
     if (!record.live) continue;
     if (s.first_tracked_live < 0) s.first_tracked_live = static_cast<int>(i);
     ++s.tracked_live;
     ms.push_back(record.track_ms + record.map_ms);
   }
   s.median_ms = median(ms);
+  s.median_detect_ms = median(detect_ms);
   s.loops = system.loops();
   s.map_frames = system.map_frames();
   const Map& map = system.map();
   s.keyframes = map.keyframe_ids().size();
   for (const MapPoint& point : map.points) s.points += point.bad ? 0 : 1;
   for (const TextObject& text : map.texts) s.texts += text.state == TextState::mapped ? 1 : 0;
+  s.reprojection_px = reprojection_error(map);
+  s.notes = sequence.notes;
   s.approximate_fov = sequence.approximate_fov;
   s.has_detections = sequence.has_detections;
   s.has_truth = !sequence.groundtruth.empty();
   if (!s.has_truth) return s;
   s.trajectory = evaluate_trajectory(final_trajectory(system), sequence.groundtruth, frames);
   s.live = evaluate_trajectory(live_trajectory(system), sequence.groundtruth, frames);
+  if (is_aligned(s)) s.filled_in = compare_filled_in(system, sequence, s.trajectory.alignment);
   return s;
 }
 
@@ -161,7 +200,10 @@ Fields describe(const RunSummary& s) {
   add_counts(fields, s);
   add_trajectories(fields, s);
   add_signs(fields, s.text);
-  fields.row("time", "%.1f ms a frame (median)", s.median_ms);
+  if (s.median_detect_ms > 0)
+    fields.row("time", "%.1f ms a frame, detection %.1f ms (medians)", s.median_ms, s.median_detect_ms);
+  else
+    fields.row("time", "%.1f ms a frame (median)", s.median_ms);
   if (!s.latency_ms.empty())
     fields.row("latency", "%.1f ms (median), %.1f ms (95th percentile)", median(s.latency_ms),
                percentile95(s.latency_ms));
@@ -169,7 +211,10 @@ Fields describe(const RunSummary& s) {
 }
 
 std::vector<std::string> warnings(const RunSummary& s) {
-  std::vector<std::string> out;
+  std::vector<std::string> out = s.notes;
+  if (s.broken > 0)
+    out.push_back(std::to_string(s.broken) + " of " + std::to_string(s.frames) +
+                  " frames cannot be read and were passed over");
   if (s.approximate_fov > 0)
     out.push_back("the camera is approximate, a pinhole of " + shortest(s.approximate_fov) +
                   " degrees without lens distortion: take angles and shapes with care");

@@ -14,6 +14,12 @@
 
 namespace textslam {
 
+/// Final poses that are not live ones.
+struct FilledIn {
+  std::size_t poses = 0;
+  double ate_rmse = 0;  ///< By the alignment of all final poses; NaN without.
+};
+
 struct RunSummary {
   std::size_t frames = 0, tracked = 0, tracked_live = 0;
   int first_tracked_live = -1;  ///< Index of the frame at which the map began.
@@ -22,10 +28,17 @@ struct RunSummary {
   std::vector<std::size_t> map_frames;  ///< Of each separate map, that of the outputs first.
   double approximate_fov = 0;           ///< Degrees, of a guessed camera; 0: it is calibrated.
   bool has_detections = false;          ///< The sequence has.
+  std::string detector;                 ///< Its name; empty where none ran.
+  std::size_t detected = 0;             ///< Boxes that it found.
+  std::size_t broken = 0;               ///< Frames that could not be read and were passed over.
+  std::vector<std::string> notes;       ///< Of the sequence.
   bool has_truth = false;
   TrajectoryEvaluation trajectory, live;
+  FilledIn filled_in;
   TextEvaluation text;
+  double reprojection_px = 0;      ///< See reprojection_error(), of the map.
   double median_ms = 0;            ///< A frame, detection aside.
+  double median_detect_ms = 0;     ///< A frame that the detector saw.
   std::vector<double> latency_ms;  ///< Real time: of each frame, from its arrival to its pose.
 };
 
