@@ -64,8 +64,8 @@ class Runner:
         return self.output / "runs" / case.name / mode
 
     def key(self, case, mode):
-        source = ([str(Path(case.sequence).resolve())] if case.sequence else []) + case.arguments
-        return {"program": self.program, "arguments": source + ["--mode", mode]}
+        source = [str(Path(case.sequence).resolve())] if case.sequence else case.rendering
+        return {"program": self.program, "arguments": source + case.arguments + ["--mode", mode]}
 
     def result(self, case, mode):
         """The result of the run, or None if there is none of this program and these arguments."""
@@ -76,15 +76,17 @@ class Runner:
         result = self.result(case, mode)
         return result is not None and (result["code"] == 0 or not self.retry_failed)
 
-    def run_case(self, case):
-        """Runs the unfinished modes of the case, and deletes its frames afterwards unless they are to be kept."""
-        missing = [mode for mode in MODES if not self.is_finished(case, mode)]
+    def run_cases(self, cases):
+        """Runs the unfinished modes of cases with one rendering, or of a case of a real sequence. Deletes the frames
+        afterwards unless they are to be kept."""
+        missing = [(case, mode) for case in cases for mode in MODES if not self.is_finished(case, mode)]
         if not missing:
             return
-        scratch = self.output / "frames" / case.name
+        first = cases[0]
+        scratch = self.output / "frames" / first.name
         try:
-            rendering = None if case.sequence else self.render(case, scratch)
-            for mode in missing:
+            rendering = None if first.sequence else self.render(first, scratch)
+            for case, mode in missing:
                 self.run_mode(case, mode, case.sequence or scratch / "sequence", rendering)
         finally:
             if not self.keep_frames:
@@ -92,11 +94,11 @@ class Runner:
 
     def render(self, case, folder):
         """What call() returns for the rendering; None if kept frames serve."""
-        arguments, note = " ".join(case.arguments), folder / "rendered.txt"
+        arguments, note = " ".join(case.rendering), folder / "rendered.txt"
         if self.keep_frames and note.exists() and note.read_text(encoding="utf-8") == arguments:
             return None
         shutil.rmtree(folder, ignore_errors=True)
-        rendering = call([self.textslam, *case.arguments, "--render-only", "--output", str(folder)])
+        rendering = call([self.textslam, *case.rendering, "--render-only", "--output", str(folder)])
         if rendering["code"] == 0:
             note.write_text(arguments, encoding="utf-8")
         return rendering
@@ -108,8 +110,7 @@ class Runner:
         if rendering and rendering["code"] != 0:
             run = rendering
         else:
-            where = [str(sequence), *(case.arguments if case.sequence else [])]
-            run = call([self.textslam, *where, "--mode", mode, "--output", str(folder)])
+            run = call([self.textslam, str(sequence), *case.arguments, "--mode", mode, "--output", str(folder)])
         result = {"key": self.key(case, mode), **run}
         result["metrics"] = load(folder / "metrics.json")
         result["tracking_s"] = seconds_of(load(folder / "timing.json"))
@@ -120,9 +121,12 @@ class Runner:
         say(f"{case.name} {mode}: {outcome}, {run['wall_s']:.1f} s")
 
     def run_all(self, cases, jobs):
-        """All cases, `jobs` at a time."""
+        """All cases, `jobs` at a time of those that do not share a rendering."""
+        together = {}
+        for case in cases:
+            together.setdefault(case.name if case.sequence else tuple(case.rendering), []).append(case)
         with concurrent.futures.ThreadPoolExecutor(max_workers=jobs) as pool:
-            futures = [pool.submit(self.run_case, case) for case in cases]
+            futures = [pool.submit(self.run_cases, group) for group in together.values()]
             try:
                 for future in concurrent.futures.as_completed(futures):
                     future.result()

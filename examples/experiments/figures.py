@@ -52,6 +52,12 @@ def trajectory_value(result, name, live=False):
     return errors[name] if errors["status"] == "ok" else None
 
 
+def aligned(result, name):
+    """A trajectory of the metrics if it could be compared with the truth, however much of the sequence it covers."""
+    errors = result["metrics"].get(name) if result["metrics"] else None
+    return errors if errors and errors.get("status", "ok") == "ok" and errors["ate_rmse"] is not None else None
+
+
 def matches(result):
     """The texts that stand for a true sign."""
     if failure(result) or "text" not in result["metrics"]:

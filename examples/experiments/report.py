@@ -18,15 +18,9 @@ from figures import (
 )
 from plan import MODES, STARTS, SWEEP_KIND, SWEEP_SEED, SWEEPS
 from plot import plot
+from tables import real_sequences, slow_sequences, table
 
 WITH_PLANES = ("text", "loose")
-
-
-def table(head, rows, names=1):
-    """Markdown; the first `names` columns are names, the others numbers."""
-    align = ["---"] * names + ["---:"] * (len(head) - names)
-    lines = ["| " + " | ".join(cells) + " |" for cells in [head, align, *rows]]
-    return "\n".join(lines) + "\n"
 
 
 def by_kind(cases):
@@ -62,7 +56,9 @@ class Report:
         return mapped, visible or None, strays
 
     def text(self):
-        parts = [self.head(), self.accuracy(), self.live(), self.planes(), self.angle_histogram(), self.time()]
+        real = [(kind, cases) for kind, cases in by_kind(self.cases) if cases[0].group == "sequence"]
+        parts = [self.head(), self.accuracy(), real_sequences(real, self.runs), slow_sequences(self.cases, self.runs),
+                 self.live(), self.planes(), self.angle_histogram(), self.time()]
         parts += [self.sweep(name) for name in SWEEPS if self.sweep_cases(name)]
         return "\n".join(part for part in parts + [self.failures()] if part)
 
@@ -75,7 +71,7 @@ class Report:
 
 Written by `examples/experiments/run`. `textslam` runs in three modes on rendered sequences of
 {length} (640x480, exact truth), with the seeds {seeds}. If the folder of a real sequence is
-given, it also runs on that, from the frames {starts} on.
+given, it also runs on that, from the frames {starts} on if no others are given.
 
 - `text`: points and text planes in one cost, the paper's method;
 - `points`: points alone;
@@ -109,8 +105,7 @@ lists it.
                 final = trajectory_value(run, "ate_rmse") if run else None
                 live = trajectory_value(run, "ate_rmse", live=True) if run else None
                 if final and live:
-                    start = case.arguments[-1] if case.arguments else 0
-                    which = f"from frame {start}" if case.seed is None else f"seed {case.seed}"
+                    which = f"from frame {case.first}" if case.seed is None else f"seed {case.seed}"
                     rows.append([f"`{kind}`", which, millimetres(final), millimetres(live), written(live / final, 2)])
         if not rows:
             return ""

@@ -34,8 +34,11 @@ if frames["seed"] == 3 and mode == "points":
 ate = 0.001 * frames["seed"] * {"text": 1, "points": 2, "loose": 2}[mode]
 errors = {"status": "ok", "path_length": 5, "ate_rmse": ate, "rpe_distance_translation_rmse": 0.0005,
           "rpe_distance_rotation_rmse_deg": 0.02}
+ate *= int(value("--every") or 1)
+errors["ate_rmse"] = ate
 metrics = {"frames": 10, "tracked": 10, "coverage": 0.3 if frames["blur"] > 9 else 1.0, "trajectory": errors,
-           "trajectory_live": {**errors, "ate_rmse": 2 * ate}}
+           "trajectory_live": {**errors, "ate_rmse": 2 * ate}, "tracked_live": 6, "maps": 1 + int(value("--first") or 0),
+           "filled_in": {"poses": 4, "ate_rmse": 3 * ate}}
 if mode == "text" and frames["blur"] > 29:
     errors["status"] = "too_few"
 elif mode == "points":
@@ -138,9 +141,35 @@ class Experiments(unittest.TestCase):
         (self.folder / "real/frames").write_text(json.dumps({"seed": 1, "blur": 0}))
         report = self.run_part("--kinds", "--sweeps", "--sequence", str(self.folder / "real"))
         self.assertEqual(len(self.called), 3 * len(plan.STARTS))
-        self.assertEqual(sum("--first 3 --mode" in call for call in self.called), 3)
+        self.assertEqual(sum("--first 3 --detector classical --mode" in call for call in self.called), 3)
         self.assertIn("| `real` | text | 1.00, 1.00, ", report)
         self.assertTrue((self.folder / "real/frames").exists())
+
+    def test_several_real_sequences_each_with_its_starts(self):
+        for name, blur in (("a/real", 0), ("b/real", 10), ("c", 0)):
+            (self.folder / name).mkdir(parents=True)
+            (self.folder / name / "frames").write_text(json.dumps({"seed": 1, "blur": blur}))
+        (self.folder / "c/detections").mkdir()
+        report = self.run_part("--kinds", "--sweeps", "--sequence", f"{self.folder}/a/real@0,3-8", "--sequence",
+                               f"{self.folder}/b/real@1", "--sequence", f"{self.folder}/c@0", "--jobs", "2")
+        self.assertEqual(len(self.called), 3 * 4)
+        self.assertEqual(sum("a/real --first 3 --last 8 --detector classical --mode" in call for call in self.called), 3)
+        self.assertEqual(sum(f"{self.folder}/c --mode" in call for call in self.called), 3, "it has detections")
+        # ATE 1 mm (points 2) final, twice that live, three times filled in, of a path of 5 m; a map more with each first frame
+        self.assertIn("| `a-real` | text | 2 of 2 | 100.0 % | 60.0 % | 2.5 | 1.00 | 0.020 | 2.00 | 0.040 | 3.00 | 0.060 |", report)
+        self.assertIn("| `a-real` | points | 2 of 2 | 100.0 % | 60.0 % | 2.5 | 2.00 | 0.040 | 4.00 | 0.080 | 6.00 | 0.120 |", report)
+        # Too few frames to count above, and here with what they are worth.
+        self.assertIn("| `b-real` | text | 1 of 1 | 30.0 % | 60.0 % | 2.0 | 1.00 | 0.020 | 2.00 | 0.040 | 3.00 | 0.060 |", report)
+        self.assertIn("- `sequence-b-real-1`, text: 30 % of the frames have a pose", report)
+
+    def test_fewer_frames_a_second_share_the_rendering(self):
+        report = self.run_part("--kinds", "room", "rapid", "--seeds", "1", "2", "--sweeps", "--frames", "10", "--every", "6", "10")
+        self.assertEqual(sum("--render-only" in call for call in self.called), 4)
+        self.assertEqual(sum("--every 6" in call for call in self.called), 6, "rapid is not among them")
+        self.assertIn("| `room` | 6 | text | 6.00, 12.00 | 9.00 | 6.00 | 100.0 % | 1.0 | 0 of 2 |", report)
+        self.assertIn("| `room` | 10 | points | 20.00, 40.00 | 30.00 | 10.00 | 100.0 % | 1.0 | 0 of 2 |", report)
+        self.assertIn("| `room` | text | 1.00, 2.00 | 1.50 |", report)
+        self.assertNotIn("| `rapid` | 6 |", report)
 
 
 if __name__ == "__main__":
