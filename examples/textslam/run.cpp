@@ -47,6 +47,8 @@ class FrameSource {
     return std::make_shared<const Pixels>(std::move(pixels));
   }
   double timestamp(int index) const { return sequence_.frames[at(index)].timestamp; }
+  /// The frame of the sequence that was taken last; -1: none.
+  int last() const { return taken_.empty() ? -1 : static_cast<int>(taken_.back()); }
   std::string name(int index) const { return frame_name(sequence_, at(index)); }
   std::vector<Detection> detect(int index, const Pixels& raw) {
     FrameRef frame = sequence_.frames[at(index)];
@@ -259,8 +261,9 @@ RunResult run(const RunOptions& options) {
   if (options.report)
     keep_going(result, [&] {
       const auto picture = [&](int index) { return source.frame(index).image; };
-      const ReportInput input{system,  options.parameters, sequence,     summary, signs, detections.of_frames(),
-                              picture, options.command,    options.first};
+      const ReportInput input{system,        options.parameters,     sequence,     summary,
+                              signs,         detections.of_frames(), picture,      options.command,
+                              options.first, source.last(),          options.every};
       const std::string path = options.output + "/report.html";
       write_file(path, report_html(input));
       result.report = path;

@@ -41,7 +41,7 @@ function show_provenance(data, run) {
   const facts = [["Program", `textslam ${data.version}`], ["SIMD target", run.target], ["Sequence", run.sequence]];
   if (data.start !== null) {
     const end = data.start + data.series.time[data.series.time.length - 1];
-    facts.push(["Frames", `${run.first} to ${run.first + data.series.time.length - 1}`]);
+    facts.push(["Frames", `${run.first} to ${run.last}${run.every > 1 ? `, one of ${run.every}` : ""}`]);
     // Time stamps that count from 1970 are dates.
     const date = data.start > 1e8 ? `, ${new Date(1000 * data.start).toISOString().replace(/\.\d+Z/, " UTC").replace("T", " ")}` : "";
     facts.push(["Time stamps", `${data.start} to ${Number(end.toFixed(6))} s${date}`]);

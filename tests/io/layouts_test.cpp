@@ -231,7 +231,7 @@ TEST_F(LayoutTest, VideoWithABrokenPicture) {
   std::string bytes;
   for (int i = 0; i < 6; ++i) {
     std::string picture = encode_jpeg(Image<std::uint8_t>(64, 48, static_cast<std::uint8_t>(40 + 20 * i)).view(), 95);
-    if (i == 2) picture[picture.find("\xFF\xC0") + 4] = 3;  // bits a sample
+    if (i == 2) picture[picture.find("\xFF\xC0") + 9] = 0;  // its colours
     bytes += picture;
   }
   const Sequence sequence = read_sequence(folder.write("film.mjpeg", bytes), fov(60));

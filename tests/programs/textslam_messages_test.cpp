@@ -78,11 +78,35 @@ TEST_F(TextslamInput, FramesThatCannotBeReadArePassedOver) {
   EXPECT_TRUE(says(none.err, "24 of 24 frames cannot be read")) << none.err;
 }
 
+TEST_F(TextslamInput, AVideoGoesOnPastAFrameOfAnotherSize) {
+  std::string film;
+  for (int i = 0; i < 6; ++i)
+    film += encode_jpeg(Image<std::uint8_t>(i == 2 ? 32 : 64, i == 2 ? 24 : 48, 100).view(), 90);
+  folder_.write("film.mjpeg", film);
+  const auto watch = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {folder_.path("film.mjpeg"), "--fov", "60", "--output", output()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return textslam_program(arguments);
+  };
+  const ProgramResult stops = watch({});
+  EXPECT_EQ(stops.code, 2);
+  if (says(stops.err, "TEXTSLAM_VIDEO")) GTEST_SKIP() << "this build reads no videos";
+  EXPECT_TRUE(says(stops.err, "32 x 24 px")) << stops.err;
+  EXPECT_EQ(Json::parse(report_block(bytes_of(output("report.html")), "data")).at("frames").size(), 2u);
+  const ProgramResult goes_on = watch({"--skip-broken"});
+  EXPECT_TRUE(says(goes_on.err, "1 of 6 frames cannot be read and were passed over")) << goes_on.err;
+  EXPECT_EQ(Json::parse(report_block(bytes_of(output("report.html")), "data")).at("frames").size(), 5u);
+}
+
 // The same as a sequence of these frames alone.
 TEST_F(TextslamInput, OneFrameOfSeveral) {
   make_room();
   expect_success(run({"--first", "1", "--every", "2"}));
   EXPECT_EQ(metrics().at("frames"), kFrames / 2);
+  const Json on_page = Json::parse(report_block(bytes_of(output("report.html")), "run"));
+  EXPECT_EQ(on_page.at("first"), 1);
+  EXPECT_EQ(on_page.at("last"), kFrames - 1);
+  EXPECT_EQ(on_page.at("every"), 2);
   const std::string trajectory = bytes_of(output("trajectory.txt")), map = bytes_of(output("text_map.json"));
   std::istringstream lines(bytes_of(sequence("images.txt")));
   std::string list, line;

@@ -42,6 +42,8 @@ Json run_json(const ReportInput& in) {
   return {{"command", in.command},
           {"sequence", in.sequence.video ? in.sequence.images_file : in.sequence.folder},
           {"first", in.first},
+          {"last", in.last},
+          {"every", in.every},
           {"target", textplane::simd::to_string(textplane::simd::active_target())},
           {"frame_ms", short_number(in.summary.median_ms)},
           {"detect_ms", short_number(in.summary.median_detect_ms)},

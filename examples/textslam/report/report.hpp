@@ -27,7 +27,8 @@ struct ReportInput {
   const std::map<int, std::vector<Detection>>& detections;  ///< By the frames that may be shown; undistorted px.
   ImageSource image;                                        ///< Called once for each picture.
   const std::vector<std::string>& command;                  ///< The command line, the program's name first.
-  int first = 0;                                            ///< Index in the sequence of the first frame.
+  int first = 0, last = -1;                                 ///< Indices in the sequence of the frames.
+  int every = 1;                                            ///< One frame of so many was used.
 };
 
 /// The page. Throws what `image` throws.

@@ -120,10 +120,11 @@ TEST_F(InitialiserTest, PatienceIsTime) {
   const int earliest = begin();
   parameters.init_patience = 0.4;
   const int at_25_hz = begin();
+  EXPECT_GE(interval * at_25_hz, 0.4);
   interval = 0.2;
   const int at_5_hz = begin();
   ASSERT_GT(earliest, 0);
-  EXPECT_GE(at_25_hz, earliest + 10) << "as many frames take 0.4 s";
+  EXPECT_GT(at_25_hz, earliest);
   EXPECT_LT(at_5_hz, at_25_hz);
   EXPECT_GE(at_5_hz, earliest);
 }

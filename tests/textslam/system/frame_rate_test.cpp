@@ -74,13 +74,13 @@ TEST_P(FrameRate, AMapIsLeftAfterASecond) {
   const Parameters parameters;
   const int lost = lost_frames(static_cast<std::size_t>(parameters.young_map_keyframes));
   EXPECT_EQ(lost, frames_of(parameters.lost_patience, GetParam()));
-  EXPECT_NEAR(lost / GetParam(), 1, 0.2) << "s, as README says";
+  EXPECT_NEAR((lost - 0.5) / GetParam(), 1, 0.15) << "s, as docs/textslam.md says";
 }
 
 TEST_P(FrameRate, AYoungMapIsLeftAfterHalfASecond) {
   const int lost = lost_frames(2);
   EXPECT_EQ(lost, frames_of(Parameters().young_map_patience, GetParam()));
-  EXPECT_NEAR(lost / GetParam(), 0.5, 0.3);
+  EXPECT_NEAR((lost - 0.5) / GetParam(), 0.5, 0.25);
 }
 
 // The more key frames it asks for, the sooner they may follow: as close as the time allows, and no closer.
