@@ -51,6 +51,8 @@ void read_as(int what, const std::string& path) {
     case 3: read_text_map(path); break;
     case 4: read_json(path); break;
     case 5: {
+      const int orientation = image_orientation(path);
+      TEXTPLANE_FUZZ_REQUIRE(orientation >= 1 && orientation <= 8);
       const Image<std::uint8_t> image = load_grey(path);
       TEXTPLANE_FUZZ_REQUIRE(image.width() > 0 && image.height() > 0);
       break;
