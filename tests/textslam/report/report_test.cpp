@@ -138,6 +138,12 @@ TEST(FrameLine, IsAnObject) {
   EXPECT_EQ(Json::parse(frame_line(4, record, map)).at("map_keyframes"), 1);
 }
 
+TEST(Progress, OneIsNoPlural) {
+  EXPECT_EQ(counted(0, "text"), "0 texts");
+  EXPECT_EQ(counted(1, "text"), "1 text");
+  EXPECT_EQ(counted(3, "point"), "3 points");
+}
+
 TEST(Progress, SaysHowLongItWillTake) {
   EXPECT_EQ(progress_line("tracking", 120, 240, 2000, "lost"), "tracking 120/240, 60 frames/s, 0:02 left  lost");
   EXPECT_EQ(progress_line("tracking", 1, 241, 500, "x"), "tracking 1/241, 2.0 frames/s, 2:00 left  x");
