@@ -33,7 +33,7 @@ class FrameSource {
  public:
   FrameSource(const Sequence& sequence, const RunOptions& options)
       : sequence_(sequence),
-        pyramid_levels_(at_size(options.parameters, sequence.camera.width, sequence.camera.height).pyramid_levels),
+        parameters_(at_size(options.parameters, sequence.camera.width, sequence.camera.height)),
         undistort_(sequence.camera),
         detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)),
         reader_(options.parameters.mode == Mode::points ? nullptr : make_reader(options.detector)) {}
@@ -68,11 +68,11 @@ class FrameSource {
   }
   std::shared_ptr<const Pyramid> pyramid(const Image<std::uint8_t>& raw) const {
     const Image<std::uint8_t> image = undistort_(raw);
-    return std::make_shared<const Pyramid>(image.view(), pyramid_levels_);
+    return std::make_shared<const Pyramid>(image.view(), parameters_.pyramid_levels);
   }
 
   const Sequence& sequence_;
-  int pyramid_levels_;
+  Parameters parameters_;
   mutable std::mutex mutex_;        // of taken_
   std::vector<std::size_t> taken_;  // frames of the sequence
   Undistorter undistort_;

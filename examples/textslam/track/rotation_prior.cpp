@@ -96,8 +96,8 @@ RotationPrior align_rotation(const Frame& a, const Frame& b, const Pinhole<doubl
   return FrameAlignment(a, b, camera, parameters).descend(start);
 }
 
-RotationPrior find_rotation(const Frame& a, const Frame& b, const Pinhole<double>& camera,
-                            const Eigen::Matrix3d& start, const Parameters& parameters) {
+RotationPrior find_rotation(const Frame& a, const Frame& b, const Pinhole<double>& camera, const Eigen::Matrix3d& start,
+                            const Parameters& parameters) {
   FrameAlignment alignment(a, b, camera, parameters);
   const RotationPrior near = alignment.descend(start);
   if (near.zncc > parameters.rotation_clear_zncc) return near;

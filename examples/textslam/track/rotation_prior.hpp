@@ -20,8 +20,8 @@ RotationPrior align_rotation(const Frame& a, const Frame& b, const Pinhole<doubl
                              const Eigen::Matrix3d& start, const Parameters& parameters);
 
 /// The same; where the images do not agree well there, other rotations are tried, too.
-RotationPrior find_rotation(const Frame& a, const Frame& b, const Pinhole<double>& camera,
-                            const Eigen::Matrix3d& start, const Parameters& parameters);
+RotationPrior find_rotation(const Frame& a, const Frame& b, const Pinhole<double>& camera, const Eigen::Matrix3d& start,
+                            const Parameters& parameters);
 
 }  // namespace textslam
 

@@ -1,10 +1,13 @@
 #include "textslam/track/tracker.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <map>
 
 #include "io/clock.hpp"
 #include "textplane/solver/pose.hpp"
+#include "textslam/map/observations.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/track/feature_tracks.hpp"
 #include "textslam/track/pose_refit.hpp"
@@ -114,8 +117,8 @@ void Tracker::follow_corners(const Frame& frame, const SE3d& T_c_w, std::vector<
     const auto nearest = std::min_element(depths.begin(), depths.end(), [&](const Depth& a, const Depth& b) {
       return (a.px - corner.px).squaredNorm() < (b.px - corner.px).squaredNorm();
     });
-    guesses.push_back(guess(nearest == depths.end() ? Vec3(T_now_before.R * ray) : T_now_before * (nearest->z * ray),
-                            corner.px));
+    guesses.push_back(
+        guess(nearest == depths.end() ? Vec3(T_now_before.R * ray) : T_now_before * (nearest->z * ray), corner.px));
   }
   advance_tracks(frame_, frame, guesses, parameters_, corners);
   tracks_.insert(tracks_.end(), std::make_move_iterator(corners.begin()), std::make_move_iterator(corners.end()));
@@ -173,6 +176,25 @@ void Tracker::relocate(const Frame& frame, const Candidate& candidate) {
   tracks_.push_back({px, candidate.point});
 }
 
+// Corners whose depth is not known yet, as points at the median depth of the key frame that saw them last: they hold the
+// rotation, and less of the position the farther the camera is from there.
+void Tracker::add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const {
+  const double focal = std::max(map_.camera.fx, map_.camera.fy);
+  std::map<int, double> depths;
+  for (const Track& track : tracks_) {
+    if (track.point >= 0 || track.observations.empty()) continue;
+    const PointObservation& seen = track.observations.back();
+    const auto [found, fresh] = depths.try_emplace(seen.keyframe, 0);
+    if (fresh) found->second = median_depth(map_, seen.keyframe);
+    const double depth = found->second;
+    if (!(depth > 0)) continue;
+    const SE3d& T_w_k = map_.keyframe(seen.keyframe).T_w_c;
+    const double shift = focal * (T_c_w * T_w_k).t.norm() / depth;
+    points.push_back({T_w_k * Vec3(depth * map_.camera.unproject(seen.px)), track.px.cast<double>(),
+                      std::hypot(parameters_.point_sigma, parameters_.hold_depth_spread * shift)});
+  }
+}
+
 // False where the pose does not hold. The report gets what it rests on.
 bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report) {
   std::vector<textplane::PosePointTerm> points;
@@ -182,6 +204,8 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
     points.push_back({map_.point(tracks_[i].point).p_w, tracks_[i].px.cast<double>(), parameters_.point_sigma});
     track_of.push_back(i);
   }
+  const int map_points = static_cast<int>(points.size());
+  if (map_points < parameters_.hold_points) add_unmapped(*T_c_w, points);
   std::vector<textplane::PoseTextTerm> texts;
   if (with_text)
     for (const TextObject& text : map_.texts) {
@@ -192,7 +216,7 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
     }
 
   const int text_count = static_cast<int>(texts.size()), point_count = static_cast<int>(points.size());
-  report->points = point_count;
+  report->points = map_points;
   report->inliers = report->texts = 0;
   if (point_count < parameters_.pose_min_points && texts.empty()) return false;
   textplane::PoseWorkspace workspace;
@@ -205,7 +229,9 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
                                              map_.camera, *T_c_w, options, workspace, zncc.data(), chi2.data());
   if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return false;
   *T_c_w = textplane::renormalised(result.T_t_w);
-  for (std::size_t k = 0; k < points.size(); ++k) {
+  int held = 0;
+  for (std::size_t k = track_of.size(); k < points.size(); ++k) held += is_pose_inlier(parameters_, chi2[k]) ? 1 : 0;
+  for (std::size_t k = 0; k < track_of.size(); ++k) {
     Track& track = tracks_[track_of[k]];
     track.inlier = is_pose_inlier(parameters_, chi2[k]);
     report->inliers += track.inlier ? 1 : 0;
@@ -213,7 +239,7 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
   for (const float z : zncc) report->texts += z >= parameters_.text_min_zncc ? 1 : 0;
   const int inliers = report->inliers;
   const bool enough_points =
-      inliers >= parameters_.min_inliers && inliers >= parameters_.min_inlier_share * point_count;
+      inliers + held >= parameters_.min_inliers && inliers + held >= parameters_.min_inlier_share * point_count;
   return enough_points || report->texts >= parameters_.enough_texts ||
          (report->texts > 0 && inliers >= parameters_.min_inliers / 2);
 }

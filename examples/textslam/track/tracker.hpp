@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "textplane/solver/pose.hpp"
 #include "textslam/map/local_map.hpp"
 #include "textslam/track/point_search.hpp"
 #include "textslam/track/track.hpp"
@@ -56,6 +57,7 @@ class Tracker {
   void follow_corners(const Frame& frame, const SE3d& T_c_w, std::vector<Track> corners);
   void reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report);
   void relocate(const Frame& frame, const Candidate& candidate);
+  void add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const;
   bool fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report);
   bool looks_for_point(int id) const { return !map_.point(id).bad && (!local_ || local_->has_point(id)); }
 
