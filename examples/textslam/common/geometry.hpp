@@ -12,6 +12,8 @@ namespace textslam {
 using Vec2 = Eigen::Vector2d;
 using Vec2f = Eigen::Vector2f;
 using Vec3 = Eigen::Vector3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 inline double radians(double degrees) { return degrees * M_PI / 180; }
 

@@ -120,9 +120,10 @@ Loop find_loop(const Map& map, const LocalMap& local, const Parameters& paramete
 Drift drift_left(const Map& map, const Parameters& parameters, const Loop& loop) {
   Drift left;
   const SE3d& T_w_c = map.keyframe(loop.keyframe).T_w_c;
-  SE3d by_old = T_w_c.inverse();
+  PoseEstimate refitted{T_w_c.inverse()};
   const std::vector<SeenPoint> old_points = seen_points(loop.seen.tracks, loop.seen.tracks.size());
-  if (!refit_pose(map, parameters, old_points, &by_old)) return left;
+  if (!refit_pose(map, parameters, old_points, &refitted)) return left;
+  const SE3d& by_old = refitted.T_c_w;
   const SE3d T_c_w = T_w_c.inverse();
   std::vector<double> ratios;
   for (const SeenPoint& seen : old_points)

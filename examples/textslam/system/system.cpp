@@ -123,6 +123,7 @@ bool System::track(const Frame& frame, FrameRecord& record) {
   record.points = report.inliers;
   record.texts = report.texts;
   if (!report.ok) return false;
+  record.information = report.information;
   for (const int id : report.visible) ++map_.point(id).visible;
   for (const int id : report.found) ++map_.point(id).found;
   return true;
@@ -227,9 +228,10 @@ void System::take_over(const Adjuster::Collected& adjusted) {
 
 void System::refit(FrameRecord& record) const {
   if (record.state != FrameState::tracked || record.map != map_.number || record.seen.empty()) return;
-  SE3d T_c_w = final_pose(record).inverse();
-  if (refit_pose(map_, parameters_, record.seen, &T_c_w))
-    record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * T_c_w.inverse();
+  PoseEstimate pose{final_pose(record).inverse(), parameters_.refit_live_weight * record.information};
+  if (!refit_pose(map_, parameters_, record.seen, &pose)) return;
+  record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * pose.T_c_w.inverse();
+  record.information = pose.information;
 }
 
 void System::fill_in(const std::function<Frame(int)>& load) {
@@ -257,6 +259,7 @@ void System::fill_in(const std::function<Frame(int)>& load) {
     record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * report.T_c_w.inverse();
     record.points = report.inliers;
     record.texts = report.texts;
+    record.information = report.information;
   }
 }
 

@@ -47,6 +47,7 @@ struct FrameRecord {
   int map = -1;       ///< Number of the map that it was tracked in. In the end only frames of map() are not lost.
   int keyframe = -1;  ///< The key frame that the pose is relative to.
   SE3d T_k_c;         ///< Camera to that key frame.
+  Matrix6 information = Matrix6::Zero();  ///< Of that, see PoseEstimate; zero where the pose is a key frame's.
   SE3d T_w_c_live;    ///< Camera to the live world as known when the frame was processed; tracked frames alone.
   bool live = false;  ///< Tracked in the map when it came, not filled in or joined afterwards.
   int points = 0, texts = 0;

@@ -9,7 +9,9 @@ namespace textslam {
 void System::apply(const LoopCorrection& correction) {
   for (FrameRecord& record : records_) {
     if (record.map != map_.number || record.keyframe < 0) continue;
-    record.T_k_c.t *= correction.scales[static_cast<std::size_t>(record.keyframe)];
+    const double scale = correction.scales[static_cast<std::size_t>(record.keyframe)];
+    record.T_k_c.t *= scale;
+    record.information = rescaled(record.information, scale);
     for (SeenPoint& seen : record.seen) seen.point = correction.points[static_cast<std::size_t>(seen.point)];
   }
   std::vector<Track>& tracks = tracker_->tracks();

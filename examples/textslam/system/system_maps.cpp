@@ -40,6 +40,7 @@ bool System::recover(const Frame& frame, FrameRecord& record) {
   if (!found.ok) return false;
   record.points = found.inliers;
   record.texts = found.texts;
+  record.information = found.information;
   last_keyframe_points_ = found.inliers;
   // The motion since the last frame is not known: the tracker starts without a velocity.
   local_ = local_map(map_, parameters_, found.found);
@@ -72,6 +73,7 @@ void System::join(std::size_t stored, const MapLink& link) {
     record.map = joined.number;
     record.keyframe += ids.first_keyframe;
     record.T_k_c.t *= link.S_a_b.scale;
+    record.information = rescaled(record.information, link.S_a_b.scale);
     record.live = false;
     for (SeenPoint& seen : record.seen) seen.point = point_in_joined(seen.point);
     erase_if(record.seen, [](const SeenPoint& seen) { return seen.point < 0; });

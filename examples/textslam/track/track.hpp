@@ -2,8 +2,11 @@
 #ifndef TEXTSLAM_TRACK_TRACK_HPP
 #define TEXTSLAM_TRACK_TRACK_HPP
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
+#include "textplane/core/numeric.hpp"
 #include "textslam/map/map.hpp"
 
 namespace textslam {
@@ -14,6 +17,27 @@ struct Track {
   std::vector<PointObservation> observations = {};  ///< In key frames, while it has no point.
   bool inlier = true;                               ///< Of the last pose.
 };
+
+/// A pose with what is known of it, under left perturbations xi = (v, omega) of T_c_w: the inverse of its covariance. The
+/// map counts as known. v is in lengths of the map, so that information changes with the map's scale.
+struct PoseEstimate {
+  SE3d T_c_w;
+  Matrix6 information = Matrix6::Zero();
+};
+
+/// The information after all lengths were multiplied by `scale`.
+inline Matrix6 rescaled(Matrix6 information, double scale) {
+  information.topRows<3>() /= scale;
+  information.leftCols<3>() /= scale;
+  return information;
+}
+
+/// Standard deviation of the camera's position: the square root of the covariance's trace. Infinite where the
+/// information leaves a direction open.
+inline double position_sigma(const Matrix6& information) {
+  const textplane::Ldlt<double, 6> ldlt(information);
+  return ldlt.ok() ? std::sqrt(ldlt.inverse().topLeftCorner<3, 3>().trace()) : std::numeric_limits<double>::infinity();
+}
 
 /// The observations of its point, or its own while it has none.
 inline const std::vector<PointObservation>& observations_of(const Map& map, const Track& track) {

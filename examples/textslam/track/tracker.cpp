@@ -229,6 +229,7 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
                                              map_.camera, *T_c_w, options, workspace, zncc.data(), chi2.data());
   if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return false;
   *T_c_w = textplane::renormalised(result.T_t_w);
+  report->information = result.information;
   int held = 0;
   for (std::size_t k = track_of.size(); k < points.size(); ++k) held += is_pose_inlier(parameters_, chi2[k]) ? 1 : 0;
   for (std::size_t k = 0; k < track_of.size(); ++k) {

@@ -19,11 +19,12 @@ namespace textslam {
 struct TrackReport {
   bool ok = false;
   SE3d T_c_w;
-  int points = 0;            ///< Map points tracked.
-  int inliers = 0;           ///< Of them, consistent with the pose.
-  int texts = 0;             ///< Texts that took part with a good ZNCC.
-  std::vector<int> visible;  ///< Ids of points that should be seen.
-  std::vector<int> found;    ///< Ids of points that were.
+  Matrix6 information = Matrix6::Zero();  ///< Of T_c_w, as PoseEstimate has it.
+  int points = 0;                         ///< Map points tracked.
+  int inliers = 0;                        ///< Of them, consistent with the pose.
+  int texts = 0;                          ///< Texts that took part with a good ZNCC.
+  std::vector<int> visible;               ///< Ids of points that should be seen.
+  std::vector<int> found;                 ///< Ids of points that were.
   double klt_ms = 0, pose_ms = 0, reobserve_ms = 0;
 };
 
