@@ -45,17 +45,17 @@ namespace detail {
 
 // d xi(T_t_h) / d block of the two camera-to-world poses.
 template <PoseOrder Order>
-Eigen::Matrix<double, 6, 7> host_by_block(const SE3d& T_t_h, const double* block) {
+FixedMatrix<double, 6, 7> host_by_block(const SE3d& T_t_h, const double* block) {
   return adjoint(T_t_h).lazyProduct(perturbation_by_block<Order>(block));
 }
 template <PoseOrder Order>
-Eigen::Matrix<double, 6, 7> target_by_block(const double* block) {
+FixedMatrix<double, 6, 7> target_by_block(const double* block) {
   return -perturbation_by_block<Order>(block);
 }
 
 // Writes rows times factor to a Jacobian block, unless null.
 template <class Rows, int Inner, int Columns>
-void write_block(const Rows& rows, const Eigen::Matrix<double, Inner, Columns>& factor, double* out) {
+void write_block(const Rows& rows, const FixedMatrix<double, Inner, Columns>& factor, double* out) {
   if (!out) return;
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>>(out, rows.rows(), Columns) =
       rows.lazyProduct(factor);
@@ -151,12 +151,12 @@ class PointCost : public ceres::SizedCostFunction<2, kPoseSize, 3> {
     const SE3d T = pose_from_block<Order>(blocks[0]);
     const Vector3<double> p = T.R.transpose() * (Eigen::Map<const Vector3<double>>(blocks[1]) - T.t);
     if (!(p[2] > min_depth_)) return false;
-    Eigen::Matrix<double, 2, 3> J;
+    FixedMatrix<double, 2, 3> J;
     Eigen::Map<Vector2<double>>{residuals} = scale_ * (camera_.project(p, &J) - px_);
     if (!jacobians) return true;
     J *= scale_;
     if (jacobians[0]) {
-      Eigen::Matrix<double, 2, 6> by_pose;
+      FixedMatrix<double, 2, 6> by_pose;
       by_pose << -J, J * hat(p);
       detail::write_block(by_pose, perturbation_by_block<Order>(blocks[0]), jacobians[0]);
     }

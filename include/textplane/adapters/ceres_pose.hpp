@@ -57,10 +57,10 @@ void pose_to_block(const SE3d& T, double* block) noexcept {
 
 /// d block / d xi of T Exp(xi) at xi = 0, xi = (v, omega).
 template <PoseOrder Order = PoseOrder::quaternion_translation>
-Eigen::Matrix<double, 7, 6> block_by_perturbation(const double* block) noexcept {
+FixedMatrix<double, 7, 6> block_by_perturbation(const double* block) noexcept {
   constexpr int q = detail::quaternion_at(Order), t = detail::translation_at(Order);
   const Vector3<double> v(block[q], block[q + 1], block[q + 2]);
-  Eigen::Matrix<double, 7, 6> J = Eigen::Matrix<double, 7, 6>::Zero();
+  FixedMatrix<double, 7, 6> J = FixedMatrix<double, 7, 6>::Zero();
   J.template block<3, 3>(t, 0) = pose_from_block<Order>(block).R;
   J.template block<3, 3>(q, 3) = 0.5 * (block[q + 3] * Matrix3<double>::Identity() + hat(v));
   J.template block<1, 3>(q + 3, 3) = -0.5 * v.transpose();
@@ -69,10 +69,10 @@ Eigen::Matrix<double, 7, 6> block_by_perturbation(const double* block) noexcept 
 
 /// Its left inverse, d xi / d block along the unit quaternions.
 template <PoseOrder Order = PoseOrder::quaternion_translation>
-Eigen::Matrix<double, 6, 7> perturbation_by_block(const double* block) noexcept {
+FixedMatrix<double, 6, 7> perturbation_by_block(const double* block) noexcept {
   constexpr int q = detail::quaternion_at(Order), t = detail::translation_at(Order);
-  const Eigen::Matrix<double, 7, 6> J = block_by_perturbation<Order>(block);
-  Eigen::Matrix<double, 6, 7> out = Eigen::Matrix<double, 6, 7>::Zero();
+  const FixedMatrix<double, 7, 6> J = block_by_perturbation<Order>(block);
+  FixedMatrix<double, 6, 7> out = FixedMatrix<double, 6, 7>::Zero();
   out.template block<3, 3>(0, t) = J.template block<3, 3>(t, 0).transpose();
   out.template block<3, 4>(3, q) = 4.0 * J.template block<4, 3>(q, 3).transpose();
   return out;

@@ -69,7 +69,7 @@ namespace detail {
 // J = L^T and r = L^-1 b of the semi-definite H = L L^T. A pivot within rounding of zero gives a row of zeros. With
 // pose and plane one of the nine always does: they share a scale.
 template <int P>
-void square_root(const NormalEquations<P>& sums, Eigen::Matrix<double, P, P>* J,
+void square_root(const NormalEquations<P>& sums, FixedMatrix<double, P, P>* J,
                  Eigen::Matrix<double, P, 1>* r) noexcept {
   constexpr double kRounding = 1e-6;
   J->setZero();
@@ -100,7 +100,7 @@ class TextRowsCost : public ceres::CostFunction {
 
   TextRowsCost(const PhotometricInput& input, const TextCostOptions& options, std::shared_ptr<WorkspacePool> pool)
       : input_(input), options_(options), pool_(pool ? std::move(pool) : std::make_shared<WorkspacePool>()) {
-    set_num_residuals(options.rows == TextRows::sums ? P + 1 : std::max(input.patch.n, 1));
+    set_num_residuals(options.rows == TextRows::sums ? P + 1 : (std::max)(input.patch.n, 1));
   }
 
   // After a success, and where `rows` is true, calls write() with the num_residuals() x P rows.
@@ -135,12 +135,12 @@ class TextRowsCost : public ceres::CostFunction {
     }
     const NormalEquations<P> sums = linearise<Unknowns>(request, workspace.photometric);
     if (!is_ok(sums.status)) return false;
-    Eigen::Matrix<double, P, P> J;
+    FixedMatrix<double, P, P> J;
     Eigen::Matrix<double, P, 1> r;
     square_root<P>(sums, &J, &r);
     const double scale = factor(sums.visible);
     out.template head<P>() = scale * r;
-    out[P] = scale * std::sqrt(std::max(sums.cost - r.squaredNorm(), 0.0));
+    out[P] = scale * std::sqrt((std::max)(sums.cost - r.squaredNorm(), 0.0));
     Eigen::Map<Eigen::Matrix<double, P + 1, P, Eigen::RowMajor>> to(workspace.rows.data());
     to.template topRows<P>() = scale * J;
     to.template bottomRows<1>().setZero();

@@ -5,6 +5,7 @@
 #define TEXTPLANE_CORE_NUMERIC_HPP
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -19,8 +20,13 @@ template <class S>
 using Vector3 = Eigen::Matrix<S, 3, 1>;  ///< A point, a direction, or a plane theta.
 template <class S>
 using Vector6 = Eigen::Matrix<S, 6, 1>;  ///< A twist xi = (v, omega).
+/// A matrix of fixed size. Its numbers lie column by column, also with EIGEN_DEFAULT_TO_ROW_MAJOR: kernels read them
+/// through pointers. (Eigen wants a single row to be stored by rows, which is the same.)
+template <class S, int Rows, int Columns>
+using FixedMatrix =
+    Eigen::Matrix<S, Rows, Columns, Rows == 1 && Columns != 1 ? Eigen::RowMajor : Eigen::ColMajor, Rows, Columns>;
 template <class S>
-using Matrix3 = Eigen::Matrix<S, 3, 3>;  ///< A rotation or a homography.
+using Matrix3 = FixedMatrix<S, 3, 3>;  ///< A rotation or a homography.
 
 namespace detail {
 // The scalar of sums over measurements of type S: double for float, else S itself.
@@ -34,14 +40,17 @@ struct WideScalar<float> {
 };
 template <class S>
 using Wide = typename WideScalar<S>::type;
+// The length of an array that a template names by an int: g++ calls the conversion one of signs.
+template <int N>
+constexpr std::size_t kLength = static_cast<std::size_t>(N);
 }  // namespace detail
 
 /// A B of fixed-size matrices, written out: Eigen's loop may become a weak symbol, and the linker may keep the copy
 /// with another instruction set. Eigen's expressions also compile slowly.
 template <class S, int Rows, int Inner, int Columns>
-Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
-                                        const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
-  Eigen::Matrix<S, Rows, Columns> c;
+FixedMatrix<S, Rows, Columns> product(const FixedMatrix<S, Rows, Inner>& a,
+                                      const FixedMatrix<S, Inner, Columns>& b) noexcept {
+  FixedMatrix<S, Rows, Columns> c;
   for (int j = 0; j < Columns; ++j) {
     for (int i = 0; i < Rows; ++i) {
       S sum = a(i, 0) * b(0, j);
@@ -54,9 +63,9 @@ Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
 
 /// A^T B, written out likewise. Long columns are summed in two chains, which halves the latency.
 template <class S, int Inner, int Rows, int Columns>
-Eigen::Matrix<S, Rows, Columns> transposed_product(const Eigen::Matrix<S, Inner, Rows>& a,
-                                                   const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
-  Eigen::Matrix<S, Rows, Columns> c;
+FixedMatrix<S, Rows, Columns> transposed_product(const FixedMatrix<S, Inner, Rows>& a,
+                                                 const FixedMatrix<S, Inner, Columns>& b) noexcept {
+  FixedMatrix<S, Rows, Columns> c;
   for (int j = 0; j < Columns; ++j)
     for (int i = 0; i < Rows; ++i) {
       if constexpr (Inner > 2 && Inner % 2 == 0) {
@@ -77,8 +86,8 @@ Eigen::Matrix<S, Rows, Columns> transposed_product(const Eigen::Matrix<S, Inner,
 
 /// A^T, written out likewise.
 template <class S, int Rows, int Columns>
-Eigen::Matrix<S, Columns, Rows> transposed(const Eigen::Matrix<S, Rows, Columns>& a) noexcept {
-  Eigen::Matrix<S, Columns, Rows> c;
+FixedMatrix<S, Columns, Rows> transposed(const FixedMatrix<S, Rows, Columns>& a) noexcept {
+  FixedMatrix<S, Columns, Rows> c;
   for (int j = 0; j < Columns; ++j)
     for (int i = 0; i < Rows; ++i) c(j, i) = a(i, j);
   return c;
@@ -86,8 +95,8 @@ Eigen::Matrix<S, Columns, Rows> transposed(const Eigen::Matrix<S, Rows, Columns>
 
 /// The block of Rows x Columns at (row, column), written out likewise.
 template <int Rows, int Columns, class S, int AllRows, int AllColumns>
-Eigen::Matrix<S, Rows, Columns> block(const Eigen::Matrix<S, AllRows, AllColumns>& a, int row, int column) noexcept {
-  Eigen::Matrix<S, Rows, Columns> c;
+FixedMatrix<S, Rows, Columns> block(const FixedMatrix<S, AllRows, AllColumns>& a, int row, int column) noexcept {
+  FixedMatrix<S, Rows, Columns> c;
   for (int j = 0; j < Columns; ++j)
     for (int i = 0; i < Rows; ++i) c(i, j) = a(row + i, column + j);
   return c;
@@ -95,8 +104,8 @@ Eigen::Matrix<S, Rows, Columns> block(const Eigen::Matrix<S, AllRows, AllColumns
 
 /// factor A, written out likewise.
 template <class S, int Rows, int Columns>
-Eigen::Matrix<S, Rows, Columns> scaled(const S& factor, const Eigen::Matrix<S, Rows, Columns>& a) noexcept {
-  Eigen::Matrix<S, Rows, Columns> c;
+FixedMatrix<S, Rows, Columns> scaled(const S& factor, const FixedMatrix<S, Rows, Columns>& a) noexcept {
+  FixedMatrix<S, Rows, Columns> c;
   for (int i = 0; i < Rows * Columns; ++i) c.data()[i] = factor * a.data()[i];
   return c;
 }
@@ -140,7 +149,7 @@ bool all_finite(const Eigen::DenseBase<Derived>& m) noexcept {
 template <class S, int N>
 class Ldlt {
  public:
-  using Matrix = Eigen::Matrix<S, N, N>;  ///< The matrix of the system.
+  using Matrix = FixedMatrix<S, N, N>;    ///< The matrix of the system.
   using Vector = Eigen::Matrix<S, N, 1>;  ///< Right side and solution.
 
   /// Factorises `a`.
@@ -186,23 +195,23 @@ class Ldlt {
 
  private:
   Matrix l_;
-  S d_[N] = {};
+  S d_[detail::kLength<N>] = {};
   bool ok_ = false;
 };
 
 /// Eigenvalues (ascending) and eigenvectors (columns) of a symmetric N x N matrix by cyclic Jacobi rotations.
 template <class S, int N>
 struct SymmetricEigen {
-  Eigen::Matrix<S, N, 1> values;   ///< Eigenvalues.
-  Eigen::Matrix<S, N, N> vectors;  ///< Eigenvectors of unit length: columns, in the order of the values.
+  Eigen::Matrix<S, N, 1> values;  ///< Eigenvalues.
+  FixedMatrix<S, N, N> vectors;   ///< Eigenvectors of unit length: columns, in the order of the values.
 };
 
 /// Eigenvalues and eigenvectors of a symmetric matrix, by Jacobi rotations.
 template <class S, int N>
-SymmetricEigen<S, N> symmetric_eigen(const Eigen::Matrix<S, N, N>& matrix) noexcept {
+SymmetricEigen<S, N> symmetric_eigen(const FixedMatrix<S, N, N>& matrix) noexcept {
   using std::abs;
   using std::sqrt;
-  Eigen::Matrix<S, N, N> a = matrix;
+  FixedMatrix<S, N, N> a = matrix;
   SymmetricEigen<S, N> e;
   e.vectors.setIdentity();
   for (int sweep = 0; sweep < 30; ++sweep) {

@@ -158,8 +158,8 @@ Vector6<S> se3_log(const SE3<S>& T) noexcept {
 
 /// Ad_T with T Exp(xi) = Exp(Ad_T xi) T, for xi = (v, omega): [R, [t]x R; 0, R].
 template <class S>
-Eigen::Matrix<S, 6, 6> adjoint(const SE3<S>& T) noexcept {
-  Eigen::Matrix<S, 6, 6> a;
+FixedMatrix<S, 6, 6> adjoint(const SE3<S>& T) noexcept {
+  FixedMatrix<S, 6, 6> a;
   a.template block<3, 3>(0, 0) = T.R;
   a.template block<3, 3>(0, 3) = product(hat(T.t), T.R);
   a.template block<3, 3>(3, 0).setZero();

@@ -141,10 +141,10 @@ inline Status extract_upright_patch(const ImageView8& image, float x, float y, P
 // Samples at centre + A (i, j), |i|, |j| <= reach. All lie inside the image, to rounding. `out` begins with the sample
 // of (-reach, -reach); its rows are simd::kKltStride floats apart.
 TEXTPLANE_DEFERRED
-void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A_f, int reach,
-                   float* out) noexcept {
+void sample_affine(const ImageView8& image, const Vector2<float>& centre, const FixedMatrix<float, 2, 2>& A_f,
+                   int reach, float* out) noexcept {
   const int side = 2 * reach + 1;
-  const Eigen::Matrix2d A = A_f.cast<double>();
+  const FixedMatrix<double, 2, 2> A = A_f.cast<double>();
   const Vector2<double> first = centre.cast<double>() - A * Vector2<double>::Constant(reach);
   Matrix3<double> H = Matrix3<double>::Identity();
   H.topLeftCorner<2, 2>() = A;
@@ -170,8 +170,8 @@ void sample_affine(const ImageView8& image, const Vector2<float>& centre, const 
 /// `t->status`: ok; out_of_view where a sample leaves the image; no_contrast; degenerate for a singular A; non_finite;
 /// invalid_argument. No allocation; any number of threads.
 TEXTPLANE_DEFERRED
-Status extract_point_patch(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int radius,
-                           PointPatch* t) noexcept {
+Status extract_point_patch(const ImageView8& image, const Vector2<float>& centre, const FixedMatrix<float, 2, 2>& A,
+                           int radius, PointPatch* t) noexcept {
   t->left = t->top = t->columns = t->rows = 0;
   t->dx = t->dy = 0;
   if (!image.valid() || radius < 1 || radius > kMaxPatchRadius) return t->status = Status::invalid_argument;

@@ -65,8 +65,8 @@ Status warp(const Matrix3<S>& H, const Vector3<S>& m, Vector2<S>* out) noexcept 
 /// Derivatives of the warped normalised point m'.
 template <class S>
 struct WarpJacobians {
-  Eigen::Matrix<S, 2, 6> pose;   ///< By the left perturbation of T_t_h, xi = (v, omega).
-  Eigen::Matrix<S, 2, 3> theta;  ///< By theta.
+  FixedMatrix<S, 2, 6> pose;   ///< By the left perturbation of T_t_h, xi = (v, omega).
+  FixedMatrix<S, 2, 3> theta;  ///< By theta.
 };
 
 /// m' of m~ through the plane. behind_camera unless both depths are positive (rho > 0, q_z > 0), non_finite for NaN and
@@ -85,7 +85,7 @@ Status warp_point(const Vector3<S>& theta, const SE3<S>& T_t_h, const Vector3<S>
   const Vector2<S> warped(q[0] * iz, q[1] * iz);
   if (!is_finite(iz) || !all_finite(warped)) return Status::non_finite;
   if (J) {
-    Eigen::Matrix<S, 2, 3> P;
+    FixedMatrix<S, 2, 3> P;
     P << iz, S(0), -warped[0] * iz, S(0), iz, -warped[1] * iz;
     WarpJacobians<S> derivatives;
     derivatives.pose.template leftCols<3>() = rho * P;
@@ -108,8 +108,8 @@ enum class PerturbationSide {
 /// d xi / d xi_h and d xi / d xi_t, xi the left perturbation of T_t_h.
 template <class S>
 struct RelativePoseJacobians {
-  Eigen::Matrix<S, 6, 6> host;    ///< d xi(T_t_h) / d xi of the host's pose.
-  Eigen::Matrix<S, 6, 6> target;  ///< d xi(T_t_h) / d xi of the target's pose.
+  FixedMatrix<S, 6, 6> host;    ///< d xi(T_t_h) / d xi of the host's pose.
+  FixedMatrix<S, 6, 6> target;  ///< d xi(T_t_h) / d xi of the target's pose.
 };
 
 /// How perturbations of the world poses move T_t_h = T_w_t^-1 T_w_h. right: host = Ad(T_t_h), target = -I; left:
@@ -122,7 +122,7 @@ RelativePoseJacobians<S> relative_pose_jacobians(const SE3<S>& T_w_h, const SE3<
   RelativePoseJacobians<S> J;
   if (side == PerturbationSide::right) {
     J.host = adjoint<S>(T_t_w * T_w_h);
-    J.target = -Eigen::Matrix<S, 6, 6>::Identity();
+    J.target = -FixedMatrix<S, 6, 6>::Identity();
   } else {
     J.host = adjoint(T_t_w);
     J.target = -J.host;

@@ -80,7 +80,7 @@ Vector3<S> plane_point(const Vector3<S>& theta, const Vector3<S>& m) noexcept {
 /// then the outputs are untouched.
 template <class S>
 Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* out, Matrix3<S>* J_theta = nullptr,
-                      Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {
+                      FixedMatrix<S, 3, 6>* J_pose = nullptr) noexcept {
   const Vector3<S> a = product(T_t_h.R, theta);
   const S k = S(1) + a.dot(T_t_h.t);
   if (!is_finite(k) || !all_finite(a)) return Status::non_finite;
@@ -115,7 +115,7 @@ Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* 
 /// Value form of reanchor_plane(): zeros, in the Jacobians too, where the status form fails.
 template <class S>
 Vector3<S> reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Matrix3<S>* J_theta = nullptr,
-                          Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {
+                          FixedMatrix<S, 3, 6>* J_pose = nullptr) noexcept {
   Vector3<S> out = Vector3<S>::Zero();
   if (J_theta) J_theta->setZero();
   if (J_pose) J_pose->setZero();

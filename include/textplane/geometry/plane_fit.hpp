@@ -42,7 +42,7 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
   detail::set_rank(sums.A, &fit);
   if (used < 3) return fit;
   const Ldlt<W, 3> ldlt(sums.A);
-  if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::rank_deficient);
+  if (fit.rank != 3 || !ldlt.ok()) return detail::with_status(fit, Status::rank_deficient);
   Vector3<W> theta = ldlt.solve(sums.b);
   // One step of refinement on the residuals brings the normal equations to the accuracy of an orthogonal factorisation.
   Vector3<W> correction = Vector3<W>::Zero();
@@ -156,7 +156,7 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
   if (used < 3) return fit;
   if (fit.rank == 0) return detail::with_status(fit, Status::degenerate);
   const Ldlt<W, 3> start(linear.A);
-  if (fit.rank < 3 || !start.ok()) return detail::with_status(fit, Status::rank_deficient);
+  if (fit.rank != 3 || !start.ok()) return detail::with_status(fit, Status::rank_deficient);
 
   Vector3<W> theta = start.solve(linear.b);
   detail::MatchSystem<W> system;
@@ -217,11 +217,11 @@ PlaneFit<S> plane_from_points(const Vector3<S>* p, int n,
   const Ldlt<W, 3> ldlt(sums.A);
   const W rounding = detail::rank_ratio<S>() * sums.A.trace();  // of the coordinates, not of their differences
   if (!(e.values[1] > rounding)) {
-    fit.rank = fit.rank < 2 ? fit.rank : 2;
-    fit.condition = std::numeric_limits<S>::max();
+    fit.rank = (std::min)(fit.rank, 2);
+    fit.condition = (std::numeric_limits<S>::max)();
     return detail::with_status(fit, Status::rank_deficient);
   }
-  if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::behind_camera);
+  if (fit.rank != 3 || !ldlt.ok()) return detail::with_status(fit, Status::behind_camera);
   const Vector3<W> normal = e.vectors.col(0);
   const W distance = normal.dot(centre);
   if (distance == W(0)) return detail::with_status(fit, Status::behind_camera);

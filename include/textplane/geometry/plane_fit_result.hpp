@@ -18,10 +18,10 @@ struct PlaneFit {
   /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative
   /// ones) multiply it by sigma^2. Zero unless rank is 3.
   Matrix3<S> covariance = Matrix3<S>::Zero();
-  int rank = 0;                                 ///< Of the weighted design matrix (0 to 3).
-  S condition = std::numeric_limits<S>::max();  ///< Its largest over smallest singular value; max() unless rank is 3.
-  S sigma = S(0);                               ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
-  Status status = Status::too_few;              ///< Whether `value` can be used.
+  int rank = 0;                                   ///< Of the weighted design matrix (0 to 3).
+  S condition = (std::numeric_limits<S>::max)();  ///< Its largest over smallest singular value; max() unless rank is 3.
+  S sigma = S(0);                                 ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
+  Status status = Status::too_few;                ///< Whether `value` can be used.
 };
 
 namespace detail {

@@ -60,8 +60,8 @@ struct PatchLevel {
 /// one side of it at the image's border. Unlike the interpolant's own gradient it favours no side at integer positions.
 /// The image must contain (x, y); zero along an axis of one pixel.
 inline void host_gradient(const ImageView8& image, float x, float y, float* gx, float* gy) noexcept {
-  const float left = std::max(x - 0.5F, 0.0F), right = std::min(x + 0.5F, static_cast<float>(image.width() - 1));
-  const float up = std::max(y - 0.5F, 0.0F), down = std::min(y + 0.5F, static_cast<float>(image.height() - 1));
+  const float left = (std::max)(x - 0.5F, 0.0F), right = (std::min)(x + 0.5F, static_cast<float>(image.width() - 1));
+  const float up = (std::max)(y - 0.5F, 0.0F), down = (std::min)(y + 0.5F, static_cast<float>(image.height() - 1));
   float a = 0, b = 0;
   *gx = sample_bilinear(image, right, y, &b) && sample_bilinear(image, left, y, &a) && right > left
             ? (b - a) / (right - left)
@@ -99,7 +99,7 @@ TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& came
   TextPatch patch;
   patch.quad = quad;
   patch.camera = camera;
-  const int levels = std::min({host.levels, kMaxPyramidLevels, static_cast<int>(pixels.size())});
+  const int levels = (std::min)({host.levels, kMaxPyramidLevels, static_cast<int>(pixels.size())});
   if (levels < 1 || !camera.valid()) return patch;
   if (!all_finite(quad)) {
     patch.status = Status::non_finite;
@@ -128,9 +128,9 @@ TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& came
       values->erase(values->begin() + static_cast<std::ptrdiff_t>(n), values->end());
     }
     level.find_bounds();
-    most = std::max(most, level.x.size());
+    most = (std::max)(most, level.x.size());
   }
-  patch.status = static_cast<int>(most) < std::max(min_pixels, 1) ? Status::too_few : Status::ok;
+  patch.status = static_cast<int>(most) < (std::max)(min_pixels, 1) ? Status::too_few : Status::ok;
   return patch;
 }
 

@@ -149,7 +149,7 @@ inline Status normalise(int n, double min_contrast, PhotometricWorkspace& worksp
 template <int P, int... K>
 void row_sums(int n, const double* target, const double* row, double* e, double* c,
               std::integer_sequence<int, K...>) noexcept {
-  double sum[P] = {}, product[P] = {};
+  double sum[kLength<P>] = {}, product[kLength<P>] = {};
   for (int k = 0; k < n; ++k, row += P) {
     const double i = target[k];
     ((sum[K] += row[K], product[K] += i * row[K]), ...);
@@ -160,7 +160,7 @@ void row_sums(int n, const double* target, const double* row, double* e, double*
 // Turns the rows dI into rows of dr = -dI~, in place: -(1/s) (dI - e - I~ c), or -dI / s with the normalisation frozen.
 template <int P>
 void project(int n, double s, Normalisation normalisation, PhotometricWorkspace& workspace) noexcept {
-  double e[P] = {}, c[P] = {};
+  double e[kLength<P>] = {}, c[kLength<P>] = {};
   const double scale = -1.0 / s;
   const double* target = workspace.intensities();
   double* row = workspace.rows();
@@ -192,7 +192,7 @@ inline WeightedCost weigh(int n, const Robust& robust, PhotometricWorkspace& wor
 // Row I of the upper triangle of sum w j j^T, columns I to P - 1, and sum w r j_I. A pass over all pixels for each row
 // keeps its accumulators in registers.
 template <int P, int I, int... K>
-void accumulate_row(int n, const double* w, const double* r, const double* row, Eigen::Matrix<double, P, P>* H,
+void accumulate_row(int n, const double* w, const double* r, const double* row, FixedMatrix<double, P, P>* H,
                     Eigen::Matrix<double, P, 1>* b, std::integer_sequence<int, K...>) noexcept {
   double h[sizeof...(K)] = {}, g = 0.0;
   for (int k = 0; k < n; ++k, row += P) {
@@ -206,14 +206,14 @@ void accumulate_row(int n, const double* w, const double* r, const double* row, 
 
 // H = sum w j j^T, b = sum w r j.
 template <int P, int... I>
-void accumulate_rows(int n, PhotometricWorkspace& workspace, Eigen::Matrix<double, P, P>* H,
+void accumulate_rows(int n, PhotometricWorkspace& workspace, FixedMatrix<double, P, P>* H,
                      Eigen::Matrix<double, P, 1>* b, std::integer_sequence<int, I...>) noexcept {
   (accumulate_row<P, I>(n, workspace.intensities(), workspace.residuals(), workspace.rows(), H, b,
                         std::make_integer_sequence<int, P - I>()),
    ...);
 }
 template <int P>
-void accumulate(int n, PhotometricWorkspace& workspace, Eigen::Matrix<double, P, P>* H,
+void accumulate(int n, PhotometricWorkspace& workspace, FixedMatrix<double, P, P>* H,
                 Eigen::Matrix<double, P, 1>* b) noexcept {
   accumulate_rows<P>(n, workspace, H, b, std::make_integer_sequence<int, P>());
 }

@@ -53,7 +53,7 @@ void add_host_rows(const PolicyRequest<T>& request, const Matrix3<double>& inver
   const Matrix3<double> H = plane_homography(request.theta, request.T_t_h);
   const std::uint8_t* visible = workspace.visible();
   const double *t = request.T_t_h.t.data(), *residual = workspace.residuals(), *normalised = workspace.intensities();
-  double e[P] = {}, c[P] = {};
+  double e[kLength<P>] = {}, c[kLength<P>] = {};
   // The first pass sums what the exact normalisation projects out.
   for (int pass = request.options.normalisation == Normalisation::exact ? 0 : 1; pass < 2; ++pass) {
     double* out = workspace.rows();
@@ -63,7 +63,7 @@ void add_host_rows(const PolicyRequest<T>& request, const Matrix3<double>& inver
       const double h = residual[k] + normalised[k];
       const double au = static_cast<double>(patch.gx[i]) * camera.fx, av = static_cast<double>(patch.gy[i]) * camera.fy;
       const double aw = -(au * m[0] + av * m[1]);
-      double row[P], q[3], a[3];
+      double row[kLength<P>], q[3], a[3];
       for (int j = 0; j < 3; ++j) {
         q[j] = H(j, 0) * m[0] + H(j, 1) * m[1] + H(j, 2);
         a[j] = au * inverse(0, j) + av * inverse(1, j) + aw * inverse(2, j);

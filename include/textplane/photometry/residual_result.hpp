@@ -39,7 +39,7 @@ struct ResidualStats {
 /// is_ok(status).
 template <int P>
 struct NormalEquations : ResidualStats {
-  Eigen::Matrix<double, P, P> H;  ///< J^T W J.
+  FixedMatrix<double, P, P> H;    ///< J^T W J.
   Eigen::Matrix<double, P, 1> b;  ///< J^T W r.
 
   NormalEquations() noexcept { clear(); }

@@ -95,16 +95,16 @@ class TemplatePatch {
   bool set_intensity(const PatchView& patch, float* intensity) {
     double low = static_cast<double>(patch.intensity[0]), high = low;
     for (int i = 0; i < patch.n; ++i) {
-      low = std::min(low, static_cast<double>(patch.intensity[i]));
-      high = std::max(high, static_cast<double>(patch.intensity[i]));
+      low = (std::min)(low, static_cast<double>(patch.intensity[i]));
+      high = (std::max)(high, static_cast<double>(patch.intensity[i]));
     }
-    const double middle = std::floor(low + high) / 2, reach = std::max(high - middle, middle - low);
+    const double middle = std::floor(low + high) / 2, reach = (std::max)(high - middle, middle - low);
     if (!(reach > 0)) return false;
-    const double scale = std::min(64.0, kRange / reach);
+    const double scale = (std::min)(64.0, kRange / reach);
     double sum = 0, squares = 0;
     for (int i = 0; i < patch.n; ++i) {
       const double value = std::floor((static_cast<double>(patch.intensity[i]) - middle) * scale + 0.5);
-      const double kept = std::min(std::max(value, -kRange), kRange);
+      const double kept = (std::min)((std::max)(value, -kRange), kRange);
       cell(i, 0) = static_cast<std::int16_t>(kept);
       intensity[i] = static_cast<float>(kept);
       sum += kept;
@@ -124,7 +124,7 @@ class TemplatePatch {
     double j[8];
     for (int i = 0; i < model_.n; ++i) {
       derivatives(i, j);
-      for (int k = 0; k < 8; ++k) largest[k] = std::max(largest[k], std::abs(j[k]));
+      for (int k = 0; k < 8; ++k) largest[k] = (std::max)(largest[k], std::abs(j[k]));
     }
     for (int k = 0; k < 8; ++k) model_.step[k] = largest[k] > 0 ? largest[k] / kRange : 1.0;
     for (int i = 0; i < model_.n; ++i) {

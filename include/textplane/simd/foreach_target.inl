@@ -21,6 +21,8 @@
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"  // of masks, where intrinsics are macros: at -O0
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -50,6 +52,7 @@
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif  // TEXTPLANE_HAS_KERNELS
 

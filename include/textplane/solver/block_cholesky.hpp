@@ -39,7 +39,7 @@ void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
 template <class S>
 class BasicBlockCholesky {
  public:
-  using Block = Eigen::Matrix<S, 6, 6>;
+  using Block = FixedMatrix<S, 6, 6>;
 
   /// n block rows of zeros. Allocates where n exceeds every earlier one.
   void reset(int n) {
@@ -55,7 +55,7 @@ class BasicBlockCholesky {
   /// Block (i, j), i >= j, to add to. A diagonal block needs its lower triangle alone.
   Block& at(int i, int j) noexcept {
     int& first = first_[static_cast<std::size_t>(i)];
-    first = std::min(first, j);
+    first = (std::min)(first, j);
     return blocks_[index(i, j)];
   }
   const Block& at(int i, int j) const noexcept { return blocks_[index(i, j)]; }
@@ -70,7 +70,7 @@ class BasicBlockCholesky {
       for (int j = first_i; j <= i; ++j) {
         double* c = blocks_[index(i, j)].data();
         // The blocks of a row are contiguous: columns k to j are one 6 x 6 (j - k) matrix.
-        const int k = std::max(first_i, first_[static_cast<std::size_t>(j)]);
+        const int k = (std::max)(first_i, first_[static_cast<std::size_t>(j)]);
         if (k < j) subtract_outer(blocks_[index(i, k)].data(), blocks_[index(j, k)].data(), 6 * (j - k), c);
         if (j < i) divide_by_transpose(blocks_[index(j, j)].data(), c);
       }

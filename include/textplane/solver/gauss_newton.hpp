@@ -94,7 +94,7 @@ Status check(const Linearised& system, double rank_tolerance) noexcept {
 // The factor of the damping after an accepted step, from its gain ratio.
 inline double damping_factor(double decrease, double predicted) noexcept {
   const double gain = predicted > 0.0 ? decrease / predicted : 1.0, x = 2.0 * gain - 1.0;
-  return std::min(std::max(1.0 - x * x * x, 0.1), 2.0);
+  return (std::min)((std::max)(1.0 - x * x * x, 0.1), 2.0);
 }
 
 // -(H + lambda D)^-1 b and the decrease that the quadratic model predicts for it.
@@ -109,7 +109,7 @@ DampedStep<P> damped_step(const Linearised& system, double lambda, double diagon
   DampedStep<P> out;
   double largest = 0.0;
   for (int i = 0; i < P; ++i) largest = system.H(i, i) > largest ? system.H(i, i) : largest;
-  Eigen::Matrix<double, P, P> damped = system.H;
+  FixedMatrix<double, P, P> damped = system.H;
   Eigen::Matrix<double, P, 1> damping;
   for (int i = 0; i < P; ++i) {
     const double floor = diagonal_floor * largest;
@@ -180,7 +180,7 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
         if (is_ok(detail::check<P>(next, options.rank_tolerance))) {
           const double decrease = current.cost - e.cost;
           const bool flat = decrease <= options.cost_tolerance * current.cost;
-          lambda = std::max(lambda * detail::damping_factor(decrease, predicted), options.min_lambda);
+          lambda = (std::max)(lambda * detail::damping_factor(decrease, predicted), options.min_lambda);
           growth = detail::kFirstGrowth;
           promise = -1.0;
           summary.reduction += decrease;

@@ -29,8 +29,8 @@ inline LevelRange level_range(int coarsest, int finest, int available) noexcept 
 
 // Options of a coarse level: its result is only the start of the next one.
 inline SolveOptions coarse_options(SolveOptions options) noexcept {
-  options.cost_tolerance = std::max(options.cost_tolerance, 1e-3);
-  options.step_tolerance = std::max(options.step_tolerance, 1e-5);
+  options.cost_tolerance = (std::max)(options.cost_tolerance, 1e-3);
+  options.step_tolerance = (std::max)(options.step_tolerance, 1e-5);
   return options;
 }
 

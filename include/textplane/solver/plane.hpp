@@ -46,9 +46,9 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   if (!is_ok(fit.status)) return fit;
 
   int levels = 0;
-  for (int i = 0; i < count; ++i) levels = std::max(levels, targets[i].image.levels);
+  for (int i = 0; i < count; ++i) levels = (std::max)(levels, targets[i].image.levels);
   const LevelRange range =
-      level_range(options.coarsest_level, options.finest_level, std::min(levels, patch.level_count()));
+      level_range(options.coarsest_level, options.finest_level, (std::min)(levels, patch.level_count()));
   PlaneProblem<View> problem(patch, targets, count, camera, options, workspace);
   PlaneSystem system;
   fit.status = Status::invalid_argument;
@@ -58,10 +58,10 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   fit.zncc = problem.mean_zncc();
   fit.targets_used = problem.targets_used();
   fit.visible_pixels = problem.visible_pixels();
-  const int freedom = std::max(1, fit.visible_pixels - 2 * fit.targets_used - 3);
+  const int freedom = (std::max)(1, fit.visible_pixels - 2 * fit.targets_used - 3);
   // A perfect match would have no uncertainty. The floor is below the rounding error of two 8-bit images (1/6 of a grey
   // level squared) on a patch of any contrast.
-  fit.residual_variance = std::max(fit.cost / freedom, 1e-6);
+  fit.residual_variance = (std::max)(fit.cost / freedom, 1e-6);
   const Ldlt<double, 3> factor(system.H, options.solve.rank_tolerance);
   if (!factor.ok()) return fit;
   const Matrix3<double> inverse = factor.inverse();

@@ -104,7 +104,7 @@ class PlaneProblem {
       if (!fits(i)) continue;
       const auto q = request(i, theta);
       const NormalEquations<3> n = textplane::linearise<Parameters::plane>(q, memory_.photometric_);
-      path_ = std::max(path_, n.path);
+      path_ = (std::max)(path_, n.path);
       visible = is_ok(n.status) ? n.visible : 0;
       if (visible == 0) {
         if (trouble == Status::too_few) trouble = n.status;
@@ -131,7 +131,7 @@ class PlaneProblem {
       const int visible = memory_.counts_[static_cast<std::size_t>(i)];
       if (visible == 0) continue;
       const PhotometricCost c = textplane::evaluate(request(i, theta), memory_.photometric_, visible_set(i));
-      path_ = std::max(path_, c.path);
+      path_ = (std::max)(path_, c.path);
       // A target that fails as a whole costs as much as an uncorrelated patch.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost += is_ok(c.status) ? c.lost : visible;

@@ -17,7 +17,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// it is too_few, or the status of the first text that failed (out_of_view, behind_camera, no_contrast, ...).
 struct PoseResult {
   /// Of xi = (v, omega), left: H / sigma_rep^2. Its inverse is the covariance under Weighting::variance.
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  FixedMatrix<double, 6, 6> information = FixedMatrix<double, 6, 6>::Zero();
   double cost = 0;           ///< C(T_t_w) of the finest level.
   double zncc = 0;           ///< Mean over the texts that took part.
   int texts = 0;             ///< Texts that took part.
@@ -53,9 +53,9 @@ inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int tar
                               const PoseOptions& options) noexcept {
   int patch_levels = 0;
   for (int i = 0; i < text_count; ++i)
-    if (texts[i].patch) patch_levels = std::max(patch_levels, texts[i].patch->level_count());
+    if (texts[i].patch) patch_levels = (std::max)(patch_levels, texts[i].patch->level_count());
   const LevelRange range =
-      level_range(options.coarsest_level, options.finest_level, std::min(patch_levels, target_levels));
+      level_range(options.coarsest_level, options.finest_level, (std::min)(patch_levels, target_levels));
   return range.coarsest >= range.finest ? range : LevelRange{options.finest_level, options.finest_level};
 }
 
@@ -97,7 +97,7 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
     if (!reproject(points[i], fit.T_t_w, camera, &p, &e)) continue;
     const double chi2 = e.squaredNorm() * scale / (points[i].sigma * points[i].sigma);
     fit.inlier_points += chi2 <= kChiSquare95TwoDof;
-    if (point_chi2) point_chi2[i] = static_cast<float>(std::min(chi2, 1e30));
+    if (point_chi2) point_chi2[i] = static_cast<float>((std::min)(chi2, 1e30));
   }
   return fit;
 }

@@ -19,7 +19,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 struct PoseSystem {
-  Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
+  FixedMatrix<double, 6, 6> H = FixedMatrix<double, 6, 6>::Zero();
   Vector6<double> b = Vector6<double>::Zero();
   double cost = 0;
   Status status = Status::too_few;
@@ -92,7 +92,7 @@ class PoseProblem {
       if (state.visible == 0) continue;
       const PhotometricCost c =
           textplane::evaluate(request(texts_[i], T_t_w), memory_.photometric_, memory_.visible_.data() + state.offset);
-      path_ = std::max(path_, c.path);
+      path_ = (std::max)(path_, c.path);
       // An object that fails as a whole costs as much as an uncorrelated patch.
       e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost_pixels += is_ok(c.status) ? c.lost : state.visible;
@@ -111,7 +111,7 @@ class PoseProblem {
     }
     const double pixels = visible_pixels_ > 0 ? static_cast<double>(lost_pixels) / visible_pixels_ : 0.0;
     const double points = active_points_ > 0 ? static_cast<double>(lost_points) / active_points_ : 0.0;
-    e.lost_fraction = std::max(pixels, points);
+    e.lost_fraction = (std::max)(pixels, points);
     return e;
   }
 
@@ -143,7 +143,7 @@ class PoseProblem {
     PhotometricWorkspace& workspace = memory_.photometric_;
     const PolicyRequest<Pixel> q = request(term, T_t_w);
     NormalEquations<6> n = textplane::linearise<Parameters::pose>(q, workspace);
-    path_ = std::max(path_, n.path);
+    path_ = (std::max)(path_, n.path);
     if (!is_ok(n.status)) return n.status;
     // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
     if (q.prepared && q.policy != LinearisePolicy::forward) {

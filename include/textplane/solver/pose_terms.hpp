@@ -75,7 +75,7 @@ class PoseWorkspace {
     for (int i = 0; i < text_count; ++i) {
       const int n = pixel_count(texts[i]);
       pixels += static_cast<std::size_t>(n);
-      largest = std::max(largest, n);
+      largest = (std::max)(largest, n);
     }
     photometric_.reserve(largest);
     if (visible_.size() < pixels) visible_.resize(pixels);

@@ -77,7 +77,7 @@ class WindowSolver {
       if (system_.reduce(lambda) && system_.solve()) {
         const double predicted = system_.predicted_decrease();
         if (fresh) promised = predicted;
-        if (fresh && predicted <= std::max(o_.cost_tolerance * cost_, noise())) return Status::converged;
+        if (fresh && predicted <= (std::max)(o_.cost_tolerance * cost_, noise())) return Status::converged;
         fresh = false;
         ++sum_.iterations;
         const double step = move();
@@ -87,8 +87,8 @@ class WindowSolver {
           accept(step);
           if (!is_finite(cost_)) return Status::non_finite;
           if (decrease <= o_.cost_tolerance * before || step <= o_.step_tolerance) return Status::converged;
-          const double gain = 2 * std::min(decrease / predicted, 1.0) - 1;
-          lambda = std::max(lambda * std::max(1.0 / 3, 1 - gain * gain * gain), 1e-12);
+          const double gain = 2 * (std::min)(decrease / predicted, 1.0) - 1;
+          lambda = (std::max)(lambda * (std::max)(1.0 / 3, 1 - gain * gain * gain), 1e-12);
           growth = 2;
           fresh = true;
           continue;
@@ -100,7 +100,7 @@ class WindowSolver {
       lambda *= growth;
       growth *= 2;
       if (!(lambda <= o_.max_lambda))
-        return promised <= std::max(kStall * cost_, noise()) ? Status::converged : Status::diverged;
+        return promised <= (std::max)(kStall * cost_, noise()) ? Status::converged : Status::diverged;
     }
     return Status::iteration_limit;
   }
@@ -114,7 +114,7 @@ class WindowSolver {
       const Vector6<S> xi = system_.camera_step(c);
       SE3<S>& T = at(y_.T_w_c, at(structure_.frame_of_camera, c));
       T = renormalised(T * se3_exp(xi));
-      largest = std::max({largest, xi.template head<3>().norm() / length_, xi.template tail<3>().norm()});
+      largest = (std::max)({largest, xi.template head<3>().norm() / length_, xi.template tail<3>().norm()});
     }
     if (structure_.scale_a >= 0) restore_scale();
     const int points = count(w_.points);
@@ -123,7 +123,7 @@ class WindowSolver {
       const Vector3<S>& d = system_.landmark_step(l);
       const double size = l < points ? length_ : at(x_.landmark, l).norm();
       at(y_.landmark, l) += d;
-      largest = std::max(largest, d.norm() / size);
+      largest = (std::max)(largest, d.norm() / size);
     }
     return largest;
   }
@@ -152,7 +152,7 @@ class WindowSolver {
   double noise() const noexcept {
     const int texts = count(w_.text_observations);
     const double rounding = 1e-20 * (count(w_.point_observations) + texts);
-    return texts > 0 && !o_.photometric.precise ? std::max(rounding, kSinglePrecision * cost_) : rounding;
+    return texts > 0 && !o_.photometric.precise ? (std::max)(rounding, kSinglePrecision * cost_) : rounding;
   }
 
   void finish() {

@@ -23,10 +23,10 @@ namespace detail {
 template <class S>
 class BasicWindowSchur {
  public:
-  using Matrix6 = Eigen::Matrix<S, 6, 6>;
-  using Matrix63 = Eigen::Matrix<S, 6, 3>;
-  using Matrix26 = Eigen::Matrix<S, 2, 6>;
-  using Matrix23 = Eigen::Matrix<S, 2, 3>;
+  using Matrix6 = FixedMatrix<S, 6, 6>;
+  using Matrix63 = FixedMatrix<S, 6, 3>;
+  using Matrix26 = FixedMatrix<S, 2, 6>;
+  using Matrix23 = FixedMatrix<S, 2, 3>;
 
   /// Pivots of at most this share of their diagonal entry count as undetermined.
   static constexpr double kRankTolerance = 1e-11;
@@ -50,8 +50,8 @@ class BasicWindowSchur {
       if (camera_a >= 0) at(scale_row_, 6 * camera_a + i) = row_a[i];
       if (camera_b >= 0) at(scale_row_, 6 * camera_b + i) = row_b[i];
     }
-    scale_cameras_[0] = std::max(camera_a, camera_b);
-    scale_cameras_[1] = std::min(camera_a, camera_b);
+    scale_cameras_[0] = (std::max)(camera_a, camera_b);
+    scale_cameras_[1] = (std::min)(camera_a, camera_b);
   }
 
   void add_camera(int camera, const Matrix6& H, const Vector6<S>& g) noexcept {
@@ -200,7 +200,7 @@ class BasicWindowSchur {
   // c += a^T b for column-major a (2 x Rows), b (2 x Columns) and c (Rows x Columns), down the columns of c.
   template <int Rows, int Columns>
   static void add_rows(const S* a, const S* b, S* c) noexcept {
-    S first[Rows], second[Rows];
+    S first[kLength<Rows>], second[kLength<Rows>];
     for (int r = 0; r < Rows; ++r) {
       first[r] = a[2 * r];
       second[r] = a[2 * r + 1];
@@ -222,10 +222,10 @@ class BasicWindowSchur {
     for (int c = 0; c < cameras; ++c)
       for (int i = 0; i < 6; ++i) {
         at(diagonal_, 6 * c + i) = reduced_.at(c, c)(i, i);
-        largest = std::max(largest, at(diagonal_, 6 * c + i));
+        largest = (std::max)(largest, at(diagonal_, 6 * c + i));
       }
     const double floor = largest > 0 ? 1e-12 * largest : 1;
-    for (double& d : diagonal_) d = std::max(d, floor);
+    for (double& d : diagonal_) d = (std::max)(d, floor);
   }
 
   Vector3<S> damping(int l) const noexcept {
@@ -254,7 +254,7 @@ class BasicWindowSchur {
     if (scale_row_.empty()) return;
     double weight = 0;
     for (std::size_t i = 0; i < scale_row_.size(); ++i)
-      if (scale_row_[i] != 0) weight = std::max(weight, diagonal_[i]);
+      if (scale_row_[i] != 0) weight = (std::max)(weight, diagonal_[i]);
     for (int a : scale_cameras_)
       for (int b : scale_cameras_)
         if (a >= b && b >= 0)

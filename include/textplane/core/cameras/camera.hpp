@@ -33,7 +33,7 @@ struct is_camera_model : std::false_type {};
 template <template <class> class Model, class S>
 struct is_camera_model<
     Model<S>,
-    std::void_t<decltype(Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<Eigen::Matrix<S, 2, 3>*>(nullptr))),
+    std::void_t<decltype(Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<FixedMatrix<S, 2, 3>*>(nullptr))),
                          Status{Model<S>().unproject(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
                          Pinhole<S>(Model<S>().pinhole()), Model<S>(Model<S>().at_level(0)),
                          Model<S>::from_parameters(Model<S>().parameters()),

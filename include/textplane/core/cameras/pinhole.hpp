@@ -33,7 +33,7 @@ struct Pinhole {
 
   /// Pixel of the camera-frame point p; the caller has checked p_z > 0. If J is given it receives d pixel / d p (2 x
   /// 3).
-  Vector2<S> project(const Vector3<S>& p, Eigen::Matrix<S, 2, 3>* J = nullptr) const noexcept {
+  Vector2<S> project(const Vector3<S>& p, FixedMatrix<S, 2, 3>* J = nullptr) const noexcept {
     const S iz = S(1) / p[2], u = p[0] * iz, v = p[1] * iz;
     if (J) *J << fx * iz, S(0), -fx * u * iz, S(0), fy * iz, -fy * v * iz;
     return {fx * u + cx, fy * v + cy};

@@ -39,16 +39,16 @@ struct RadialTangential {
   /// In front of the camera, where the lens does not fold over (see undistort()).
   bool in_domain(const Vector3<S>& p) const noexcept {
     if (!(p[2] > S(0))) return false;
-    Eigen::Matrix<S, 2, 2> J;
+    FixedMatrix<S, 2, 2> J;
     distort({p[0] / p[2], p[1] / p[2]}, &J);
     return J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0) > min_determinant();
   }
 
   /// Pixel of the camera-frame point p, which is in the domain. If J is given it receives d pixel / d p (2 x 3).
-  Vector2<S> project(const Vector3<S>& p, Eigen::Matrix<S, 2, 3>* J = nullptr) const noexcept {
+  Vector2<S> project(const Vector3<S>& p, FixedMatrix<S, 2, 3>* J = nullptr) const noexcept {
     const Vector2<S> m(p[0] / p[2], p[1] / p[2]);
     if (!J) return intrinsics.pixel(distort(m));
-    Eigen::Matrix<S, 2, 2> D;
+    FixedMatrix<S, 2, 2> D;
     const Vector2<S> distorted = distort(m, &D);
     D.row(0) *= intrinsics.fx;
     D.row(1) *= intrinsics.fy;
@@ -66,7 +66,7 @@ struct RadialTangential {
   }
 
   /// Distorted normalised point of m. If J is given it receives d m_d / d m (2 x 2).
-  Vector2<S> distort(const Vector2<S>& m, Eigen::Matrix<S, 2, 2>* J = nullptr) const noexcept {
+  Vector2<S> distort(const Vector2<S>& m, FixedMatrix<S, 2, 2>* J = nullptr) const noexcept {
     const S x = m[0], y = m[1], r2 = x * x + y * y;
     const S radial = S(1) + r2 * (k1 + r2 * (k2 + r2 * k3));
     if (J) {
@@ -88,7 +88,7 @@ struct RadialTangential {
     const S tolerance = std::numeric_limits<S>::epsilon() < S(1e-10) ? S(1e-12) : S(1e-6);
     Vector2<S> x = distorted;
     for (int i = 0; i < 20; ++i) {
-      Eigen::Matrix<S, 2, 2> J;
+      FixedMatrix<S, 2, 2> J;
       const Vector2<S> e = distort(x, &J) - distorted;
       const S det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
       if (!(det > min_determinant()) || !all_finite(e)) return Status::degenerate;

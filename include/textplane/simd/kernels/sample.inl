@@ -36,13 +36,14 @@ TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, si
   out->x_high = reduce_max(x_high);
   out->y_low = reduce_min(y_low);
   out->y_high = reduce_max(y_high);
-  const double all =
-      reduce_sum_double(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
+  const double all = reduce_sum_double(nothing) + 0.0 * static_cast<double>(out->x_low) +
+                     0.0 * static_cast<double>(out->x_high) + 0.0 * static_cast<double>(out->y_low) +
+                     0.0 * static_cast<double>(out->y_high);
   out->n = finite_d(all) ? n : 0;
 }
 TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
   const float middle = 0.5F * low + 0.5F * high;
-  return finite_d(middle) ? middle : 0.0F;
+  return finite_d(static_cast<double>(middle)) ? middle : 0.0F;
 }
 TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
@@ -79,7 +80,7 @@ TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy
 // The same for h from host pixel to target pixel.
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
                                      simd::Warp8* w) noexcept {
-  const double u = hx, v = hy;
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy);
   const double centred[9] = {h[0], h[1], h[0] * u + h[1] * v + h[2], h[3], h[4], h[3] * u + h[4] * v + h[5],
                              h[6], h[7], h[6] * u + h[7] * v + h[8]};
   return make_centred_warp(centred, hx, hy, width, height, w);

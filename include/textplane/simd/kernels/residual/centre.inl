@@ -97,16 +97,18 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  if (!has_contrast(a, i_squares, i_mean + o.target, count) || !has_contrast(a, h_squares, h_mean + o.host, count))
+  if (!has_contrast(a, i_squares, i_mean + static_cast<double>(o.target), count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(o.host), count))
     return Status::no_contrast;
-  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
+  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count),
+               kappa = static_cast<double>(o.kappa);
   const double i_scale = root / i_s, h_scale = root / h_s;
   r->on_d = h_scale / kappa;
   r->on_i = r->on_d - i_scale;
   r->shift = i_mean * i_scale - h_mean * h_scale;
   r->i_mean = i_mean;
   r->i_s = i_s;
-  info->mean = i_mean + o.target;
+  info->mean = i_mean + static_cast<double>(o.target);
   info->s = i_s;
   return Status::ok;
 }

@@ -71,7 +71,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
 
   // K_t H K_h^-1 as a function of u, v, and rho likewise; (mu, mv) is the ray where both are 0.
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
-  const double mu = (hx - a.host_camera[2]) * ifx, mv = (hy - a.host_camera[3]) * ify;
+  const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
+               mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
   const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,

@@ -32,7 +32,8 @@ TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* righ
 // generators are h_k (theta^T K_h^-1), h_(k+2) r_(k+1) - h_(k+1) r_(k+2), and (K_h H^-1 t) (e_k^T K_h^-1).
 TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
   const double fx = a.host_camera[0], fy = a.host_camera[1], ifx = 1 / fx, ify = 1 / fy;
-  const double c = a.host_camera[2] - f.warp.hx, d = a.host_camera[3] - f.warp.hy, cx = c * ifx, dy = d * ify;
+  const double c = a.host_camera[2] - static_cast<double>(f.warp.hx),
+               d = a.host_camera[3] - static_cast<double>(f.warp.hy), cx = c * ifx, dy = d * ify;
   double column[3][3], row[3][3], back[3];
   for (int k = 0; k < 3; ++k) {
     const double h0 = f.inverse[k], h1 = f.inverse[3 + k], h2 = f.inverse[6 + k];

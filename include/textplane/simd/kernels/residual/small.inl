@@ -50,11 +50,13 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double count = n, by_count = 1 / count;
   float sum[4], i_offset, h_offset;
   centre_few(target, host, n, p, sum, &i_offset, &h_offset);
-  const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
-  const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  const double i_mean = static_cast<double>(sum[0]) * by_count, h_mean = static_cast<double>(sum[2]) * by_count;
+  const double i_squares = static_cast<double>(sum[1]) - static_cast<double>(sum[0]) * i_mean,
+               h_squares = static_cast<double>(sum[3]) - static_cast<double>(sum[2]) * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  info->mean = i_mean + i_offset;
-  if (!has_contrast(a, i_squares, info->mean, count) || !has_contrast(a, h_squares, h_mean + h_offset, count))
+  info->mean = i_mean + static_cast<double>(i_offset);
+  if (!has_contrast(a, i_squares, info->mean, count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(h_offset), count))
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
@@ -87,8 +89,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->root + k, mul(w, by_s));
   }
   reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
-  info->error = sum[0] * by_count;
-  info->cost = sum[1] * by_count;
+  info->error = static_cast<double>(sum[0]) * by_count;
+  info->cost = static_cast<double>(sum[1]) * by_count;
   return Status::ok;
 }
 
@@ -277,7 +279,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   double squares = 0;
   for (int g = 0; g < parameters; g += 3) {
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];
-    squares += (static_cast<double>(p[0]) + p[3]) + p[5];
+    squares += (static_cast<double>(p[0]) + static_cast<double>(p[3])) + static_cast<double>(p[5]);
   }
   return finite_d(squares) ? Status::ok : Status::unsupported;
 }

@@ -9,8 +9,8 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
-               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
+               v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
