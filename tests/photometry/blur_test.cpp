@@ -70,6 +70,42 @@ TEST(Blur, MatchReportsWhatItCannotDo) {
   EXPECT_EQ(match.host(0, 0), 7);
 }
 
+// Finite input beyond what squares of numbers hold: a status, never a covariance that is not finite, or is wrong.
+TEST(Blur, MatchOfExtremesIsAStatus) {
+  BlurMatch match;
+  match.host.setConstant(7);
+  Matrix2d A = Matrix2d::Identity();
+  for (const double large : {1e101, 1e140, 1e154, 1e200, 1e308}) {
+    A(0, 0) = large;
+    EXPECT_EQ(match_blur(A, 0.2, 0.2, 1, &match), Status::degenerate) << large;
+    EXPECT_EQ(match_blur(covariance(large, large / 2, large), 0.2, 0.2, 1, &match), Status::degenerate) << large;
+    EXPECT_EQ(match_blur(covariance(1 / large, 0, large), 0.2, 0.2, 1, &match), Status::degenerate) << large;
+  }
+  EXPECT_EQ(match_blur(Matrix2d::Identity(), 1.7e308, 0.2, 2, &match), Status::non_finite);
+  EXPECT_EQ(match_blur(Matrix2d::Identity(), 0.2, 1.7e308, 2, &match), Status::non_finite);
+  EXPECT_EQ(match_blur(2 * Matrix2d::Identity(), 1.7e308, 0.2, 1, &match), Status::non_finite);
+  EXPECT_EQ(match_blur(Matrix2d::Identity(), 0.2, 0.2, 1.7e308, &match), Status::ok);
+  EXPECT_TRUE(all_finite(match.host) && all_finite(match.target));
+  A(0, 0) = 1e99;
+  ASSERT_EQ(match_blur(A, 0.2, 0.2, 1, &match), Status::ok);
+  EXPECT_NEAR(match.target(0, 0) / (0.2 * 1e198), 1, 1e-12);
+  EXPECT_NEAR(match.host(0, 0), 0, 1e-12);
+}
+
+// What squares do not hold is cut at kMaxVariance, too, along the axes that it has.
+TEST(Blur, AKernelOfExtremesIsAFilter) {
+  for (const double large : {1e12, 1e101, 1e154, 1e200, 1.7e308}) {
+    const BlurKernel kernel(covariance(large, 0, 1)), wide(covariance(100, 0, 1));
+    ASSERT_EQ(kernel.radius(), wide.radius()) << large;
+    for (int y = -kernel.radius(); y <= kernel.radius(); ++y)
+      for (int x = -kernel.radius(); x <= kernel.radius(); ++x) EXPECT_EQ(kernel.at(x, y), wide.at(x, y)) << large;
+    const BlurKernel turned(covariance(large, -large, large)), ridge(covariance(100, -100, 100));
+    ASSERT_EQ(turned.radius(), ridge.radius()) << large;
+    EXPECT_NEAR(turned.at(2, -2), ridge.at(2, -2), 1e-6) << large;
+    EXPECT_FLOAT_EQ(BlurKernel(covariance(-large, 0, -large)).at(0, 0), 1.0F) << large;
+  }
+}
+
 TEST(Blur, AKernelHasTheCovarianceAskedFor) {
   for (const Matrix2d& wanted :
        {covariance(0.4, 0, 0.4), covariance(1, 0.3, 0.7), covariance(4, -1.5, 1.2), covariance(2, 0, 0.3)}) {

@@ -108,6 +108,20 @@ TEST(LocalContrast, GradientsAreTakenAnewAndWhatIsOutsideStays) {
   EXPECT_EQ(level.gx[1], 4.0F);
 }
 
+// Whatever its grey level: rounding of the mean is not contrast, at the smallest floor either.
+TEST(LocalContrast, AFlatImageIsMiddleGrey) {
+  for (const int level : {0, 1, 77, 100, 254, 255})
+    for (const double floor : {0.01, 4.0, 1e6}) {
+      const Image<std::uint8_t> image(40, 30, static_cast<std::uint8_t>(level));
+      Image<std::uint8_t> out(40, 30);
+      LocalContrastOptions options;
+      options.floor = floor;
+      ASSERT_EQ(LocalContrast(options)(image.view(), 0, 0, out.view()), Status::ok);
+      for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x) ASSERT_EQ(out(x, y), 128) << level << ' ' << floor << ' ' << x << ' ' << y;
+    }
+}
+
 TEST(LocalContrast, RefusesWhatMakesNoSense) {
   const Image<std::uint8_t> image = noise(20, 20, 4);
   Image<std::uint8_t> out(10, 10, 7);
@@ -122,6 +136,14 @@ TEST(LocalContrast, RefusesWhatMakesNoSense) {
     EXPECT_EQ(LocalContrast(options)(image.view(), 0, 0, out.view()), Status::invalid_argument);
     options = {};
     options.scale = bad;
+    EXPECT_EQ(LocalContrast(options)(image.view(), 0, 0, out.view()), Status::invalid_argument);
+  }
+  for (const double bad : {1e-25, 0.009, 1.1e6, 1e300, std::numeric_limits<double>::infinity()}) {
+    LocalContrastOptions options;
+    options.floor = bad;
+    EXPECT_EQ(LocalContrast(options)(image.view(), 0, 0, out.view()), Status::invalid_argument);
+    options = {};
+    options.scale = std::max(bad, 1.1e6);
     EXPECT_EQ(LocalContrast(options)(image.view(), 0, 0, out.view()), Status::invalid_argument);
   }
   for (const int radius : {0, LocalContrastOptions::kMaxRadius + 1}) {

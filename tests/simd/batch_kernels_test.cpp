@@ -205,6 +205,42 @@ TEST(BatchKernels, StatusesPartlyVisibleAndRejected) {
   }
 }
 
+// A camera that is valid(), but whose H is not of float: said to be non_finite, not ok with an infinity. Its neighbours
+// are not touched.
+template <int P>
+void compare_extreme_cameras() {
+  Objects objects(5);
+  tp::PhotometricOptions o;
+  o.min_visible = 4;
+  const tp::TextBatch batch(objects.items.data(), 5);
+  tp::TextBatchResult result(batch);
+  for (int power = 0; power >= -45; --power)
+    for (const bool both : {false, true}) {
+      SCOPED_TRACE(power);
+      tp::Pinhole<double> camera = objects.camera();
+      camera.fx *= std::pow(10, power);
+      if (both) camera.fy *= std::pow(10, power);
+      ASSERT_EQ(tp::linearise_batch<unknowns<P>()>(batch, objects.image(), camera, objects.poses.data(), o, result),
+                tp::Status::ok);
+      for (int i = 0; i < 5; ++i) {
+        const auto equations = result.normal_equations<unknowns<P>()>(i);
+        EXPECT_TRUE(tp::all_finite(equations.H) && tp::all_finite(equations.b) && tp::is_finite(equations.cost)) << i;
+        if (tp::is_ok(equations.status)) continue;
+        EXPECT_TRUE(textplane_test::all_zero(equations)) << i;
+        EXPECT_EQ(result.cost(i), 0) << i;
+      }
+    }
+}
+
+TEST(BatchKernels, NoCameraGivesAnInfinity) {
+  for (const tp::simd::Target target : textplane_test::testable_targets()) {
+    const textplane_test::TargetScope scope(target);
+    SCOPED_TRACE(tp::simd::to_string(target));
+    compare_extreme_cameras<6>();
+    compare_extreme_cameras<9>();
+  }
+}
+
 TEST(BatchKernels, BadArguments) {
   Objects objects(3);
   objects.items[1].patch.x = nullptr;
@@ -227,6 +263,9 @@ TEST(BatchKernels, BadArguments) {
   EXPECT_EQ(empty.build(nullptr, 2), tp::Status::invalid_argument);
   EXPECT_EQ(empty.build(nullptr, 0), tp::Status::ok);
   EXPECT_EQ(empty.size(), 0);
+  for (tp::TextBatchItem& item : objects.items) item.patch.n = 0;  // no pixels at all: no memory either
+  EXPECT_EQ(empty.build(objects.items.data(), 3), tp::Status::ok);
+  EXPECT_EQ(empty.max_pixels(), 0);
 }
 
 }  // namespace batch_kernels_test

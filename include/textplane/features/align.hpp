@@ -14,11 +14,12 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Parameters of track_klt() and align_point_patch(). px of the current level unless said otherwise.
 struct KltOptions {
-  int radius = 9;             ///< A patch has 2 radius + 1 pixels a side; in [1, kMaxPatchRadius]. track_klt() only.
-  int levels = 4;             ///< Pyramid levels used, at most those that exist. track_klt() only.
-  int max_iterations = 20;    ///< On every level.
-  float epsilon = 0.01F;      ///< px: a step shorter than this ends a level.
-  float min_contrast = 1.5F;  ///< Intensity: smallest standard deviation of the patch and of its image in the target.
+  int radius = 9;           ///< A patch has 2 radius + 1 pixels a side; in [1, kMaxPatchRadius]. track_klt() only.
+  int levels = 4;           ///< Pyramid levels used, at most those that exist. track_klt() only.
+  int max_iterations = 20;  ///< On every level; in [1, 10000].
+  float epsilon = 0.01F;    ///< px, above 0: a step shorter than this ends a level.
+  /// Intensity, at least 0: smallest standard deviation of the patch and of its image in the target.
+  float min_contrast = 1.5F;
   float min_eigenvalue = 0.003F;      ///< 1/px^2: smallest eigenvalue of J~^T J~ (a straight edge has 0).
   float min_zncc = 0.8F;              ///< Smallest correlation of a successful track.
   float max_forward_backward = 1.0F;  ///< px of level 0; 0 or less: no backward pass. track_klt() only.
@@ -60,7 +61,8 @@ inline Correlation correlate(const PointPatch& t, const ImageView8& image, float
   const double n = t.count();
   const double vv = sums.vv - sums.v * sums.v / n;  // kScale^2 ||I - mean||^2
   c.status = Status::no_contrast;
-  if (!(vv > kScale * kScale * n * (min_contrast * min_contrast)) || !(vv > 1e-6 * kScale * kScale * n)) return c;
+  const double least = static_cast<double>(min_contrast) * static_cast<double>(min_contrast);
+  if (!(vv > kScale * kScale * n * least) || !(vv > 1e-6 * kScale * kScale * n)) return c;
   const double inverse = 1.0 / (std::sqrt(vv) * t.norm);
   const double tv = sums.tv - sums.v * t.mean_v;
   c.bx = static_cast<float>((sums.xv - sums.v * t.mean_x - tv * t.along_x) * inverse);
@@ -124,8 +126,9 @@ inline Alignment align_translation(const PointPatch& t, const ImageView8& image,
 }
 
 inline bool valid_options(const KltOptions& options) noexcept {
-  return options.max_iterations >= 1 && options.epsilon > 0.0F && is_finite(options.epsilon) &&
-         is_finite(options.min_contrast) && is_finite(options.min_eigenvalue) && is_finite(options.min_zncc);
+  return options.max_iterations >= 1 && options.max_iterations <= 10000 && options.epsilon > 0.0F &&
+         is_finite(options.epsilon) && is_finite(options.min_contrast) && options.min_contrast >= 0.0F &&
+         is_finite(options.min_eigenvalue) && is_finite(options.min_zncc);
 }
 
 }  // namespace detail

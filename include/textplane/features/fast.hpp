@@ -110,15 +110,19 @@ inline Status detect_fast(const ImageView8& image, int threshold, bool suppress,
 }
 
 /// Keeps the corners that the highest threshold with `enough` corners finds. Thresholds are `first`, lower(first) and
-/// so on down to `lowest`, which keeps all. Detect once at `lowest`: a score is the largest threshold that finds the
-/// corner.
+/// so on down to `lowest`, which keeps all; lower(t) that is not below t is `lowest`, too. Detect once at `lowest`: a
+/// score is the largest threshold that finds the corner.
 template <class Lower>
 void keep_enough(std::vector<Corner>* corners, int first, int lowest, int enough, const Lower& lower) {
-  for (int threshold = first;; threshold = std::max(lower(threshold), lowest)) {
+  for (int threshold = first;;) {
     const auto weak = [threshold](const Corner& c) { return c.score < static_cast<float>(threshold); };
     const auto all = static_cast<int>(corners->size());
     const int strong = all - static_cast<int>(std::count_if(corners->begin(), corners->end(), weak));
-    if (strong < enough && threshold > lowest) continue;
+    if (strong < enough && threshold > lowest) {
+      const int next = lower(threshold);
+      threshold = next < threshold ? (std::max)(next, lowest) : lowest;
+      continue;
+    }
     corners->erase(std::remove_if(corners->begin(), corners->end(), weak), corners->end());
     return;
   }

@@ -123,7 +123,8 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
   int levels = options.levels < from.levels ? options.levels : from.levels;
   if (to.levels < levels) levels = to.levels;
   const bool valid = levels >= 1 && levels <= kMaxPyramidLevels && options.radius >= 1 &&
-                     options.radius <= kMaxPatchRadius && detail::valid_options(options) &&
+                     options.radius <= kMaxPatchRadius && is_finite(options.max_forward_backward) &&
+                     detail::valid_options(options) &&
                      detail::valid_levels(from, levels) && detail::valid_levels(to, levels);
   for (int i = 0; i < n; ++i) {
     KltResult& result = out[i];

@@ -20,27 +20,41 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Parameters of select_pixels() and make_patch().
 struct SelectOptions {
-  int min_pixels = 15;            ///< The paper's minimum; fewer is Status::too_few.
-  int max_pixels = 300;           ///< On each level.
-  int levels = 3;                 ///< Pyramid levels of a patch.
-  int fast_threshold = 20;        ///< Intensity; lowered stepwise until half of max_pixels are corners.
-  int lowest_fast_threshold = 5;  ///< Intensity: it is not lowered further.
-  float min_gradient = 4.0F;      ///< Intensity per px: smallest central difference of a pixel that fills a gap.
+  int min_pixels = 15;            ///< The paper's minimum; fewer is Status::too_few. At least 0.
+  int max_pixels = 300;           ///< On each level; at least 1.
+  int levels = 3;                 ///< Pyramid levels of a patch; at least 1. More than there are: all.
+  int fast_threshold = 20;        ///< Intensity, in [0, 255]; lowered stepwise until half of max_pixels are corners.
+  int lowest_fast_threshold = 5;  ///< Intensity, in [0, 255]: it is not lowered further.
+  /// Intensity per px, at least 0: smallest central difference of a pixel that fills a gap.
+  float min_gradient = 4.0F;
+
+  /// Whether the numbers make sense.
+  bool valid() const noexcept {
+    return min_pixels >= 0 && max_pixels >= 1 && levels >= 1 && fast_threshold >= 0 && fast_threshold <= 255 &&
+           lowest_fast_threshold >= 0 && lowest_fast_threshold <= 255 && is_finite(min_gradient) && min_gradient >= 0;
+  }
 };
 
 namespace detail {
 
 // A grid of square cells over [x0, x0 + width) x [y0, y0 + height).
 struct CellGrid {
-  int x0 = 0, y0 = 0, cell = 1, columns = 0, rows = 0;
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0, cell = 1, columns = 0, rows = 0;
 
+  // width, height and cell are positive, and x0 + width and y0 + height are numbers.
   CellGrid(int x0_, int y0_, int width, int height, int cell_) noexcept
-      : x0(x0_), y0(y0_), cell(cell_), columns((width + cell_ - 1) / cell_), rows((height + cell_ - 1) / cell_) {}
+      : x0(x0_),
+        y0(y0_),
+        x1(x0_ + width),
+        y1(y0_ + height),
+        cell(cell_),
+        columns((width - 1) / cell_ + 1),
+        rows((height - 1) / cell_ + 1) {}
 
   std::size_t size() const noexcept { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
   bool contains(float x, float y) const noexcept {
     return is_finite(x) && is_finite(y) && x >= static_cast<float>(x0) && y >= static_cast<float>(y0) &&
-           x < static_cast<float>(x0 + columns * cell) && y < static_cast<float>(y0 + rows * cell);
+           x < static_cast<float>(x1) && y < static_cast<float>(y1);
   }
   // The caller has checked contains().
   std::size_t index(float x, float y) const noexcept {
@@ -71,8 +85,8 @@ PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
   Bounds<double> b{polygon[0], polygon[0]};
   for (int i = 1; i < polygon.size(); ++i) {
     for (int k = 0; k < 2; ++k) {
-      b.min[k] = std::min(b.min[k], polygon[i][k]);
-      b.max[k] = std::max(b.max[k], polygon[i][k]);
+      b.min[k] = (std::min)(b.min[k], polygon[i][k]);
+      b.max[k] = (std::max)(b.max[k], polygon[i][k]);
     }
   }
   return {static_cast<int>(std::ceil(b.min[0])), static_cast<int>(std::ceil(b.min[1])),
@@ -84,11 +98,11 @@ TEXTPLANE_DEFERRED
 std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
                                       const SelectOptions& options, int enough) {
   // The detector skips 3 px at each border of its image.
-  const int x0 = std::max(box.x0 - 3, 0), y0 = std::max(box.y0 - 3, 0);
-  const int x1 = std::min(box.x1 + 3, image.width()), y1 = std::min(box.y1 + 3, image.height());
+  const int x0 = (std::max)(box.x0 - 3, 0), y0 = (std::max)(box.y0 - 3, 0);
+  const int x1 = (std::min)(box.x1 + 3, image.width()), y1 = (std::min)(box.y1 + 3, image.height());
   const ImageView8 part(image.row(y0) + x0, x1 - x0, y1 - y0, image.stride());
   std::vector<Corner> found, inside;
-  detect_fast(part, std::min(options.fast_threshold, options.lowest_fast_threshold), true, found);
+  detect_fast(part, (std::min)(options.fast_threshold, options.lowest_fast_threshold), true, found);
   for (Corner c : found) {
     c.x += static_cast<float>(x0);
     c.y += static_cast<float>(y0);
@@ -125,9 +139,10 @@ void fill_by_gradient(const ImageView8& image, const ConvexPolygon<double>& regi
                       const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
   std::vector<Corner> best(grid.size());
   for (const Corner& p : *out) best[grid.index(p.x, p.y)].score = -1.0F;
-  const int x0 = std::max(box.x0, 1), y0 = std::max(box.y0, 1);
-  const int x1 = std::min(box.x1, image.width() - 1), y1 = std::min(box.y1, image.height() - 1);
-  const float least = 4.0F * options.min_gradient * options.min_gradient;  // the differences below are doubled
+  const int x0 = (std::max)(box.x0, 1), y0 = (std::max)(box.y0, 1);
+  const int x1 = (std::min)(box.x1, image.width() - 1), y1 = (std::min)(box.y1, image.height() - 1);
+  const float gradient = (std::min)(options.min_gradient, 1e6F);  // more than any, and its square is a number
+  const float least = 4.0F * gradient * gradient;                 // the differences below are doubled
   for (int y = y0; y < y1; ++y) {
     const std::uint8_t* above = image.row(y - 1);
     const std::uint8_t* row = image.row(y);
@@ -155,12 +170,12 @@ void fill_by_gradient(const ImageView8& image, const ConvexPolygon<double>& regi
 /// cells, then the pixel of strongest gradient of every cell of a finer grid that is still empty, at most max_pixels in
 /// all. `quad`: px of `image`; the part of its convex hull inside the image counts. `out`: integer positions, replaced,
 /// each pixel once. Deterministic. Status::too_few where fewer than min_pixels qualify (`out` then holds those),
-/// degenerate for a quad without area, non_finite, invalid_argument. Allocates.
+/// degenerate for a quad without area, non_finite, invalid_argument (also for options that are not valid()). Allocates.
 TEXTPLANE_DEFERRED
 Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
                      std::vector<Vector2<float>>& out) {
   out.clear();
-  if (!image.valid() || options.max_pixels < 1 || options.min_pixels < 0) return Status::invalid_argument;
+  if (!image.valid() || !options.valid()) return Status::invalid_argument;
   if (!all_finite(quad)) return Status::non_finite;
   if (convex_hull(quad).empty()) return Status::degenerate;
   const ConvexPolygon<double> region = clip_to_image(quad, image.width(), image.height());
@@ -168,13 +183,14 @@ Status select_pixels(const ImageView8& image, const Quad<double>& quad, const Se
   if (box.empty()) return Status::too_few;
 
   const double most = static_cast<double>(options.max_pixels);
-  const int coarse = std::max(static_cast<int>(std::sqrt(area(region) / most)), 1);
-  const int fine = std::max(static_cast<int>(std::sqrt(area(region) / (2.0 * most))), 1);
+  const int coarse = (std::max)(static_cast<int>(std::sqrt(area(region) / most)), 1);
+  const int fine = (std::max)(static_cast<int>(std::sqrt(area(region) / (2.0 * most))), 1);
   const auto grid = [&box](int cell) {
     return detail::CellGrid(box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0, cell);
   };
 
-  std::vector<Corner> corners = detail::corners_in_region(image, region, box, options, (options.max_pixels + 1) / 2);
+  std::vector<Corner> corners =
+      detail::corners_in_region(image, region, box, options, options.max_pixels - options.max_pixels / 2);
   std::vector<Corner> chosen;
   detail::take_in_rounds(corners, grid(coarse), options.max_pixels, &chosen);
   detail::fill_by_gradient(image, region, box, grid(fine), options, &chosen);
@@ -212,13 +228,15 @@ void select_spread(const std::vector<Corner>& corners, int width, int height, in
 
 /// The patch of a text object: pixels selected on each of options.levels levels of its host image (fewer where the
 /// pyramid has fewer), with their intensities. `quad`: px of level 0; `camera`: the host's. Status of
-/// patch_from_pixels(), or of select_pixels() where the finest level fails: a patch without level 0 is of no use.
+/// patch_from_pixels(), or of select_pixels() where the finest level fails: a patch without level 0 is of no use; with
+/// options that are not valid() it is empty.
 /// Allocates.
 TEXTPLANE_DEFERRED
 TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {
-  const int levels = std::min({options.levels, host.levels, kMaxPyramidLevels});
-  std::vector<std::vector<Vector2<float>>> pixels(static_cast<std::size_t>(std::max(levels, 0)));
+  if (!options.valid()) return {};
+  const int levels = (std::min)({options.levels, host.levels, kMaxPyramidLevels});
+  std::vector<std::vector<Vector2<float>>> pixels(static_cast<std::size_t>((std::max)(levels, 0)));
   Status finest = Status::invalid_argument;
   for (std::size_t l = 0; l < pixels.size(); ++l) {
     const Quad<double> level_quad = quad_to_level(quad, static_cast<int>(l));
@@ -234,7 +252,7 @@ TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, con
 TEXTPLANE_DEFERRED
 TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {
-  const Pyramid pyramid(host, std::min(std::max(options.levels, 1), kMaxPyramidLevels));
+  const Pyramid pyramid(host, (std::min)((std::max)(options.levels, 1), kMaxPyramidLevels));
   return make_patch(pyramid.view(), camera, quad, options);
 }
 

@@ -19,7 +19,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-using Matrix2d = Eigen::Matrix<double, 2, 2>;  ///< A covariance, px^2.
+using Matrix2d = FixedMatrix<double, 2, 2>;  ///< A covariance, px^2.
 
 /// Covariances, px^2 of each image, of the Gaussian filters that bring host and target to one blur on the plane.
 struct BlurMatch {
@@ -33,8 +33,9 @@ struct BlurMatch {
 /// of M and, along each, `spread` times the larger variance. host = B - V_h I, target = A B A^T - V_t I. With a spread
 /// above 1 (2 is a good one) a filter of known shape outweighs the unknown part of the blur.
 ///
-/// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1;
-/// *out is then untouched.
+/// degenerate where A cannot be inverted or is one of no image (entries of A or M beyond 1e100), non_finite also where
+/// the covariances would not be numbers, invalid_argument for a negative variance or a spread below 1; *out is then
+/// untouched.
 template <class S = double>  // instantiated where it is called: including the header costs little
 Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
                   BlurMatch* out) noexcept {
@@ -43,14 +44,18 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
   if (!(host_variance >= 0) || !(target_variance >= 0) || !(spread >= 1)) return Status::invalid_argument;
   const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
   if (!(std::abs(det) > 1e-9) || !is_finite(1 / (det * det))) return Status::degenerate;
-  using Matrix = Eigen::Matrix<S, 2, 2>;
+  using Matrix = FixedMatrix<S, 2, 2>;
   Matrix inverse, A_transposed;
   inverse << A(1, 1) / det, -A(0, 1) / det, -A(1, 0) / det, A(0, 0) / det;
   const Matrix transposed = inverse.transpose();
-  const SymmetricEigen<S, 2> seen = symmetric_eigen<S, 2>(product(inverse, transposed));
+  const Matrix M = product(inverse, transposed);
+  // The squares of larger numbers are none, and eigenvalues are made of them.
+  for (int i = 0; i < 4; ++i)
+    if (!(std::abs(A(i / 2, i % 2)) <= 1e100) || !(std::abs(M(i / 2, i % 2)) <= 1e100)) return Status::degenerate;
+  const SymmetricEigen<S, 2> seen = symmetric_eigen<S, 2>(M);
   Matrix common = Matrix::Zero();
   for (int k = 0; k < 2; ++k) {
-    const double variance = spread * std::max(host_variance, target_variance * seen.values[k]);
+    const double variance = spread * (std::max)(host_variance, target_variance * seen.values[k]);
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) common(i, j) += variance * seen.vectors(i, k) * seen.vectors(j, k);
   }
@@ -60,6 +65,7 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
     match.host(i, i) -= host_variance;
     match.target(i, i) -= target_variance;
   }
+  if (!all_finite(match.host) || !all_finite(match.target)) return Status::non_finite;
   *out = match;
   return Status::ok;
 }
@@ -75,15 +81,20 @@ class BlurKernel {
   /// The kernel of a covariance in px^2.
   template <class S = double>  // instantiated where it is called: including the header costs little
   explicit BlurKernel(const Matrix2d& covariance) noexcept {
-    Eigen::Matrix<S, 2, 2> finite = covariance;
+    FixedMatrix<S, 2, 2> finite = covariance;
     if (!all_finite(finite)) finite.setZero();
-    const SymmetricEigen<S, 2> axes = symmetric_eigen(finite);
+    // The squares of such numbers are none; the eigenvectors do not depend on the unit.
+    double most = 0;
+    for (int i = 0; i < 4; ++i) most = (std::max)(most, std::abs(finite(i / 2, i % 2)));
+    const double unit = most > 1e100 ? most / 1e100 : 1;
+    const SymmetricEigen<S, 2> axes = symmetric_eigen(scaled(1 / unit, finite));
     // The mean over a pixel is a blur, too.
     constexpr double kPixel = 1.0 / 12, kLeast = 1e-3;
     double precision[2];
-    for (int k = 0; k < 2; ++k) precision[k] = 1.0 / std::max(std::min(axes.values[k], kMaxVariance) - kPixel, kLeast);
-    radius_ =
-        std::min(kMaxRadius, static_cast<int>(std::ceil(2.7 * std::sqrt(1.0 / std::min(precision[0], precision[1])))));
+    for (int k = 0; k < 2; ++k)
+      precision[k] = 1.0 / (std::max)((std::min)(unit * axes.values[k], kMaxVariance) - kPixel, kLeast);
+    radius_ = (std::min)(kMaxRadius,
+                         static_cast<int>(std::ceil(2.7 * std::sqrt(1.0 / (std::min)(precision[0], precision[1])))));
     double sum = 0.0, raw[kSide * kSide];
     for (int y = -radius_; y <= radius_; ++y)
       for (int x = -radius_; x <= radius_; ++x) sum += raw[index(x, y)] = mean(x, y, axes, precision);
@@ -130,7 +141,8 @@ class BlurFilter {
                     const ImageView<std::uint8_t>& to) {
     if (!from.valid() || !to.valid() || to.width() != from.width() || to.height() != from.height())
       return Status::invalid_argument;
-    x0 = std::max(x0, 0), y0 = std::max(y0, 0), x1 = std::min(x1, from.width()), y1 = std::min(y1, from.height());
+    x0 = (std::max)(x0, 0), y0 = (std::max)(y0, 0), x1 = (std::min)(x1, from.width()),
+    y1 = (std::min)(y1, from.height());
     if (x0 >= x1 || y0 >= y1) return Status::ok;
     load(from, kernel.radius(), x0, y0, x1, y1);
     for (int y = y0; y < y1; ++y) {
@@ -153,7 +165,7 @@ class BlurFilter {
     for (std::size_t i = 0; i < n; ++i) {
       if (!host.contains(level->x[i], level->y[i])) continue;
       const int x = static_cast<int>(level->x[i]), y = static_cast<int>(level->y[i]);
-      x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x + 1), y1 = std::max(y1, y + 1);
+      x0 = (std::min)(x0, x), y0 = (std::min)(y0, y), x1 = (std::max)(x1, x + 1), y1 = (std::max)(y1, y + 1);
     }
     if (x0 >= x1) return Status::ok;
     load(host, kernel.radius(), x0, y0, x1, y1);
@@ -184,10 +196,10 @@ class BlurFilter {
     const int rows = y1 - y0 + 2 * radius;
     reserve(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows), &grey_);
     for (int y = 0; y < rows; ++y) {
-      const std::uint8_t* row = from.row(std::min(std::max(y0 - radius + y, 0), from.height() - 1));
+      const std::uint8_t* row = from.row((std::min)((std::max)(y0 - radius + y, 0), from.height() - 1));
       float* to = &grey_[static_cast<std::size_t>(y * stride_)];
       for (int x = 0; x < stride_; ++x)
-        to[x] = static_cast<float>(row[std::min(std::max(x0 - radius + x, 0), from.width() - 1)]);
+        to[x] = static_cast<float>(row[(std::min)((std::max)(x0 - radius + x, 0), from.width() - 1)]);
     }
   }
 

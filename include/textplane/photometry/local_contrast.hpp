@@ -22,14 +22,17 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// How LocalContrast compares a pixel with its surroundings.
 struct LocalContrastOptions {
-  int radius = 6;       ///< px: the square has 2 radius + 1 a side, cut where the image ends; in [1, kMaxRadius].
-  double floor = 4.0;   ///< Grey levels: deviations well below this are taken for noise and not made larger.
-  double scale = 40.0;  ///< Grey levels that one deviation becomes.
+  int radius = 6;  ///< px: the square has 2 radius + 1 a side, cut where the image ends; in [1, kMaxRadius].
+  /// Grey levels, in [0.01, 1e6]: deviations well below this are taken for noise and not made larger. Means are in
+  /// float: below 0.01 their rounding would be seen.
+  double floor = 4.0;
+  double scale = 40.0;                   ///< Grey levels that one deviation becomes; above 0, at most 1e6.
   static constexpr int kMaxRadius = 64;  ///< px, of the largest square.
 
   /// Whether the numbers make sense.
   bool valid() const noexcept {
-    return radius >= 1 && radius <= kMaxRadius && is_finite(floor) && floor > 0 && is_finite(scale) && scale > 0;
+    return radius >= 1 && radius <= kMaxRadius && is_finite(floor) && floor >= 0.01 && floor <= 1e6 &&
+           is_finite(scale) && scale > 0 && scale <= 1e6;
   }
 };
 
@@ -49,7 +52,7 @@ class LocalContrast {
         y0 > from.height() - to.height())
       return Status::invalid_argument;
     const int r = options_.radius, x1 = x0 + to.width();
-    const int left = std::max(x0 - r, 0), right = std::min(x1 + r, from.width());
+    const int left = (std::max)(x0 - r, 0), right = (std::min)(x1 + r, from.width());
     const auto n = static_cast<std::size_t>(right - left);
     // Made anew, not grown: the function that grows a vector would be shared between translation units (see
     // config.hpp).
@@ -57,10 +60,10 @@ class LocalContrast {
     if (means_.size() < 2 * n) means_ = std::vector<float>(2 * n);
     for (std::size_t i = 0; i < 2 * n; ++i) sums_[i] = 0;
 
-    int top = std::max(y0 - r, 0), bottom = top;  // rows [top, bottom) are in the sums of the columns
+    int top = (std::max)(y0 - r, 0), bottom = top;  // rows [top, bottom) are in the sums of the columns
     for (int y = y0; y < y0 + to.height(); ++y) {
-      for (; bottom < std::min(y + r, from.height()); ++bottom) exchange_rows(from.row(bottom) + left, nullptr, n);
-      const bool in = bottom < std::min(y + r + 1, from.height()), out = top < y - r;
+      for (; bottom < (std::min)(y + r, from.height()); ++bottom) exchange_rows(from.row(bottom) + left, nullptr, n);
+      const bool in = bottom < (std::min)(y + r + 1, from.height()), out = top < y - r;
       exchange_rows(in ? from.row(bottom) + left : nullptr, out ? from.row(top) + left : nullptr, n);
       bottom += in;
       top += out;
@@ -107,7 +110,7 @@ class LocalContrast {
     float share = 0;
     int columns = 0, first = left, last = left;  // columns [first, last) are in these
     for (int x = x0; x < x1; ++x) {
-      for (; last < std::min(x + r + 1, width); ++last) v += values[last - left], s += squares[last - left];
+      for (; last < (std::min)(x + r + 1, width); ++last) v += values[last - left], s += squares[last - left];
       for (; first < x - r; ++first) v -= values[first - left], s -= squares[first - left];
       if (columns != last - first) {
         columns = last - first;
@@ -118,10 +121,10 @@ class LocalContrast {
     }
     const auto scale = static_cast<float>(options_.scale), least = static_cast<float>(options_.floor * options_.floor);
     for (std::size_t i = 0; i < count; ++i) {
-      const float variance = std::max(square[i] - value[i] * value[i], 0.0F);
+      const float variance = (std::max)(square[i] - value[i] * value[i], 0.0F);
       const float out =
           128.5F + scale * (static_cast<float>(row[x0 + static_cast<int>(i)]) - value[i]) / std::sqrt(variance + least);
-      to[i] = static_cast<std::uint8_t>(std::min(std::max(out, 0.0F), 255.0F));
+      to[i] = static_cast<std::uint8_t>((std::min)((std::max)(out, 0.0F), 255.0F));
     }
   }
 

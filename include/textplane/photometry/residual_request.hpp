@@ -41,12 +41,13 @@ struct PhotometricOptions {
   /// default 0.5 is 1.345 sigma (95 % efficiency) for the residuals of a match with ZNCC 0.93, since E = sigma^2 and
   /// ZNCC = 1 - E / 2.
   Robust robust{RobustKind::huber, 0.5};
-  int min_visible = 15;       ///< The paper's minimum; fewer visible pixels are Status::too_few.
-  double min_contrast = 1.0;  ///< Least population standard deviation of either side, in intensity units.
-  bool precise = false;       ///< All in double, by the slow reference, whatever the input.
+  int min_visible = 15;  ///< The paper's minimum; fewer visible pixels are Status::too_few.
+  /// Least population standard deviation of either side, in intensity units; at most 1e30.
+  double min_contrast = 1.0;
+  bool precise = false;  ///< All in double, by the slow reference, whatever the input.
 
   /// Whether the numbers make sense.
-  bool valid() const noexcept { return robust.valid() && is_finite(min_contrast); }
+  bool valid() const noexcept { return robust.valid() && is_finite(min_contrast) && min_contrast <= 1e30; }
 };
 
 /// Whose gradients the derivatives use. The residual and its cost are the same for all; only J differs. With dq as the

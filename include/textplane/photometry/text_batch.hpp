@@ -48,11 +48,11 @@ class TextBatch {
     valid_ = std::vector<std::uint8_t>(static_cast<std::size_t>(count));
     std::size_t total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
-      total += count_group(items + first, first, std::min(count - first, simd::kBatchLanes));
+      total += count_group(items + first, first, (std::min)(count - first, simd::kBatchLanes));
     pixels_ = cache_lines<float>(total);
     total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
-      total = add_group(items + first, first, std::min(count - first, simd::kBatchLanes), total);
+      total = add_group(items + first, first, (std::min)(count - first, simd::kBatchLanes), total);
     return Status::ok;
   }
 
@@ -87,9 +87,9 @@ class TextBatch {
       valid_[static_cast<std::size_t>(first + l)] = valid;
       int n = 0;
       for (int i = 0; valid && i < p.n; ++i) n += usable(p, i);
-      most = std::max(most, n);
+      most = (std::max)(most, n);
     }
-    most_ = std::max(most_, most);
+    most_ = (std::max)(most_, most);
     return static_cast<std::size_t>(most) * 3 * simd::kBatchLanes;
   }
 
@@ -107,22 +107,23 @@ class TextBatch {
       float x0 = 0, x1 = 0, y0 = 0, y1 = 0;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;
-        x0 = n ? std::min(x0, p.x[i]) : p.x[i];
-        x1 = n ? std::max(x1, p.x[i]) : p.x[i];
-        y0 = n ? std::min(y0, p.y[i]) : p.y[i];
-        y1 = n ? std::max(y1, p.y[i]) : p.y[i];
+        x0 = n ? (std::min)(x0, p.x[i]) : p.x[i];
+        x1 = n ? (std::max)(x1, p.x[i]) : p.x[i];
+        y0 = n ? (std::min)(y0, p.y[i]) : p.y[i];
+        y1 = n ? (std::max)(y1, p.y[i]) : p.y[i];
         ++n;
       }
       const float fx = x0 + 0.5F * (x1 - x0), fy = y0 + 0.5F * (y1 - y0);
       const double hx = static_cast<double>(fx), hy = static_cast<double>(fy);
-      group.ru[l] = std::max(static_cast<double>(x1) - hx, hx - static_cast<double>(x0));
-      group.rv[l] = std::max(static_cast<double>(y1) - hy, hy - static_cast<double>(y0));
+      group.ru[l] = (std::max)(static_cast<double>(x1) - hx, hx - static_cast<double>(x0));
+      group.rv[l] = (std::max)(static_cast<double>(y1) - hy, hy - static_cast<double>(y0));
       group.ifx[l] = 1.0 / item.host_camera.fx;
       group.ify[l] = 1.0 / item.host_camera.fy;
       group.mu[l] = (hx - item.host_camera.cx) * group.ifx[l];
       group.mv[l] = (hy - item.host_camera.cy) * group.ify[l];
       for (int k = 0; k < 3; ++k) group.theta[k][l] = item.theta[k];
-      most = std::max(most, n);
+      most = (std::max)(most, n);
+      if (n == 0) continue;  // there may be no pixels at all
       float* out = numbers(pixels_) + start + l;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;

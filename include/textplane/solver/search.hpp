@@ -86,10 +86,9 @@ class PoseSearch {
 /// The level that search_pose() searches in a target of `levels` levels: the coarsest, up to options.level, that patch
 /// and target have and that holds at least 2 min_visible pixels. 0 where none does, -1 where there is no level.
 inline int search_level(const TextPatch& patch, int levels, const SearchOptions& options) noexcept {
-  int level = std::min({options.level, patch.level_count() - 1, levels - 1});
-  while (level > 0 &&
-         static_cast<int>(patch.levels[static_cast<std::size_t>(level)].x.size()) < 2 * options.photometric.min_visible)
-    --level;
+  int level = (std::min)({options.level, patch.level_count() - 1, levels - 1});
+  const auto pixels = [&patch](int l) { return static_cast<int>(patch.levels[static_cast<std::size_t>(l)].x.size()); };
+  while (level > 0 && pixels(level) / 2 < options.photometric.min_visible) --level;  // twice that may be no int
   return level;
 }
 
@@ -117,7 +116,7 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
 
   detail::PoseSearch<> search(in, theta, T_t_h, {q[0] / q[2], q[1] / q[2]}, options, workspace,
                               prepared ? prepared + level : nullptr);
-  search.shifts(T_t_h, std::min(std::max(options.radius, 0), detail::PoseSearch<>::kMost), options.step, 0);
+  search.shifts(T_t_h, (std::min)((std::max)(options.radius, 0), detail::PoseSearch<>::kMost), options.step, 0);
   if (options.roll != 0) {
     const SE3d shifted = search.best();
     for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0})

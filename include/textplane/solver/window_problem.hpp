@@ -57,7 +57,7 @@ struct WindowPointObservation {
   double sigma = 1;
 
   /// Out: |e|^2 / sigma^2 at the final state, without the robust function, also of observations that were left out.
-  /// The largest double where there is no projection.
+  /// The largest double where there is no projection, or where it is beyond that.
   double chi2 = 0;
   /// Out. ok; behind_camera: at the start (left out) or at the end; non_finite or invalid_argument (sigma <= 0): left
   /// out; too_few: left out with its point or frame.

@@ -54,7 +54,8 @@ class BasicWindowStructure {
       if (!is_finite(x)) return Status::non_finite;
     if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) ||
         !(o.initial_lambda > 0) || !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 ||
-        o.text_level < 0 || o.text_level >= kMaxPyramidLevels)
+        !(o.cost_tolerance >= 0) || !(o.step_tolerance >= 0) || !(o.max_lost_fraction >= 0) || o.text_level < 0 ||
+        o.text_level >= kMaxPyramidLevels)
       return Status::invalid_argument;
     for (const WindowFrame& f : w.frames)
       if (!all_finite(f.T_w_c)) return Status::non_finite;
@@ -156,7 +157,7 @@ class BasicWindowStructure {
   }
   void join(int a, int b) noexcept {
     const int ra = root(a), rb = root(b);
-    at(parent_, std::max(ra, rb)) = std::min(ra, rb);
+    at(parent_, (std::max)(ra, rb)) = (std::min)(ra, rb);
   }
 
   // Counts the degrees of freedom that nothing fixes, for each set of frames that landmarks connect.
@@ -206,7 +207,7 @@ class BasicWindowStructure {
       if (anchor.fixed_frame >= 0)
         gauge_freedom += anchor.scale || anchor.fixed_points > 0 ? 0 : 1;
       else
-        gauge_freedom += std::max(7 - 3 * anchor.fixed_points - (anchor.scale ? 1 : 0), 1);
+        gauge_freedom += (std::max)(7 - 3 * anchor.fixed_points - (anchor.scale ? 1 : 0), 1);
     }
   }
 

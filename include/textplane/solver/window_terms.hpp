@@ -48,7 +48,7 @@ class BasicWindowTerms {
       t.status = !all_finite(t.theta)                                              ? Status::non_finite
                  : !t.patch || !is_ok(t.patch->status) || !t.patch->camera.valid() ? Status::invalid_argument
                                                                                    : Status::ok;
-      if (t.status == Status::ok) longest = std::max(longest, t.patch->max_pixels());
+      if (t.status == Status::ok) longest = (std::max)(longest, t.patch->max_pixels());
     }
     photometric_.reserve(longest);
     mask_begin_.assign(w.text_observations.size() + 1, 0);
@@ -127,7 +127,7 @@ class BasicWindowTerms {
       const WindowTextObservation& ob = at(w.text_observations, k);
       const int visible = at(text_, k).visible;
       const PhotometricCost c = textplane::evaluate(request(w, o, y, ob), photometric_, mask(k));
-      path_ = std::max(path_, c.path);
+      path_ = (std::max)(path_, c.path);
       pixels += visible;
       lost += is_ok(c.status) ? c.lost : visible;
       trial.cost += weight(o, ob, visible) * (is_ok(c.status) ? c.cost : o.photometric.robust.rho(2.0));
@@ -143,7 +143,8 @@ class BasicWindowTerms {
       Vector3<S> p_c;
       const bool usable = k.status != Status::non_finite && k.status != Status::invalid_argument;
       const bool front = usable && in_front(k, x, o, &p_c);
-      k.chi2 = front ? chi2(w, k, p_c) : std::numeric_limits<double>::max();
+      constexpr double kMost = (std::numeric_limits<double>::max)();
+      k.chi2 = front ? (std::min)(chi2(w, k, p_c), kMost) : kMost;
       if (k.status == Status::ok && !front) k.status = Status::behind_camera;
     }
     for (int k = 0; k < count(s.text_active); ++k) {
@@ -216,7 +217,7 @@ class BasicWindowTerms {
     NormalEquations<9>& out = at(text_, k);
     const ResidualRequest<std::uint8_t> q = request(w, o, x, ob);
     out = textplane::linearise<Parameters::pose_plane>(q, photometric_);
-    path_ = std::max(path_, out.path);
+    path_ = (std::max)(path_, out.path);
     if (is_ok(out.status))
       std::copy_n(photometric_.visible(), q.input.patch.n,
                   mask_.begin() + static_cast<std::ptrdiff_t>(at(mask_begin_, k)));
@@ -229,14 +230,14 @@ class BasicWindowTerms {
     const WindowPointObservation& ob = at(w.point_observations, k);
     Vector3<S> p_c;
     in_front(ob, x, o, &p_c);
-    Eigen::Matrix<S, 2, 3> J;
+    FixedMatrix<S, 2, 3> J;
     const Vector2<S> e = w.camera.project(p_c, &J) - ob.px;
     const double information = 1 / (ob.sigma * ob.sigma), r2 = e.squaredNorm() * information;
     const double weight = o.point_robust.weight(r2) * information;
     const int camera = at(s.camera_of_frame, ob.frame), slot = at(s.point_slot, k);
     const bool free = at(s.landmark_free, ob.point) != 0;
-    Eigen::Matrix<S, 2, 6> J_camera, weighted_camera;
-    Eigen::Matrix<S, 2, 3> J_point;
+    FixedMatrix<S, 2, 6> J_camera, weighted_camera;
+    FixedMatrix<S, 2, 3> J_point;
     if (camera >= 0) {
       for (int r = 0; r < 2; ++r) {
         for (int c = 0; c < 3; ++c) J_camera(r, c) = -J(r, c);
@@ -263,7 +264,7 @@ class BasicWindowTerms {
     const WindowTextObservation& ob = at(w.text_observations, k);
     const WindowText& t = at(w.texts, ob.text);
     const NormalEquations<9>& ne = at(text_, k);
-    const Eigen::Matrix<S, 9, 9>& H = ne.H;
+    const FixedMatrix<S, 9, 9>& H = ne.H;
     const Eigen::Matrix<S, 9, 1>& b = ne.b;
     const S scale = weight(o, ob, ne.visible);
     const int landmark = count(w.points) + ob.text;

@@ -115,20 +115,21 @@ TEXTPLANE_SIMD_INLINE unsigned batch_judge(const simd::BatchArgs& a, const Batch
   return keep_lanes;
 }
 
-// H and b from the weighted rows.
-TEXTPLANE_SIMD_INLINE void batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
-                                          float* out) noexcept {
+// H and b from the weighted rows. Returns the lanes where they are finite.
+TEXTPLANE_SIMD_INLINE unsigned batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
+                                              float* out) noexcept {
   const vf inverse_s = div(set1(1.0F), max_(target_s, set1(1e-30F))), scale = mul(inverse_s, inverse_s);
   const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));
   // Not a loop: with constants for rows, where things lie is known when this is compiled.
-  batch_square(scratch, n, parameters, 0, scale, scale_b, out);
-  batch_square(scratch, n, parameters, 3, scale, scale_b, out);
+  vf all = batch_square(scratch, n, parameters, 0, scale, scale_b, out);
+  all = add(all, batch_square(scratch, n, parameters, 3, scale, scale_b, out));
   batch_cross(scratch, n, parameters, 0, 3, scale, out);
   if (parameters > 6) {
-    batch_square(scratch, n, parameters, 6, scale, scale_b, out);
+    all = add(all, batch_square(scratch, n, parameters, 6, scale, scale_b, out));
     batch_cross(scratch, n, parameters, 0, 6, scale, out);
     batch_cross(scratch, n, parameters, 3, 6, scale, out);
   }
+  return bits_from_mask(lt(abs_(all), set1(3e38F)));
 }
 
 // One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with
@@ -148,8 +149,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
   const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
 
   const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
-  const unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
-                                          host_mean, root, all_lanes, status);
+  unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
+                                    host_mean, root, all_lanes, status);
 
   const int head = parameters * (parameters + 1) / 2 + parameters;
   if (keep_lanes != 0) {
@@ -172,7 +173,12 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                       &error);
     else
       batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
-    if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
+    if (parameters > 0) {
+      const unsigned finite = batch_products(a.scratch, n, parameters, target_s, root, out);
+      for (int l = 0; (keep_lanes & ~finite) != 0 && l < lanes; ++l)
+        if (keep_lanes & ~finite & 1U << l) status[l] = Status::non_finite;
+      keep_lanes &= finite;
+    }
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
     batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));

@@ -35,9 +35,10 @@ TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
   store(out + entry * kBatchStep, value);
 }
 
-// Products of the rows row .. row + 2 among themselves and with r.
-TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
-                                        float* out) noexcept {
+// Products of the rows row .. row + 2 among themselves and with r. Returns a sum that is finite where these are: the
+// diagonal bounds the others.
+TEXTPLANE_SIMD_INLINE vf batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
+                                      float* out) noexcept {
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -64,6 +65,7 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   batch_put(b_out, 0, mul(scale_b, b0));
   batch_put(b_out, 1, mul(scale_b, b1));
   batch_put(b_out, 2, mul(scale_b, b2));
+  return madd(scale, add(s0, add(s3, s5)), mul(scale_b, add(b0, add(b1, b2))));
 }
 
 // Products of the rows from `row` on with those from `column` on.
