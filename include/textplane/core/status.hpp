@@ -22,7 +22,7 @@ enum class Status : std::uint8_t {
   degenerate,        ///< The geometry is degenerate: zero area, zero baseline, coincident points.
   non_finite,        ///< A NaN or an infinity in the input or in the result.
   invalid_argument,  ///< Null pointer, negative size, stride below the width, unknown option.
-  diverged,          ///< No step lowered the cost although the gradient does not vanish.
+  diverged,          ///< No step lowered the cost although the gradient does not vanish; or what was found is no match.
   unsupported,       ///< This form of the computation cannot take the case; another one can.
 };
 

@@ -5,6 +5,10 @@
 #ifndef TEXTPLANE_SOLVER_POSE_HPP
 #define TEXTPLANE_SOLVER_POSE_HPP
 
+#include <algorithm>
+#include <cmath>
+
+#include "textplane/geometry/quad_projection.hpp"
 #include "textplane/solver/pose_problem.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -33,9 +37,11 @@ struct PoseFit : PoseResult {
   SE3d T_t_w;  ///< World to target: the best pose found, or the initial one after a failure. Finite if that one is.
 };
 
-/// Result of align_pose().
+/// Result of align_pose(). status: as above, and diverged where the target does not show the object at the pose found,
+/// by PoseOptions::min_zncc; all else is then as found.
 struct PoseAlignment : PoseResult {
-  SE3d T_t_h;  ///< Host to target.
+  SE3d T_t_h;           ///< Host to target.
+  int scale_shift = 0;  ///< Of photometric_input(), as chosen by the object's sizes in host and target.
 };
 
 namespace detail {
@@ -45,7 +51,7 @@ inline bool valid(const PoseOptions& o) noexcept {
   return o.photometric.valid() && o.point_robust.valid() && valid_sigma(o.sigma_photo) && valid_sigma(o.sigma_rep) &&
          o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
          (o.weighting == Weighting::paper || o.weighting == Weighting::variance) &&
-         o.policy <= LinearisePolicy::automatic && valid(o.solve);
+         o.policy <= LinearisePolicy::automatic && is_finite(o.min_zncc) && valid(o.solve);
 }
 
 // The levels that the target and any text have. Without any, one pass on the finest level, for the points.
@@ -102,10 +108,22 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
   return fit;
 }
 
+// The shift of the levels for the size at which the target shows the object at this pose, as far as both have levels.
+template <class View>
+int pose_scale_shift(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const View& target,
+                     const Pinhole<double>& camera, int finest_level) noexcept {
+  Quad<double> seen;
+  if (finest_level < 0 || !is_ok(project_quad<double>(patch.quad, patch.camera, theta, T_t_h, camera, &seen))) return 0;
+  const int shift = scale_shift(std::abs(area(patch.quad)), std::abs(area(seen)), kMaxPyramidLevels);
+  const auto room = [finest_level](int levels) { return (std::max)(levels - 1 - finest_level, 0); };
+  return (std::min)((std::max)(shift, -room(patch.level_count())), room(target.levels));
+}
+
 template <class View>
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const View& target,
                          const Pinhole<double>& camera, const PoseOptions& options) {
-  const PoseTextTerm term{&patch, theta, SE3d(), 1};
+  const int shift = pose_scale_shift(patch, theta, T_t_h, target, camera, options.finest_level);
+  const PoseTextTerm term{&patch, theta, SE3d(), 1, shift};
   PoseWorkspace workspace;
   workspace.reserve(&term, 1, 0);
   const PoseFit fit =
@@ -113,6 +131,8 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
   PoseAlignment out;
   static_cast<PoseResult&>(out) = fit;
   out.T_t_h = fit.T_t_w;
+  out.scale_shift = shift;
+  if (is_ok(out.status) && out.zncc < options.min_zncc) out.status = Status::diverged;
   return out;
 }
 }  // namespace detail
@@ -145,7 +165,9 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 }
 
 /// Pose T_t_h (host to target) of one text object with the plane `theta` (host frame), from the guess T_t_h. As
-/// refine_pose() with this object alone; allocates its own workspace.
+/// refine_pose() with this object alone, on levels of one scale: the sizes of patch.quad in the host and, by the guess,
+/// in the target choose `scale_shift`. Status::diverged where the final ZNCC is below options.min_zncc: the iteration
+/// found a minimum, but not this object. Allocates its own workspace.
 TEXTPLANE_DEFERRED
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
                          const PyramidView& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {

@@ -50,6 +50,9 @@ struct PoseOptions {
   /// Whose gradients linearise the texts (docs/policy.md, policy_at_level()). Patches without gradients take forward.
   /// The cost alone accepts or rejects a step.
   LinearisePolicy policy = LinearisePolicy::forward;
+  /// A smaller ZNCC on the finest level is Status::diverged; -1 lets all pass. align_pose() only: refine_pose() tells
+  /// the ZNCC of every text.
+  double min_zncc = 0.5;
 };
 
 namespace detail {
