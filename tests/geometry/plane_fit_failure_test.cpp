@@ -11,6 +11,7 @@
 
 #include "geometry/plane_fit_scene.hpp"
 #include "support/calculus.hpp"
+#include "textplane/core/cameras/pinhole.hpp"
 
 using textplane_test::value;
 using textplane_test::values;
@@ -151,6 +152,34 @@ TEST(PlaneFitFailure, BrokenInputGivesAStatus) {
   EXPECT_EQ(tp::plane_from_matches(scene.host.data(), null, 5, scene.T_t_h).status, tp::Status::invalid_argument);
   const std::vector<double> short_rho(4, 1.0);
   EXPECT_EQ(tp::plane_from_inverse_depths(scene.host, short_rho).status, tp::Status::invalid_argument);
+}
+
+// Pixels in the place of normalised points gave an ok status and a plane of (0, 0, 300).
+TEST(PlaneFitFailure, PixelsAreNoRays) {
+  Random random(17);
+  const auto scene = make_scene<double>(random, 8);
+  const tp::Pinhole<double> camera(300, 300, 160, 120);
+  auto pixels = scene;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto at = [&camera](const Vector3d& m) {
+      return camera.pixel({m[0] / m[2], m[1] / m[2]}).homogeneous().eval();
+    };
+    pixels.host[i] = at(scene.host[i]);
+    pixels.target[i] = at(scene.target[i]);
+  }
+  for (const auto& fit : {tp::plane_from_matches(pixels.host, pixels.target, scene.T_t_h),
+                          tp::plane_from_matches(pixels.host, scene.target, scene.T_t_h),
+                          tp::plane_from_matches(scene.host, pixels.target, scene.T_t_h),
+                          tp::plane_from_inverse_depths(pixels.host, scene.rho)}) {
+    EXPECT_EQ(fit.status, tp::Status::invalid_argument);
+    EXPECT_TRUE(fit.value.isZero());
+  }
+  EXPECT_TRUE(tp::is_ok(tp::plane_from_matches(scene.host, scene.target, scene.T_t_h).status));
+  std::vector<Vector3d> wide = {{9.9, 0, 1}, {-9.9, 0, 1}, {0, 9.9, 1}, {0, -9.9, 1}};  // 84 degrees off the axis
+  const std::vector<double> rho(4, 0.5);
+  EXPECT_TRUE(tp::is_ok(tp::plane_from_inverse_depths(wide, rho).status));
+  wide[2][1] = 10.1;
+  EXPECT_EQ(tp::plane_from_inverse_depths(wide, rho).status, tp::Status::invalid_argument);
 }
 
 // Huge and tiny coordinates neither overflow into a NaN nor pass for a plane without a status.

@@ -21,7 +21,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// m: homogeneous normalised points (third entry 1); rho: their inverse depths; weight: 1 / variance of each rho, or
 /// null for ones; a weight of 0 leaves its row out. Degrees of freedom of sigma: n - 3. Status: too_few (n < 3, rank
 /// still reported), rank_deficient (collinear or coincident points), behind_camera (the solution has rho <= 0 at one of
-/// the points), non_finite, invalid_argument (null pointer, negative n or weight).
+/// the points), non_finite, invalid_argument (null pointer, negative n or weight, a ray more than 84 degrees off the
+/// axis: pixels in the place of m~ = camera.unproject(pixel)).
 template <class S>
 PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const typename PlaneFit<S>::Scalar* weight,
                                       int n) noexcept {
@@ -34,6 +35,7 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
     Status status = Status::ok;
     const W w = detail::plane_weight(weight, i, &status);
     if (!all_finite(m[i]) || !is_finite(rho[i])) status = Status::non_finite;
+    if (status == Status::ok && !detail::plausible_ray(m[i])) status = Status::invalid_argument;
     if (status != Status::ok) return detail::failed_plane<S>(status);
     sums.add(m[i].template cast<W>(), w, w * W(rho[i]));
     used += w > W(0) ? 1 : 0;
@@ -128,7 +130,7 @@ Status refine_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, cons
 /// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` describe the
 /// linear system; degrees of freedom of sigma: 2 n - 3. Status: too_few, rank_deficient (collinear), degenerate (no
 /// baseline, or parallax below the rounding error, as after a pure rotation), behind_camera (a match ends behind a
-/// camera), non_finite, invalid_argument.
+/// camera), non_finite, invalid_argument (also for a ray more than 84 degrees off the axis, as pixels would be).
 template <class S>
 PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, int n, const SE3<S>& T_t_h,
                                const typename PlaneFit<S>::Scalar* weight = nullptr) noexcept {
@@ -144,6 +146,8 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
     Status status = Status::ok;
     const W w = detail::plane_weight(weight, i, &status);
     if (!all_finite(host_m[i]) || !all_finite(target_m[i])) status = Status::non_finite;
+    if (status == Status::ok && !(detail::plausible_ray(host_m[i]) && detail::plausible_ray(target_m[i])))
+      status = Status::invalid_argument;
     if (status != Status::ok) return detail::failed_plane<S>(status);
     const Vector3<W> m = host_m[i].template cast<W>(), mt = target_m[i].template cast<W>(), Rm = T.R * m;
     const Vector3<W> e = mt.cross(T.t);

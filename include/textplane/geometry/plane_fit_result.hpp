@@ -79,6 +79,12 @@ bool set_covariance(const Ldlt<Wide<S>, 3>& information, const Wide<S>& scale, P
   return all_finite(fit->covariance) && all_finite(fit->value) && is_finite(fit->sigma);
 }
 
+/// False for pixels in the place of a normalised point: a ray more than 84 degrees off the axis, which no pinhole sees.
+template <class S>
+bool plausible_ray(const Vector3<S>& m) noexcept {
+  return !(m[0] * m[0] + m[1] * m[1] > S(100) * m[2] * m[2]);
+}
+
 template <class S>
 PlaneFit<S> with_status(PlaneFit<S> fit, Status status) noexcept {
   fit.status = status;
