@@ -137,6 +137,64 @@ TEST(SearchPose, BringsADistantGuessNear) {
   }
 }
 
+// The rotation by `angle` about an axis.
+SE3d rotation(const Vec3& axis, double angle) {
+  SE3d T;
+  T.R = tp::so3_exp<double>(Vec3(angle * axis.normalized()));
+  return T;
+}
+
+// A shift turns the sign's ray to another without a roll about either; a roll turns about the ray. Guesses that are off
+// by just that are brought back to the pose itself, not to one that is also turned otherwise.
+TEST(SearchPose, ShiftsWithoutRollAndRollsAboutTheRay) {
+  Input input;
+  tp::PhotometricWorkspace workspace;
+  const double step = 4 / input.scene.camera.fx;  // rad: a px of level 2
+  for (std::size_t i = 0; i < 3; ++i) {
+    SCOPED_TRACE(i);
+    const SE3d truth = input.T_t_h(i);
+    workspace.reserve(input.patches[i].max_pixels());
+    const auto search = [&](const SE3d& guess, const tp::SearchOptions& options) {
+      return tp::search_pose(input.patches[i], input.scene.signs[i].theta, guess, input.target.view(),
+                             input.scene.camera, options, workspace);
+    };
+    const Vec3 m = input.scene.camera.unproject(tp::centroid(input.patches[i].quad));
+    const Vec3 ray = truth * Vec3(m / input.scene.signs[i].theta.dot(m));
+    for (const auto& [x, y] : {std::pair<int, int>{3, 0}, {0, 3}, {-3, 2}, {2, 3}, {-2, -3}}) {
+      const Vec3 shifted = ray / ray[2] + Vec3(x * step, y * step, 0);
+      const SE3d guess =
+          rotation(shifted.cross(ray), std::acos(shifted.normalized().dot(ray.normalized()))).inverse() * truth;
+      tp::SearchOptions options;
+      options.roll = 0;
+      // Half a step along one axis would be 8e-3.
+      EXPECT_LT(tp::so3_log<double>((search(guess, options) * truth.inverse()).R).norm(), 5e-3) << x << ' ' << y;
+    }
+    for (const double roll : {-0.1, -0.05, 0.05, 0.1}) {
+      tp::SearchOptions options;
+      options.radius = 0;
+      const SE3d found = search(rotation(ray, -roll) * truth, options);
+      EXPECT_LT(tp::so3_log<double>((found * truth.inverse()).R).norm(), 2e-3) << roll;
+    }
+  }
+}
+
+// Twice the largest int is none: too few pixels on every level, so the finest.
+TEST(SearchPose, TheLevelForAnyMinimum) {
+  const Input input;
+  tp::SearchOptions options;
+  options.level = std::numeric_limits<int>::max();
+  EXPECT_EQ(tp::search_level(input.patches[0], 3, options), 2);
+  for (const int least : {std::numeric_limits<int>::max(), std::numeric_limits<int>::max() / 2 + 1}) {
+    options.photometric.min_visible = least;
+    EXPECT_EQ(tp::search_level(input.patches[0], 3, options), 0);
+  }
+  const int pixels = static_cast<int>(input.patches[0].levels[2].x.size());
+  options.photometric.min_visible = pixels / 2;
+  EXPECT_EQ(tp::search_level(input.patches[0], 3, options), 2);
+  options.photometric.min_visible = pixels / 2 + 1;
+  EXPECT_LT(tp::search_level(input.patches[0], 3, options), 2);
+}
+
 TEST(SearchPose, KeepsTheGuessWhereNothingIsBetter) {
   Input input;
   tp::PhotometricWorkspace workspace(input.patches[0].max_pixels());

@@ -124,8 +124,8 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
   if (to.levels < levels) levels = to.levels;
   const bool valid = levels >= 1 && levels <= kMaxPyramidLevels && options.radius >= 1 &&
                      options.radius <= kMaxPatchRadius && is_finite(options.max_forward_backward) &&
-                     detail::valid_options(options) &&
-                     detail::valid_levels(from, levels) && detail::valid_levels(to, levels);
+                     detail::valid_options(options) && detail::valid_levels(from, levels) &&
+                     detail::valid_levels(to, levels);
   for (int i = 0; i < n; ++i) {
     KltResult& result = out[i];
     result = KltResult();
