@@ -50,7 +50,7 @@ list(JOIN headers "\n" all_headers)
 configure_file(careless_unit.cpp.in careless_unit.cpp @ONLY)
 add_library(careless_unit OBJECT ${CMAKE_CURRENT_BINARY_DIR}/careless_unit.cpp)
 target_link_libraries(careless_unit PRIVATE textplane_developer $<TARGET_NAME_IF_EXISTS:opencv_core> $<TARGET_NAME_IF_EXISTS:Ceres::ceres>)
-target_compile_options(careless_unit PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0 -g0>)
+target_compile_options(careless_unit PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0 -g0 -Wdouble-promotion>)
 
 # With matrices stored by rows, kernels get the numbers that they expect: tests that compare them with the reference,
 # with differences and with known truth, as header-only programs compile them.
@@ -62,7 +62,7 @@ if(all_tiers AND NOT CMAKE_CROSSCOMPILING)
   target_link_libraries(test_stored_by_rows PRIVATE textplane_developer GTest::gtest GTest::gtest_main)
   target_include_directories(test_stored_by_rows PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(test_stored_by_rows PRIVATE EIGEN_DEFAULT_TO_ROW_MAJOR)
-  target_compile_options(test_stored_by_rows PRIVATE ${TEXTPLANE_TEST_FLAGS})
+  target_compile_options(test_stored_by_rows PRIVATE ${TEXTPLANE_TEST_FLAGS} $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>)
   textplane_discover_tests(test_stored_by_rows headers.stored_by_rows)
 endif()
 if(NOT TEXTPLANE_TEST_INCLUDE_ALONE OR NOT all_tiers)

@@ -86,7 +86,7 @@ TEST(Klt, IsBlindToGainAndBias) {
     // z^2) d + d^2 / 2.
     PointPatch seen;
     ASSERT_EQ(extract_point_patch(second.view(), plain[i].px, Eigen::Matrix2f::Identity(), 9, &seen), Status::ok);
-    const double turn = 1.05 * 1.5 / 64 / seen.contrast(), z = plain[i].zncc;
+    const double turn = 1.05 * 1.5 / 64 / static_cast<double>(seen.contrast()), z = static_cast<double>(plain[i].zncc);
     EXPECT_NEAR(z, lit[i].zncc, std::sqrt(1 - z * z) * turn + turn * turn / 2);
   }
   EXPECT_GT(compared, 50);

@@ -51,8 +51,9 @@ class TexturedPlane {
     const double y = std::min(std::max(2 * v + texture_.width() / 4.0, 0.0), limit);
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const double a = x - x0, b = y - y0;
-    return (1 - b) * ((1 - a) * texture_(x0, y0) + a * texture_(x0 + 1, y0)) +
-           b * ((1 - a) * texture_(x0, y0 + 1) + a * texture_(x0 + 1, y0 + 1));
+    return (1 - b) * ((1 - a) * static_cast<double>(texture_(x0, y0)) + a * static_cast<double>(texture_(x0 + 1, y0))) +
+           b * ((1 - a) * static_cast<double>(texture_(x0, y0 + 1)) +
+                a * static_cast<double>(texture_(x0 + 1, y0 + 1)));
   }
 
   // The image in which pixel p shows the plane at H p: 4 x 4 samples a pixel.

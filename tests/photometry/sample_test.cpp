@@ -28,8 +28,9 @@ TYPED_TEST(Sample, IsTheBilinearInterpolant) {
     const double x = random.uniform(0, 22), y = random.uniform(0, 16);
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const double u = x - x0, v = y - y0;
-    const double expected = (1 - u) * (1 - v) * image(x0, y0) + u * (1 - v) * image(x0 + 1, y0) +
-                            (1 - u) * v * image(x0, y0 + 1) + u * v * image(x0 + 1, y0 + 1);
+    const double expected =
+        (1 - u) * (1 - v) * static_cast<double>(image(x0, y0)) + u * (1 - v) * static_cast<double>(image(x0 + 1, y0)) +
+        (1 - u) * v * static_cast<double>(image(x0, y0 + 1)) + u * v * static_cast<double>(image(x0 + 1, y0 + 1));
     double value;
     ASSERT_TRUE(tp::sample_bilinear(view, x, y, &value));
     ASSERT_NEAR(value, expected, 1e-11);

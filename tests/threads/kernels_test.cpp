@@ -111,7 +111,7 @@ Bits run(const Shared& s) {
   std::vector<tp::Corner> corners;
   tp::detect_fast(s.image.view(), 15, true, corners);
   EXPECT_FALSE(corners.empty());
-  for (const tp::Corner& c : corners) bits.add(c.x + 1000.0 * c.y);
+  for (const tp::Corner& c : corners) bits.add(static_cast<double>(c.x) + 1000.0 * static_cast<double>(c.y));
   tp::Image<std::uint8_t> warped(40, 20);
   tp::Matrix3<double> H = tp::Matrix3<double>::Identity();
   H(0, 2) = 30.3;
@@ -122,7 +122,7 @@ Bits run(const Shared& s) {
   for (int i = 0; i < 10; ++i) px.push_back({static_cast<float>(40 + 11 * i), static_cast<float>(50 + 3 * i)});
   std::vector<tp::KltResult> tracks(px.size());
   tp::track_klt(s.pyramid.view(), s.pyramid.view(), px.data(), nullptr, static_cast<int>(px.size()), {}, tracks.data());
-  for (const tp::KltResult& t : tracks) bits.add(t.px[0] + static_cast<double>(t.px[1]));
+  for (const tp::KltResult& t : tracks) bits.add(static_cast<double>(t.px[0]) + static_cast<double>(t.px[1]));
 
   tp::SE3d start = s.T_t_h;
   start.t *= 0.5;

@@ -74,7 +74,7 @@ class Linker {
       for (std::size_t i = 0; i < pairs_.size(); ++i) {
         const Vec3 error = link->S_a_b * pairs_[i].in_b - pairs_[i].in_a;
         agrees[i] = error.norm() <= limit * pairs_[i].depth ? 1 : 0;
-        count += agrees[i] ? 1 : 0;
+        count += agrees[i] ? 1U : 0U;
       }
       limit = std::max(parameters_.join_tolerance, parameters_.join_narrowing * limit);
     }

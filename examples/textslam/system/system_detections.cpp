@@ -51,7 +51,7 @@ void System::host_late(int id) {
       if (textplane::contains(detection.quad, corner.observations.front().px)) inside.push_back(corner);
     std::size_t followed = inside.size();
     for (std::size_t i = 0; i < now.size(); ++i)
-      followed += textplane::contains(detection.quad, Vec2(then[i].px.cast<double>())) ? 1 : 0;
+      followed += textplane::contains(detection.quad, Vec2(then[i].px.cast<double>())) ? 1U : 0U;
     if (followed < static_cast<std::size_t>(parameters_.text_late_corners)) continue;
     text_mapper_.add_candidates(id, {detection});
     tracks.insert(tracks.end(), inside.begin(), inside.end());

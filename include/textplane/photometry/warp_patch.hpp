@@ -92,7 +92,8 @@ WarpSummary warp_patch(const ImageView<const S>& source, const Matrix3<double>& 
   if (!is_ok(summary.status)) return summary;
   // One row or column, or offsets beyond 32 bits: rare enough for the reference.
   const bool large = source.stride() > (std::numeric_limits<std::int32_t>::max)() / source.height();
-  if (source.width() < 2 || source.height() < 2 || large) return reference::warp_patch(source, H, out, fill, mask);
+  if (source.width() < 2 || source.height() < 2 || large)
+    return reference::warp_patch(source, H, out, static_cast<double>(fill), mask);
 
   simd::WarpArgs args;
   args.source = source.data();
