@@ -87,6 +87,7 @@ all_stages() {
     checked coverage coverage
   fi
   checked mutants "$root/tests/mutants/run"
+  checked mutants-drawn "$root/tests/mutants/run" --drawn 300 --least 90 --build "$root/build/mutants-drawn"
   if needs fuzz-fast clang++; then checked fuzz-fast "$root/tests/fuzz/run" --fast --seconds "$fuzz_seconds"; fi
   if needs fuzz clang++; then checked fuzz "$root/tests/fuzz/run" --seconds "$fuzz_seconds"; fi
   if needs soak "$root/build/dev/bin/textslam"; then checked soak "$root/tests/soak/run" --build "$root/build/dev"; fi

@@ -1,5 +1,5 @@
-// track_klt() and the patches of points read no byte outside their images: these end, or begin, at pages that may not be
-// touched, on every level, and the points lie on and near every border. A read too far ends the program.
+// track_klt() and the patches of points read no byte outside their images: these end, or begin, at pages that may not
+// be touched, on every level, and the points lie on and near every border. A read too far ends the program.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -43,7 +43,8 @@ TEST(SelectPixels, FillsATexturedQuadEvenly) {
   expect_distinct_integers_inside(pixels, quad, 320, 240);
   const Vector2d centre = centroid(quad);
   int quarter[4] = {};
-  for (const Vector2f& p : pixels) ++quarter[(p[0] > centre[0] ? 1 : 0) + (p[1] > centre[1] ? 2 : 0)];
+  for (const Vector2f& p : pixels)
+    ++quarter[(static_cast<double>(p[0]) > centre[0] ? 1 : 0) + (static_cast<double>(p[1]) > centre[1] ? 2 : 0)];
   for (const int n : quarter) EXPECT_GT(n, 300 / 8);
 }
 
@@ -72,6 +73,25 @@ TEST(SelectPixels, TopsUpWithGradientsWhereThereAreNoCorners) {
   const Quad<double> quad = quad_of(10, 10, 90, 10, 90, 90, 10, 90);
   ASSERT_EQ(select_pixels(image.view(), quad, SelectOptions(), pixels), Status::ok);
   for (const Vector2f& p : pixels) EXPECT_TRUE(p[0] == 49 || p[0] == 50);
+}
+
+// The columns and rows at the borders of the image, whose neighbours on one side are the last, and of the quad.
+TEST(SelectPixels, TakesTheBordersToo) {
+  const Quad<double> round = quad_of(-50, -50, 150, -50, 150, 150, -50, 150),
+                     inner = quad_of(20, 20, 70, 20, 70, 70, 20, 70);
+  struct Case {
+    const Quad<double>& quad;
+    int edge, expected;  // a step between edge and edge + 1; the column or row that shows it
+  };
+  for (const Case& c : {Case{round, 98, 98}, Case{round, 0, 1}, Case{inner, 70, 70}, Case{inner, 19, 20}})
+    for (const int axis : {0, 1}) {
+      Image<std::uint8_t> image(100, 100, 50);
+      for (int y = 0; y < 100; ++y)
+        for (int x = 0; x < 100; ++x) image(x, y) = (axis == 0 ? x : y) > c.edge ? 200 : 50;
+      std::vector<Vector2f> pixels;
+      ASSERT_EQ(select_pixels(image.view(), c.quad, SelectOptions(), pixels), Status::ok) << c.edge << ' ' << axis;
+      for (const Vector2f& p : pixels) EXPECT_EQ(p[axis], static_cast<float>(c.expected)) << c.edge << ' ' << axis;
+    }
 }
 
 TEST(SelectPixels, HandlesQuadsAtAndBeyondTheBorder) {

@@ -1,5 +1,5 @@
-// What a text or a point that a trial loses costs, and what chi2 is: both by their formulas, with weights and deviations
-// that are not 1.
+// What a text or a point that a trial loses costs, and what chi2 is: both by their formulas, with weights and
+// deviations that are not 1.
 #include <gtest/gtest.h>
 
 #include <cmath>

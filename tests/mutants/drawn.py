@@ -1,0 +1,110 @@
+"""Mutants drawn at random: an operator, a comparison, a constant or a bound of a random line of include/."""
+import pathlib
+import random
+import re
+
+# What stands instead of what; a line of code is formatted, so operators have spaces and templates have none.
+OPERATORS = [(r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > "), (r" == ", " != "), (r" != ", " == "),
+             (r" \+ ", " - "), (r" - ", " + "), (r" \* ", " / "), (r" / ", " * "), (r" && ", " || "), (r" \|\| ", " && "),
+             (r" \+= ", " -= "), (r" -= ", " += "), (r"\(std::min\)", "(std::max)"), (r"\(std::max\)", "(std::min)"),
+             (r"\bmin_\(", "max_("), (r"\bmax_\(", "min_("), (r"\badd\(", "sub("), (r"\bsub\(", "add("), (r"\bmadd\(", "nmadd("),
+             (r"\bnmadd\(", "madd("), (r"\bgt\(", "lt("), (r"\blt\(", "gt("), (r"return true;", "return false;"),
+             (r"return false;", "return true;"), (r"\bif \(!", "if ("), (r"(?<=[ (])-(?=[a-z(])", "")]
+INTEGER = re.compile(r"(?<![\w.])(\d+)(?![\w.])")
+REAL = re.compile(r"(?<![\w.])(\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+)(?=F?\b)")
+
+# The scalar target alone is built; adapters and the macros of the build are not for these tests.
+LEFT_OUT = re.compile(r"adapters/|simd/ops/(?!scalar)|simd/targets|simd/dispatch|simd/cpu|simd/tiles|kernels/tiles|config\.hpp|textplane\.hpp|"
+                      r"simd/(foreach_target|region)\.inl|simd/ops\.hpp|core/status|core/cache_line")
+
+# The tests of a header, most telling first; the first pattern that matches counts.
+TESTS = [
+    ("core/numeric", "core/numeric_test core/se3_test"), ("core/se3", "core/se3_test"), ("core/robust", "core/robust_test"),
+    ("core/image_view", "core/image_view_test photometry/sample_test"), ("core/cameras/radial", "core/radial_tangential_test"),
+    ("core/cameras", "core/camera_test"),
+    ("geometry/homography", "geometry/homography_test"), ("geometry/plane_fit", "geometry/plane_fit_test geometry/plane_fit_failure_test"),
+    ("geometry/plane", "geometry/plane_test"), ("geometry/quad_projection", "geometry/quad_projection_test"),
+    ("geometry/quad", "geometry/quad_test geometry/quad_overlap_test"), ("geometry/triangulate", "geometry/triangulate_test"),
+    ("features/fast", "simd/fast_kernels_test features/fast_test features/options_test"),
+    ("features/klt", "features/klt_test features/guard_pages_test features/options_test"),
+    ("features/select", "features/select_test features/options_test"),
+    ("features/", "features/align_test features/klt_test features/guard_pages_test features/options_test"),
+    ("photometry/blur", "photometry/blur_test"), ("photometry/local_contrast", "photometry/local_contrast_test"),
+    ("photometry/text_batch", "simd/batch_kernels_test simd/batch_visibility_test"),
+    ("photometry/candidates", "simd/zncc_kernels_test solver/policy_test"), ("photometry/zncc", "photometry/zncc_test"),
+    ("photometry/sample", "photometry/sample_test photometry/guard_pages_test"), ("photometry/pyramid", "photometry/pyramid_test"),
+    ("photometry/patch", "photometry/patch_test features/select_test"),
+    ("photometry/template_patch", "simd/template_kernels_test simd/zncc_kernels_test"),
+    ("photometry/warp_patch", "simd/warp_kernels_test simd/warp_edges_test"),
+    ("photometry/world_parameters", "simd/residual_kernels_test photometry/residual_jacobian_test"),
+    ("photometry/photometric_input", "solver/align_pose_test solver/policy_test"),
+    ("photometry/residual_policy", "photometry/residual_policy_test simd/esm_kernels_test"),
+    ("photometry/", "photometry/residual_jacobian_test photometry/residual_status_test photometry/visible_set_test "
+                    "simd/residual_visibility_test simd/residual_kernels_test photometry/residual_cost_test"),
+    ("simd/kernels/residual/batch|simd/batch", "simd/batch_kernels_test simd/batch_visibility_test simd/stated_bounds_test"),
+    ("simd/kernels/residual/(esm|host_basis)|simd/esm", "simd/esm_kernels_test simd/template_kernels_test"),
+    ("simd/kernels/residual/(template|moments)|simd/template", "simd/template_kernels_test simd/zncc_kernels_test"),
+    ("simd/kernels/zncc|simd/zncc", "simd/zncc_kernels_test"), ("simd/(kernels/)?klt", "simd/klt_kernels_test features/klt_test"),
+    ("simd/(kernels/)?fast", "simd/fast_kernels_test"), ("simd/(kernels/)?halve", "simd/halve_kernels_test"),
+    ("simd/(kernels/)?warp", "simd/warp_kernels_test simd/warp_edges_test"),
+    ("simd/kernels/(sample|points)|simd/sample", "simd/sample_points_test simd/residual_kernels_test simd/residual_visibility_test"),
+    ("simd/(kernels/)?robust", "simd/robust_kernels_test"),
+    ("simd/", "simd/residual_kernels_test simd/residual_visibility_test simd/robust_kernels_test simd/stated_bounds_test "
+              "simd/batch_kernels_test simd/warp_kernels_test"),
+    ("solver/window", "solver/window_linear_test solver/window_test solver/window_input_test solver/window_gauge_test "
+                      "solver/charges_test"),
+    ("solver/block_cholesky", "solver/window_linear_test"), ("solver/plane", "solver/plane_test solver/charges_test"),
+    ("solver/search", "solver/policy_test"), ("solver/weighting", "solver/weighting_test"),
+    ("solver/gauss_newton", "solver/gauss_newton_test solver/gauss_newton_faults_test"),
+    ("solver/", "solver/pose_test solver/pose_input_test solver/charges_test solver/align_pose_test solver/policy_test"),
+]
+
+
+def tests_of(header):
+    """The tests that look at a header."""
+    for pattern, tests in TESTS:
+        if re.match(pattern, header):
+            return tests.split()
+    raise ValueError(f"no tests are named for {header}")
+
+
+def changes(line):
+    """All lines that differ from this one by one change."""
+    code = line.partition("//")[0]
+    if re.match(r"\s*(#|template|static_assert|using|namespace|TEXTPLANE_(INSTANCE|DEFERRED))", code):
+        return []
+    found = [line[:m.start()] + new + line[m.end():] for old, new in OPERATORS for m in re.finditer(old, code)]
+    for m in INTEGER.finditer(code):
+        found += [line[:m.start()] + str(int(m[1]) + by) + line[m.end():] for by in (1, -1) if int(m[1]) + by >= 0]
+    for m in REAL.finditer(code):
+        found.append(f"{line[:m.start()]}{float(m[1]) * 2 + (float(m[1]) == 0)!r}{line[m.end():]}")
+    return found
+
+
+def around(lines, number):
+    """The line and as many before it as make the text unique."""
+    text = "\n".join(lines)
+    for first in range(number, -1, -1):
+        piece = "\n".join(lines[first:number + 1])
+        if text.count(piece) == 1:
+            return first, piece
+    return None
+
+
+def draw(include: pathlib.Path, count, seed):
+    """`count` mutants as mutants.py has them: (header, text, text instead, tests)."""
+    every = []
+    for path in sorted([*include.rglob("*.hpp"), *include.rglob("*.inl")]):
+        header = path.relative_to(include).as_posix()
+        if LEFT_OUT.search(header):
+            continue
+        lines = path.read_text().split("\n")
+        every += [(header, number, new) for number, line in enumerate(lines) for new in changes(line)]
+    drawn = []
+    for header, number, new in random.Random(seed).sample(every, min(count + count // 4, len(every))):
+        lines = (include / header).read_text().split("\n")
+        place = around(lines, number)
+        if place and len(drawn) < count:
+            old = place[1]
+            drawn.append((header, old, "\n".join([*lines[place[0]:number], new]), tests_of(header)))
+    return drawn
