@@ -257,6 +257,9 @@ TEST(BatchKernels, BadArguments) {
   EXPECT_EQ(result.status(0), tp::Status::invalid_argument);
   EXPECT_EQ(run(objects.image(), objects.poses.data(), result), tp::Status::ok);
   EXPECT_EQ(result.status(1), tp::Status::invalid_argument);
+  o.min_contrast = 1e31;
+  EXPECT_EQ(run(objects.image(), objects.poses.data(), result), tp::Status::invalid_argument);
+  o.min_contrast = 1;
   o.robust.delta = -1;
   EXPECT_EQ(run(objects.image(), objects.poses.data(), result), tp::Status::invalid_argument);
   tp::TextBatch empty;

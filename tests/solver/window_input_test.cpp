@@ -42,6 +42,12 @@ TEST_F(WindowInput, NanPosesAndCamerasAreRefused) {
   EXPECT_EQ(tp::solve_window(x, o).status, tp::Status::invalid_argument);
   o.initial_lambda = 0;
   EXPECT_EQ(tp::solve_window(w, o).status, tp::Status::invalid_argument);
+  for (double tp::WindowOptions::*member : {&tp::WindowOptions::cost_tolerance, &tp::WindowOptions::step_tolerance,
+                                            &tp::WindowOptions::max_lost_fraction}) {
+    tp::WindowOptions negative;
+    negative.*member = -1e-9;
+    EXPECT_EQ(tp::solve_window(w, negative).status, tp::Status::invalid_argument);
+  }
 }
 
 // Bad elements are left out, say so, and do not disturb the rest.
