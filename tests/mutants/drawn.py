@@ -73,6 +73,7 @@ def changes(line):
     code = line.partition("//")[0]
     if re.match(r"\s*(#|template|static_assert|using|namespace|TEXTPLANE_(INSTANCE|DEFERRED))", code):
         return []
+    code = re.sub(r"(Matrix|Eigen|Wide|block)<[^<>]*>", lambda m: m[0].replace("1", "_").replace("2", "_").replace("3", "_"), code)
     found = [line[:m.start()] + new + line[m.end():] for old, new in OPERATORS for m in re.finditer(old, code)]
     for m in INTEGER.finditer(code):
         found += [line[:m.start()] + str(int(m[1]) + by) + line[m.end():] for by in (1, -1) if int(m[1]) + by >= 0]

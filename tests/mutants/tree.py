@@ -6,6 +6,7 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FLAGS = ["-std=c++17", "-w", "-DTEXTPLANE_EXTERN_KERNELS", "-Iinclude", "-Itests", "-isystem", "/usr/include/eigen3"]
 TIMEOUT = 300
+NO_CODE = "does not compile"
 
 
 class Tree:
@@ -47,12 +48,18 @@ class Tree:
 
     def depends(self, source, header):
         text = pathlib.Path(str(self.whole(source)) + ".d").read_text().replace("\\\n", " ")
-        return "include/" + header in text.split() or str(header) == source
+        return bool({header, "include/" + header} & set(text.split())) or header == source
+
+    def sources(self, test):
+        """The test's file, and what it is linked with: kernels and dense matrices only where it includes their headers."""
+        source = f"tests/{test}.cpp"
+        linked = {"textplane/simd/targets.hpp": "cmake/kernels.cpp", "tests/support/dense.hpp": "tests/support/dense.cpp"}
+        return [source, *(other for header, other in linked.items() if self.depends(source, header))]
 
     def run(self, test, header=None, broken=None):
         """Which test failed, or None; objects that `header` is part of are compiled anew, once for one dict `broken`."""
         broken = {} if broken is None else broken
-        sources = ["cmake/kernels.cpp", "tests/support/dense.cpp", f"tests/{test}.cpp"]
+        sources = self.sources(test)
         objects = []
         try:
             for source in sources:
@@ -60,7 +67,10 @@ class Tree:
                     objects.append(self.whole(source))
                     continue
                 if source not in broken:
-                    broken[source] = self.compile(source, "broken_" + source.replace("/", "_"))
+                    try:
+                        broken[source] = self.compile(source, "broken_" + source.replace("/", "_"))
+                    except subprocess.CalledProcessError:
+                        return NO_CODE
                 objects.append(broken[source])
             self.command(["g++", *map(str, objects), "-o", "program", "-lgtest_main", "-lgtest", "-lpthread"])
             subprocess.run(["./program", "--gtest_brief=1", "--gtest_fail_fast"], cwd=self.path, check=True, capture_output=True,
