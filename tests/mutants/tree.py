@@ -4,7 +4,7 @@ import shutil
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-FLAGS = ["-std=c++17", "-w", "-DTEXTPLANE_EXTERN_KERNELS", "-Iinclude", "-Itests", "-isystem", "/usr/include/eigen3"]
+FLAGS = ["-std=c++17", "-w", "-DTEXTPLANE_EXTERN_KERNELS", "-D_GLIBCXX_ASSERTIONS", "-Iinclude", "-Itests", "-isystem", "/usr/include/eigen3"]
 TIMEOUT = 300
 NO_CODE = "does not compile"
 

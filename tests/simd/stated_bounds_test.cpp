@@ -20,7 +20,7 @@ using namespace textplane_test;
 #endif
 
 // Of entries of H and b, in units of sqrt(F_ii F_jj) and sqrt(F_ii), and of costs.
-constexpr double kEntries = 5e-4, kCosts = 5e-5, kCostFloor = 5e-6;
+constexpr double kEntries = 5e-4, kCosts = 1e-4, kCostFloor = 1e-5;
 
 // Noise in a target, and host pixels within 128 px whose samples lie 1e-4 px clear of the pixel lines.
 struct Noisy : Scene<std::uint8_t> {

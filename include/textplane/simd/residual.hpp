@@ -17,7 +17,7 @@
 // of at most 128 px: coordinates 1e-5 px; r sqrt(N) 1e-5 (1 + |g| / sigma), sigma being the standard deviation of the
 // target's intensities. What that makes of the sums depends on the image. Whatever it is, white noise included: entries
 // of H and b 5e-4 of sqrt(F_ii F_jj) and sqrt(F_ii), F being H with the normalisation frozen (for Cauchy and Tukey: and
-// without weights); cost and E 5e-5 of themselves and 5e-6. On the textures of the tests (some 5 % of change a px):
+// without weights); cost and E 1e-4 of themselves and 1e-5. On the textures of the tests (some 5 % of change a px):
 // 3e-5, and 1e-5 and 1e-6. For delta < 0.1 the bound of H and b grows as 1 / delta, since weights are ratios to delta.
 #ifndef TEXTPLANE_SIMD_RESIDUAL_HPP
 #define TEXTPLANE_SIMD_RESIDUAL_HPP
