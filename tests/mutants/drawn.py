@@ -24,7 +24,7 @@ TESTS = [
     ("core/cameras", "core/camera_test"),
     ("geometry/homography", "geometry/homography_test"), ("geometry/plane_fit", "geometry/plane_fit_test geometry/plane_fit_failure_test"),
     ("geometry/plane", "geometry/plane_test"), ("geometry/quad_projection", "geometry/quad_projection_test"),
-    ("geometry/quad", "geometry/quad_test geometry/quad_overlap_test"), ("geometry/triangulate", "geometry/triangulate_test"),
+    ("geometry/quad", "geometry/quad_test geometry/quad_overlap_test geometry/quad_projection_test"), ("geometry/triangulate", "geometry/triangulate_test"),
     ("features/fast", "simd/fast_kernels_test features/fast_test features/options_test"),
     ("features/klt", "features/klt_test features/guard_pages_test features/options_test"),
     ("features/select", "features/select_test features/options_test"),

@@ -23,9 +23,10 @@ inline tp::PhotometricOptions any_options(bool exact = true, bool huber = true) 
   return o;
 }
 
-/// The bound that simd/residual.hpp states on textures like these. H and b are differences of larger numbers where the normalisation is exact,
-/// so their errors are measured by what they are without it, `frozen`: coordinates are good to 1e-5 px, and intensities
-/// and gradients vary by some 5 % of themselves a px and more. Ten pixels average less than a thousand.
+/// The bound that simd/residual.hpp states on textures like these. H and b are differences of larger numbers where the
+/// normalisation is exact, so their errors are measured by what they are without it, `frozen`: coordinates are good to
+/// 1e-5 px, and intensities and gradients vary by some 5 % of themselves a px and more. Ten pixels average less than a
+/// thousand.
 constexpr double kEntryBound = 3e-5, kCostBound = 1e-5, kCostFloor = 1e-6;
 
 /// Huber's weight delta / |e| of a pixel near the threshold is as uncertain as e is in units of delta.
