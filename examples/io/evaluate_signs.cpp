@@ -53,8 +53,10 @@ std::vector<TrueSign> read_true_signs(const std::string& folder, const std::vect
   const std::string path = folder + "/truth/signs.json";
   std::vector<TrueSign> signs;
   if (!std::filesystem::exists(path)) return signs;
-  for_each_entry(read_json(path), "signs", path,
-                 [&](const nlohmann::json& entry) { signs.push_back(read_sign<TrueSign>(entry)); });
+  for_each_entry(read_json(path), "signs", path, [&](const nlohmann::json& entry) {
+    signs.push_back(read_sign<TrueSign>(entry));
+    if (entry.contains("radius")) signs.back().radius = entry.at("radius").get<double>();
+  });
   count_visible(folder, stems, signs);
   return signs;
 }
@@ -77,6 +79,7 @@ TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::v
     const Vector3<double> centre = alignment * centre_of(text.corners), normal = alignment.R * text.normal;
     SignMatch match;
     match.text = text.id;
+    bool flat = true;
     for (const TrueSign& sign : signs) {
       const double distance = (centre - centre_of(sign.corners)).norm();
       if (distance > 0.5 * (sign.corners[1] - sign.corners[0]).norm() || (match.sign >= 0 && distance >= match.centre))
@@ -85,7 +88,9 @@ TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::v
       match.centre = distance;
       match.angle = kToDegrees * std::atan2(normal.cross(sign.normal).norm(), normal.dot(sign.normal));
       match.word = text.word == sign.word;
+      flat = !(sign.radius > 0);
     }
+    if (!flat) match = {text.id};
     if (match.sign < 0) {
       ++out.false_texts;
     } else {
@@ -96,7 +101,7 @@ TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::v
     out.matches.push_back(match);
   }
   for (const TrueSign& sign : signs) {
-    if (sign.visible_frames < kMinVisibleFrames) continue;
+    if (sign.visible_frames < kMinVisibleFrames || sign.radius > 0) continue;
     ++out.signs;
     out.mapped += std::find(mapped.begin(), mapped.end(), sign.id) != mapped.end() ? 1 : 0;
   }

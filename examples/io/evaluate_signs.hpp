@@ -1,7 +1,7 @@
 // Text maps against the exact signs of a rendered sequence: the sign of each text, and the error of its plane.
 //
 // Truth, in the folder of a sequence (see renderer/render_sequence.hpp):
-//   truth/signs.json          {"signs":[{"id","text","corners":[[x,y,z],... 4],"normal":[x,y,z]},...]}
+//   truth/signs.json          {"signs":[{"id","text","corners":[[x,y,z],... 4],"normal":[x,y,z],"radius"},...]}
 //   truth/quads/<stem>.txt    optional: x1,y1,...,x4,y4,text,sign,visible a line, the signs in each frame
 #ifndef TEXTSLAM_IO_EVALUATE_SIGNS_HPP
 #define TEXTSLAM_IO_EVALUATE_SIGNS_HPP
@@ -20,6 +20,7 @@ struct TrueSign {
   std::string word;
   std::array<Vector3<double>, 4> corners;
   Vector3<double> normal;
+  double radius = 0;       ///< Of the cylinder that it is written on; 0: flat. One that is not flat is no sign.
   int visible_frames = 0;  ///< Frames that show it whole.
 };
 
@@ -57,7 +58,7 @@ std::vector<TrueSign> read_true_signs(const std::string& folder, const std::vect
 std::vector<MappedText> read_text_map(const std::string& path);
 
 /// Matches the texts to the signs after `alignment` (map to truth). A text belongs to the nearest sign, if its centre
-/// is at most half the sign's width away.
+/// is at most half the sign's width away. A text on a sign that is not flat is false: no plane is right.
 TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::vector<TrueSign>& signs,
                               const Similarity& alignment);
 

@@ -26,6 +26,15 @@ Canvas::Canvas(double width, double height, double density, double value)
       height_(height),
       pixels_(texels(width, density), texels(height, density), static_cast<float>(value)) {}
 
+Canvas Canvas::columns(int first, int count) const {
+  const textplane::Vector2<double> d = density();
+  Canvas strip(count / d[0], height_, d[0]);
+  strip.pixels_ = textplane::Image<float>(count, pixels_.height());
+  for (int j = 0; j < pixels_.height(); ++j)
+    for (int i = 0; i < count; ++i) strip.pixels_(i, j) = pixels_(first + i, j);
+  return strip;
+}
+
 void Canvas::apply(const std::function<double(double, double, double)>& f) {
   const textplane::Vector2<double> d = density();
   for (int j = 0; j < pixels_.height(); ++j) {

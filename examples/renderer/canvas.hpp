@@ -22,6 +22,9 @@ class Canvas {
   textplane::Image<float>& pixels() noexcept { return pixels_; }
   const textplane::Image<float>& pixels() const noexcept { return pixels_; }
 
+  /// A strip of whole columns, as wide as they are.
+  Canvas columns(int first, int count) const;
+
   /// value = f(x, y, value) at every texel centre; x and y in metres from the top left.
   void apply(const std::function<double(double, double, double)>& f);
 

@@ -32,6 +32,13 @@ class SignPainter {
 
   /// On a wall or a box, centred at (s, t) metres from its top left; `width` of the plate in metres.
   void on_wall(Scene& scene, const Rectangle& wall, double s, double t, double width);
+  /// As on_wall(), but 2 to 10 cm off the wall at the nearest edge, and turned by up to 15 degrees.
+  void off_wall(Scene& scene, const Rectangle& wall, double s, double t, double width);
+  /// Round an upright cylinder whose front is at `front` and faces `towards` (horizontal). `width` along the arc.
+  void cylinder(Scene& scene, const Vector3<double>& front, const Vector3<double>& towards, double width,
+                double radius);
+  /// Letters on a clear pane, seen from the side that faces `towards`.
+  void pane(Scene& scene, const Vector3<double>& centre, const Vector3<double>& towards, double width);
   /// On a board in the room: text on the side that faces `towards`, blank behind.
   void board(Scene& scene, const Vector3<double>& centre, const Vector3<double>& towards, double width,
              double roll = 0.0);

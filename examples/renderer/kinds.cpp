@@ -58,6 +58,24 @@ const Kind kKinds[] = {
        return Shot{make_room(c.seed, style), loop_motion(c.seed), 0.008, steady_sensor()};
      },
      360},
+    {"standoff",
+     [](const Context& c) {
+       RoomStyle style;
+       style.off_walls = true;
+       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+     }},
+    {"cylinders",
+     [](const Context& c) {
+       RoomStyle style;
+       style.carrier = RoomStyle::Carrier::cylinder;
+       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+     }},
+    {"glass",
+     [](const Context& c) {
+       RoomStyle style;
+       style.carrier = RoomStyle::Carrier::pane;
+       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+     }},
 };
 
 const Kind& kind_of(const std::string& name) {

@@ -33,6 +33,9 @@ struct RoomStyle {
   bool signs = true;
   bool bare = false;       ///< clean walls, no furniture: little texture but the signs
   bool all_round = false;  ///< signs on the back wall, too, and on the rear parts of the side walls
+  bool off_walls = false;  ///< signs of walls stand off them and are turned
+  /// What carries six of the signs, in the place of boards and the front wall.
+  enum class Carrier { board, cylinder, pane } carrier = Carrier::board;
 };
 Scene make_room(std::uint64_t seed, const RoomStyle& style);
 Scene make_corridor(std::uint64_t seed);

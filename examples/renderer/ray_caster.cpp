@@ -22,8 +22,7 @@ constexpr double kDepthFloor = 1e-9;
 struct Facet {
   Vector3<double> inverse, across, along;
   double width, height;
-  double texels_x, texels_y;  // per metre
-  const Texture* texture;
+  const Texture *texture, *opacity;
   double min_x, max_x, min_y, max_y;  // bounds in normalised coordinates
 };
 
@@ -62,9 +61,8 @@ std::vector<Facet> facets_in_view(const Scene& scene, const SE3d& T_w_c) {
     f.along = R_c_w * r.down + r.down.dot(to_eye) * f.inverse;
     f.width = r.width;
     f.height = r.height;
-    f.texels_x = surface.texture->width() / r.width;
-    f.texels_y = surface.texture->height() / r.height;
     f.texture = surface.texture;
+    f.opacity = surface.opacity;
     const auto in_camera = [&](double s, double t) { return Vector3<double>(R_c_w * (r.at(s, t) - T_w_c.t)); };
     bound({in_camera(0.0, 0.0), in_camera(r.width, 0.0), in_camera(r.width, r.height), in_camera(0.0, r.height)}, f);
     if (f.min_x <= f.max_x) facets.push_back(f);
@@ -72,14 +70,40 @@ std::vector<Facet> facets_in_view(const Scene& scene, const SE3d& T_w_c) {
   return facets;
 }
 
-double shade(const Facet& f, const Vector3<double>& m, double rho, double step_x, double step_y) noexcept {
+double shade(const Facet& f, const Texture& texture, const Vector3<double>& m, double rho, double step_x,
+             double step_y) noexcept {
+  const double texels_x = texture.width() / f.width, texels_y = texture.height() / f.height;  // per metre
   const double depth = 1.0 / rho;
   const double s = f.across.dot(m) * depth, t = f.along.dot(m) * depth;
-  const Vector2<double> side_x((f.across[0] - s * f.inverse[0]) * depth * step_x * f.texels_x,
-                               (f.along[0] - t * f.inverse[0]) * depth * step_x * f.texels_y);
-  const Vector2<double> side_y((f.across[1] - s * f.inverse[1]) * depth * step_y * f.texels_x,
-                               (f.along[1] - t * f.inverse[1]) * depth * step_y * f.texels_y);
-  return f.texture->lookup({s * f.texels_x - 0.5, t * f.texels_y - 0.5}, side_x, side_y);
+  const Vector2<double> side_x((f.across[0] - s * f.inverse[0]) * depth * step_x * texels_x,
+                               (f.along[0] - t * f.inverse[0]) * depth * step_x * texels_y);
+  const Vector2<double> side_y((f.across[1] - s * f.inverse[1]) * depth * step_y * texels_x,
+                               (f.along[1] - t * f.inverse[1]) * depth * step_y * texels_y);
+  return texture.lookup({s * texels_x - 0.5, t * texels_y - 0.5}, side_x, side_y);
+}
+
+/// The light on the ray (m, 1): of the nearest facet, and where that is a pane, of those behind it.
+double light_on(const std::vector<const Facet*>& candidates, const Vector3<double>& m, double step_x,
+                double step_y) noexcept {
+  double light = 0.0, left = 1.0, limit = std::numeric_limits<double>::infinity();
+  while (left > 0.0) {
+    const Facet* nearest = nullptr;
+    double best = 0.0;
+    for (const Facet* f : candidates) {
+      const double rho = f->inverse.dot(m);
+      if (rho <= best || rho >= limit) continue;
+      const double s = f->across.dot(m), t = f->along.dot(m);
+      if (s < 0.0 || t < 0.0 || s > f->width * rho || t > f->height * rho) continue;
+      best = rho;
+      nearest = f;
+    }
+    if (!nearest) break;
+    const double opacity = nearest->opacity ? shade(*nearest, *nearest->opacity, m, best, step_x, step_y) / 255.0 : 1.0;
+    light += left * opacity * shade(*nearest, *nearest->texture, m, best, step_x, step_y);
+    left *= 1.0 - opacity;
+    limit = best;
+  }
+  return light;
 }
 
 }  // namespace
@@ -141,17 +165,7 @@ void RayCaster::add(const Scene& scene, const SE3d& T_w_c, int offset, double fo
       for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < x1; ++x, ++n) {
           const Vector3<double> m(rays[n][0], rays[n][1], 1.0);
-          const Facet* nearest = nullptr;
-          double best = 0.0;
-          for (const Facet* f : candidates) {
-            const double rho = f->inverse.dot(m);
-            if (rho <= best) continue;
-            const double s = f->across.dot(m), t = f->along.dot(m);
-            if (s < 0.0 || t < 0.0 || s > f->width * rho || t > f->height * rho) continue;
-            best = rho;
-            nearest = f;
-          }
-          if (nearest) sum(x, y) += weight * shade(*nearest, m, best, step_x, step_y);
+          sum(x, y) += weight * light_on(candidates, m, step_x, step_y);
         }
       }
     }

@@ -68,32 +68,60 @@ Furnishing add_furniture(Scene& scene, std::uint64_t seed) {
   return f;
 }
 
-void add_signs(Scene& scene, const Walls& walls, const Furnishing* furniture, bool all_round, std::uint64_t seed) {
-  SignPainter signs(kRoomSigns + (all_round ? kSignsBehind : 0), hash(seed, 400));
-  signs.on_wall(scene, walls.front, 2.3, 0.75, 0.7);
-  signs.on_wall(scene, walls.front, 3.2, 1.05, 0.56);
-  signs.on_wall(scene, walls.front, 4.25, 0.9, 0.5);
-  signs.on_wall(scene, walls.front, 0.48, 0.55, 0.56);
-  signs.on_wall(scene, walls.left, 3.5, 0.8, 0.7);
-  signs.on_wall(scene, walls.left, 2.75, 1.12, 0.6);
-  signs.on_wall(scene, walls.right, 0.7, 0.95, 0.62);
-  signs.on_wall(scene, walls.right, 1.5, 1.18, 0.62);
-  // Slanted: a lectern on the right, an easel on the left, and one that hangs from the ceiling.
-  signs.board(scene, {1.55, 1.25, 1.0}, {-0.35, -1.0, 0.55}, 0.52);
-  signs.board(scene, {-0.45, 1.3, 0.8}, {0.3, -1.0, 0.3}, 0.6, 0.06);
-  signs.board(scene, {0.3, 1.25, 2.2}, {-0.15, -1.0, -0.35}, 0.66);
-  if (furniture) {
-    signs.on_wall(scene, furniture->cabinet, 0.55, 0.35, 0.45);
-  } else {
-    signs.on_wall(scene, walls.front, 2.75, 1.75, 0.6);
+// Six signs in the room, each on a cylinder or a pane.
+void add_carried(Scene& scene, SignPainter& signs, RoomStyle::Carrier carrier, std::uint64_t seed) {
+  const Vector3<double> places[] = {{1.55, 1.25, 1.0}, {-0.45, 1.3, 0.8}, {0.3, 1.25, 2.2},
+                                    {-0.1, 1.7, 1.95}, {0.8, 1.75, 1.65}, {-2.0, 1.3, 2.1}};
+  std::uint64_t k = 0;
+  for (const Vector3<double>& place : places) {
+    const auto draw = [&](double low, double high) { return low + (high - low) * unit(hash(seed, 500, ++k)); };
+    const Vector3<double> towards(draw(-0.2, 0.2) - 0.15 * place[0], -1.0, 0.0);
+    const double radius = draw(0.2, 0.3);
+    if (carrier == RoomStyle::Carrier::cylinder) {
+      signs.cylinder(scene, place, towards, draw(1.5, 2.0) * radius, radius);
+    } else {
+      signs.pane(scene, place, towards, draw(0.45, 0.65));
+    }
   }
-  if (!all_round) return;
-  signs.on_wall(scene, walls.right, 2.3, 1.3, 0.5);
-  signs.on_wall(scene, walls.right, 3.75, 0.75, 0.54);
-  signs.on_wall(scene, walls.back, 2.35, 0.9, 0.66);
-  signs.on_wall(scene, walls.back, 4.25, 1.2, 0.56);
-  signs.on_wall(scene, walls.back, 0.45, 1.25, 0.56);
-  signs.on_wall(scene, walls.left, 0.6, 0.95, 0.58);
+}
+
+void add_signs(Scene& scene, const Walls& walls, const Furnishing* furniture, const RoomStyle& style,
+               std::uint64_t seed) {
+  SignPainter signs(kRoomSigns + (style.all_round ? kSignsBehind : 0), hash(seed, 400));
+  const auto hang = [&](const Rectangle& wall, double s, double t, double width) {
+    style.off_walls ? signs.off_wall(scene, wall, s, t, width) : signs.on_wall(scene, wall, s, t, width);
+  };
+  const bool boards = style.carrier == RoomStyle::Carrier::board;
+  if (boards) {
+    hang(walls.front, 2.3, 0.75, 0.7);
+    hang(walls.front, 3.2, 1.05, 0.56);
+  }
+  hang(walls.front, 4.25, 0.9, 0.5);
+  if (boards) hang(walls.front, 0.48, 0.55, 0.56);
+  hang(walls.left, 3.5, 0.8, 0.7);
+  hang(walls.left, 2.75, 1.12, 0.6);
+  hang(walls.right, 0.7, 0.95, 0.62);
+  hang(walls.right, 1.5, 1.18, 0.62);
+  if (boards) {
+    // Slanted: a lectern on the right, an easel on the left, and one that hangs from the ceiling.
+    signs.board(scene, {1.55, 1.25, 1.0}, {-0.35, -1.0, 0.55}, 0.52);
+    signs.board(scene, {-0.45, 1.3, 0.8}, {0.3, -1.0, 0.3}, 0.6, 0.06);
+    signs.board(scene, {0.3, 1.25, 2.2}, {-0.15, -1.0, -0.35}, 0.66);
+  } else {
+    add_carried(scene, signs, style.carrier, seed);
+  }
+  if (furniture) {
+    hang(furniture->cabinet, 0.55, 0.35, 0.45);
+  } else {
+    hang(walls.front, 2.75, 1.75, 0.6);
+  }
+  if (!style.all_round) return;
+  hang(walls.right, 2.3, 1.3, 0.5);
+  hang(walls.right, 3.75, 0.75, 0.54);
+  hang(walls.back, 2.35, 0.9, 0.66);
+  hang(walls.back, 4.25, 1.2, 0.56);
+  hang(walls.back, 0.45, 1.25, 0.56);
+  hang(walls.left, 0.6, 0.95, 0.58);
 }
 
 }  // namespace
@@ -108,7 +136,7 @@ Scene make_room(std::uint64_t seed, const RoomStyle& style) {
     add_pictures(scene, walls, seed);
     furniture = add_furniture(scene, seed);
   }
-  if (style.signs) add_signs(scene, walls, style.bare ? nullptr : &furniture, style.all_round, seed);
+  if (style.signs) add_signs(scene, walls, style.bare ? nullptr : &furniture, style, seed);
   return scene;
 }
 

@@ -89,17 +89,34 @@ void Scene::add_unlit(const Rectangle& rectangle, Image<std::uint8_t> texture) {
   surfaces_.push_back({rectangle, &textures_.back()});
 }
 
-void Scene::add_sign(std::string word, const Rectangle& text) {
+void Scene::add_pane(const Rectangle& rectangle, Canvas paint, Image<std::uint8_t> opacity) {
+  add(rectangle, std::move(paint));
+  textures_.emplace_back(std::move(opacity));
+  surfaces_.back().opacity = &textures_.back();
+}
+
+void Scene::add_sign(std::string word, const Rectangle& text, double radius) {
   signs_.push_back(
       {static_cast<int>(signs_.size()),
        std::move(word),
        {text.at(0.0, 0.0), text.at(text.width, 0.0), text.at(text.width, text.height), text.at(0.0, text.height)},
-       text.normal()});
+       text.normal(),
+       radius});
+}
+
+Vector3<double> Sign::at(double across, double down) const {
+  const Vector3<double> right = corner[1] - corner[0];
+  const Vector3<double> flat = corner[0] + across * right + down * (corner[3] - corner[0]);
+  if (!(radius > 0.0)) return flat;
+  const double half = std::asin(0.5 * right.norm() / radius), angle = (2.0 * across - 1.0) * half;
+  return corner[0] + 0.5 * right + down * (corner[3] - corner[0]) + radius * std::sin(angle) * right.normalized() +
+         radius * (std::cos(angle) - std::cos(half)) * normal;
 }
 
 Hit Scene::first_hit(const Vector3<double>& origin, const Vector3<double>& direction) const noexcept {
   Hit best;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    if (surfaces_[i].opacity) continue;
     const Rectangle& r = surfaces_[i].rectangle;
     const Vector3<double> normal = r.normal();
     const double approach = normal.dot(direction), height = normal.dot(origin - r.corner);

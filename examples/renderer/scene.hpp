@@ -1,4 +1,5 @@
-// Scene: one-sided textured rectangles in the world (metres, z up), and the signs among them.
+// Scene: one-sided textured rectangles in the world (metres, z up), and the signs among them. Panes are rectangles that
+// let light through between their letters.
 #ifndef TEXTSLAM_RENDERER_SCENE_HPP
 #define TEXTSLAM_RENDERER_SCENE_HPP
 
@@ -35,6 +36,7 @@ Rectangle on(const Rectangle& wall, double s, double t, double width, double hei
 struct Surface {
   Rectangle rectangle;
   const Texture* texture;
+  const Texture* opacity = nullptr;  ///< 255: opaque; null: opaque all over
 };
 
 /// A word in the world. The corners are those of the text, not of its plate: clockwise from the text's top left as a
@@ -43,7 +45,11 @@ struct Sign {
   int id;
   std::string word;
   std::array<Vector3<double>, 4> corner;
-  Vector3<double> normal;  ///< unit, towards the reader
+  Vector3<double> normal;  ///< unit, towards the reader; in the middle where it is round
+  double radius = 0.0;     ///< m, of the upright cylinder that it is written on; 0: flat
+
+  /// The place on the text at these shares of its width and height from the top left.
+  Vector3<double> at(double across, double down) const;
 };
 
 struct Hit {
@@ -67,12 +73,15 @@ class Scene {
   void add(const Rectangle& rectangle, Canvas paint, bool corners_darken = false);
   /// A surface with the texture as it is, unlit.
   void add_unlit(const Rectangle& rectangle, Image<std::uint8_t> texture);
-  void add_sign(std::string word, const Rectangle& text);
+  /// A painted surface through which light passes where `opacity` is below 255.
+  void add_pane(const Rectangle& rectangle, Canvas paint, Image<std::uint8_t> opacity);
+  /// `radius` of the upright cylinder that the text is written on, with the rectangle between its corners; 0: flat.
+  void add_sign(std::string word, const Rectangle& text, double radius = 0.0);
 
   const std::vector<Surface>& surfaces() const noexcept { return surfaces_; }
   const std::vector<Sign>& signs() const noexcept { return signs_; }
 
-  /// The nearest surface that the ray meets beyond the distance 1e-9.
+  /// The nearest surface that the ray meets beyond the distance 1e-9; panes hide nothing.
   Hit first_hit(const Vector3<double>& origin, const Vector3<double>& direction) const noexcept;
 
  private:

@@ -44,9 +44,11 @@ SignPlate make_sign_plate(const std::string& word, double width, const std::vect
     }
   }
   Image<float>& pixels = paint.pixels();
+  Image<std::uint8_t> mask(pixels.width(), pixels.height());
   const int left = (pixels.width() - ink.width()) / 2, top = (pixels.height() - ink.height()) / 2;
   for (int y = 0; y < ink.height(); ++y) {
     for (int x = 0; x < ink.width(); ++x) {
+      mask(left + x, top + y) = ink(x, y);
       float& p = pixels(left + x, top + y);
       p += static_cast<float>(ink(x, y)) / 255.0F * (static_cast<float>(letters) - p);
     }
@@ -57,7 +59,11 @@ SignPlate make_sign_plate(const std::string& word, double width, const std::vect
   });
   const Vector2<double> d = paint.density();
   const double rim = kRim * ink.height();
-  return {std::move(paint), (left - rim) / d[0], (top - rim) / d[1], (ink.width() + 2.0 * rim) / d[0],
+  return {std::move(paint),
+          std::move(mask),
+          (left - rim) / d[0],
+          (top - rim) / d[1],
+          (ink.width() + 2.0 * rim) / d[0],
           (ink.height() + 2.0 * rim) / d[1]};
 }
 

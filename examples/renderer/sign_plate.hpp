@@ -15,6 +15,7 @@ namespace textslam {
 /// The painted plate, and the box of its text in metres from the plate's top left.
 struct SignPlate {
   Canvas paint;
+  Image<std::uint8_t> letters;                     ///< 255 where the paint is a letter's, 0 where it is the plate's
   double text_x, text_y, text_width, text_height;  ///< m
 };
 

@@ -29,8 +29,7 @@ std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& came
   const SE3d T_c_w = T_w_c.inverse();
   std::vector<SignView> views;
   for (const Sign& sign : scene.signs()) {
-    const Vector3<double> right = sign.corner[1] - sign.corner[0], down = sign.corner[3] - sign.corner[0];
-    const Vector3<double> to_eye = T_w_c.t - (sign.corner[0] + 0.5 * right + 0.5 * down);
+    const Vector3<double> to_eye = T_w_c.t - sign.at(0.5, 0.5);
     SignView view;
     view.sign = sign.id;
     view.cosine = sign.normal.dot(to_eye) / to_eye.norm();
@@ -42,8 +41,7 @@ std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& came
     int seen = 0;
     for (int j = 0; j < kRows; ++j) {
       for (int i = 0; i < kColumns; ++i) {
-        const Vector3<double> p = sign.corner[0] + (i + 0.5) / kColumns * right + (j + 0.5) / kRows * down;
-        seen += sees(scene, camera, T_w_c, T_c_w, p) ? 1 : 0;
+        seen += sees(scene, camera, T_w_c, T_c_w, sign.at((i + 0.5) / kColumns, (j + 0.5) / kRows)) ? 1 : 0;
       }
     }
     if (seen == 0) continue;
@@ -68,7 +66,11 @@ std::string format_signs(const std::vector<Sign>& signs) {
   for (const Sign& sign : signs) {
     nlohmann::json corners = nlohmann::json::array();
     for (const Vector3<double>& c : sign.corner) corners.push_back(as_json(c));
-    list.push_back({{"id", sign.id}, {"text", sign.word}, {"corners", corners}, {"normal", as_json(sign.normal)}});
+    list.push_back({{"id", sign.id},
+                    {"text", sign.word},
+                    {"corners", corners},
+                    {"normal", as_json(sign.normal)},
+                    {"radius", sign.radius}});
   }
   return nlohmann::json{{"signs", list}}.dump(1) + '\n';
 }

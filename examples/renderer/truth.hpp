@@ -24,7 +24,8 @@ std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& came
 /// truth/quads/<stem>.txt: `x1,y1,x2,y2,x3,y3,x4,y4,text,sign,visible` a line; the numbers survive the round trip.
 std::string format_truth_quads(const std::vector<SignView>& views, const std::vector<Sign>& signs);
 
-/// truth/signs.json: {"signs":[{"id":0,"text":"EXIT","corners":[[x,y,z],... 4],"normal":[x,y,z]},...]}; world, metres.
+/// truth/signs.json: {"signs":[{"id":0,"text":"EXIT","corners":[[x,y,z],... 4],"normal":[x,y,z],"radius":0},...]};
+/// world, metres. A text with a radius is written on an upright cylinder: it is not planar.
 std::string format_signs(const std::vector<Sign>& signs);
 
 }  // namespace textslam

@@ -58,6 +58,18 @@ TEST_F(EvaluateTextTest, CornersLieOnThePlaneAndInTheQuad) {
   }
 }
 
+TEST_F(EvaluateTextTest, ATextOnACylinderIsFalseAndNoSign) {
+  std::vector<TrueSign> signs = {add("EXIT", 100, {0.2, 0, -1}), add("OPEN", 300, {0, 0, -1})};
+  signs[1].radius = 0.2;
+  const TextEvaluation round = evaluate_text(map, signs, to_truth);
+  EXPECT_EQ(round.signs, 1);
+  EXPECT_EQ(round.mapped, 1);
+  EXPECT_EQ(round.false_texts, 1);
+  EXPECT_EQ(round.matches[1].sign, -1);
+  EXPECT_EQ(round.matches[1].text, 1);
+  EXPECT_LT(round.angle.max, 1e-5) << "its normal is no error";
+}
+
 TEST_F(EvaluateTextTest, MatchesPlacesNormalsAndWords) {
   std::vector<TrueSign> signs = {add("EXIT", 100, {0.2, 0, -1}), add("OPEN", 300, {0, 0, -1}),
                                  add("TAXI", 450, {0, 0.3, -1})};
