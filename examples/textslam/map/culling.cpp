@@ -40,9 +40,13 @@ void cull_points(Map& map, const Parameters& parameters) {
   }
 }
 
+bool is_detected(const TextObject& text, const Parameters& parameters) {
+  return text.detections >= parameters.text_min_detections &&
+         text.detections >= parameters.text_detected_share * text.shown;
+}
+
 bool is_proven(const TextObject& text, const Parameters& parameters) {
-  return static_cast<int>(text.views.size()) + 1 >= parameters.text_min_observations &&
-         text.detections >= parameters.text_min_detections;
+  return static_cast<int>(text.views.size()) + 1 >= parameters.text_min_observations && is_detected(text, parameters);
 }
 
 bool is_overdue(const TextObject& text, const Parameters& parameters, int newest) {

@@ -12,6 +12,8 @@ namespace textslam {
 /// Flags points that are found in too few of the frames that should see them.
 void cull_points(Map& map, const Parameters& parameters);
 
+/// Detected in enough of the frames that could have shown it: a detector's false hits are elsewhere in each frame.
+bool is_detected(const TextObject& text, const Parameters& parameters);
 /// Observed and detected often enough to be mapped.
 bool is_proven(const TextObject& text, const Parameters& parameters);
 /// Not mapped in time: by the newest key frame `newest`, too late for a plane, or for n_min observations.

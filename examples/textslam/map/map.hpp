@@ -53,6 +53,7 @@ struct TextObject {
   std::vector<int> views;               ///< Key frames (without the host) that observe it well.
   std::map<std::string, double> votes;  ///< Words read: sums of the scores of their readings.
   int detections = 0;                   ///< Frames in which the detector saw it.
+  int shown = 0;                        ///< Frames with detections that could have shown it, those included.
   int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
   double zncc = 0;                      ///< Mean over its last refinement.
 

@@ -165,7 +165,9 @@ bool System::keyframe_needed(const Frame& frame) const {
   const double share = recent ? parameters_.keyframe_urgent_share : parameters_.keyframe_min_share;
   if (static_cast<int>(flow.size()) < parameters_.keyframe_min_tracks || points < share * last_keyframe_points_)
     return true;
-  return median(std::move(flow)) > parameters_.keyframe_flow;
+  return median(std::move(flow)) > parameters_.keyframe_flow ||
+         (parameters_.mode == Mode::text &&
+          text_mapper_.has_parallax(tracker_->pose(), tracker_->tracks(), last_keyframe_));
 }
 
 void System::add_keyframe(const Frame& frame, FrameRecord& record) {

@@ -45,17 +45,53 @@ bool TextMapper::locate(const TextObject& text, const SE3d& T_c_w, const std::ve
   return true;
 }
 
+// Could a detector find it where locate() says that it is?
+bool TextMapper::is_whole(const TextObject& text, const Quad<double>& quad, const SE3d& T_c_w) const {
+  return textplane::inside_image(quad, map_.width, map_.height, parameters_.text_border) &&
+         std::abs(textplane::area(quad)) >= parameters_.text_min_area &&
+         !(text.has_plane() && is_too_slanted(parameters_, facing(map_, text, T_c_w)));
+}
+
+bool TextMapper::has_parallax(const SE3d& T_c_w, const std::vector<Track>& tracks, int last) const {
+  const SE3d T_w_l = map_.keyframe(last).T_w_c;
+  return std::any_of(map_.texts.begin(), map_.texts.end(), [&](const TextObject& text) {
+    const bool waits = text.state == TextState::candidate || text.state == TextState::tentative;
+    Quad<double> quad;
+    if (!waits || text.detections < 2 || text.detections < parameters_.text_detected_share * text.shown ||
+        !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad) || !is_whole(text, quad, T_c_w))
+      return false;
+    std::vector<double> parallax;
+    for (const Track& track : tracks) {
+      const auto& observations = observations_of(map_, track);
+      const Vec2 *host_px = observed_in(observations, text.host), *then = observed_in(observations, last);
+      if (!host_px || !then || !textplane::contains(text.patch.quad, *host_px)) continue;
+      const Vec3 ray = map_.camera.unproject(Vec2(track.px.cast<double>()));
+      parallax.push_back(degrees_between(T_c_w.R.transpose() * ray, T_w_l.R * map_.camera.unproject(*then)));
+    }
+    if (text.has_plane()) {
+      const Vec3 centre =
+          map_.keyframe(text.host).T_w_c *
+          textplane::plane_point(text.theta, map_.camera.unproject(textplane::centroid(text.patch.quad)));
+      parallax.assign(1, degrees_between(centre - T_c_w.inverse().t, centre - T_w_l.t));
+    }
+    return !parallax.empty() && median(std::move(parallax)) >= parameters_.text_keyframe_parallax;
+  });
+}
+
 void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vector<Track>& tracks) {
   if (frame.detections.empty()) return;
   for (TextObject& text : map_.texts) {
     Quad<double> quad;
     if (text.state == TextState::dropped || !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad)) continue;
+    bool shown = is_whole(text, quad, T_c_w);
     for (const Detection& detection : frame.detections) {
       if (textplane::iou(quad, detection.quad) < parameters_.text_confirm_iou) continue;
       ++text.detections;
+      shown = true;
       if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_);
       break;
     }
+    text.shown += shown ? 1 : 0;
   }
 }
 
@@ -89,7 +125,7 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
     text.host = id;
     text.patch = make_text_patch(map_, parameters_, id, detection.quad);
     if (!textplane::is_ok(text.patch.status)) continue;
-    text.detections = 1;
+    text.detections = text.shown = 1;
     if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_);
     map_.texts.push_back(std::move(text));
   }

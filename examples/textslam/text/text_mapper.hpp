@@ -23,6 +23,8 @@ class TextMapper {
 
   /// Counts the detections of a tracked frame for the objects they fall on, and votes for their words.
   void associate(const Frame& frame, const SE3d& T_c_w, const std::vector<Track>& tracks);
+  /// Does a text that waits to be mapped, and is in view, have parallax since key frame `last`?
+  bool has_parallax(const SE3d& T_c_w, const std::vector<Track>& tracks, int last) const;
   /// Quads of a frame's detections that would become new objects: not on a known text, not leaving the image.
   std::vector<Detection> new_detections(const Frame& frame, const SE3d& T_c_w, const std::vector<Track>& tracks) const;
   /// New candidates hosted by key frame `id`.
@@ -35,6 +37,7 @@ class TextMapper {
 
  private:
   bool locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks, Quad<double>* quad) const;
+  bool is_whole(const TextObject& text, const Quad<double>& quad, const SE3d& T_c_w) const;
   struct Corners {
     std::vector<Vec3> host, target;
   };

@@ -46,6 +46,7 @@ void add_observations_of(const TextObject& other, int first_keyframe, const Para
   for (const int id : other.views) kept.views.push_back(first_keyframe + id);
   for (const auto& [word, count] : other.votes) vote(&kept.votes, word, count, parameters);
   kept.detections += other.detections;
+  kept.shown += other.shown;
 }
 
 bool same_text(const Map& map, const Parameters& parameters, const TextObject& a, const TextObject& b) {
