@@ -13,23 +13,25 @@
 
 namespace textslam {
 
-/// What one group gives to the normal equations at the estimate: H = J^T W J, b = J^T W r.
+/// What one group gives to the normal equations of N unknowns at the estimate: H = J^T W J, b = J^T W r.
+template <int N = 3>
 struct GroupEquations {
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, N, N> H = Eigen::Matrix<double, N, N>::Zero();
+  Eigen::Matrix<double, N, 1> b = Eigen::Matrix<double, N, 1>::Zero();
 };
 
 /// Covariance at the estimate where the b sum to zero: (n - 1) / n sum_i d_i d_i^T, with d_i = (sum_j!=i H_j)^-1 b_i
 /// the motion without group i; exact for linear residuals. Groups whose others are singular are skipped; zero for fewer
 /// than two.
-inline Eigen::Matrix3d jackknife_covariance(const std::vector<GroupEquations>& groups) {
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero(), covariance = Eigen::Matrix3d::Zero();
-  for (const GroupEquations& group : groups) H += group.H;
+template <int N>
+Eigen::Matrix<double, N, N> jackknife_covariance(const std::vector<GroupEquations<N>>& groups) {
+  Eigen::Matrix<double, N, N> H = Eigen::Matrix<double, N, N>::Zero(), covariance = H;
+  for (const GroupEquations<N>& group : groups) H += group.H;
   const double n = static_cast<double>(groups.size());
-  for (const GroupEquations& group : groups) {
-    const textplane::Ldlt<double, 3> others(H - group.H);
+  for (const GroupEquations<N>& group : groups) {
+    const textplane::Ldlt<double, N> others(H - group.H);
     if (!others.ok()) continue;
-    const Eigen::Vector3d moved = others.solve(group.b);
+    const Eigen::Matrix<double, N, 1> moved = others.solve(group.b);
     covariance += (n - 1) / n * moved * moved.transpose();
   }
   return covariance;

@@ -104,7 +104,7 @@ bool TextRefiner::drop_dissimilar(const Vec3& theta) {
 
 // How far the views disagree: by errors of their poses, by highlights, by neighbouring pixels that err together.
 Eigen::Matrix3d TextRefiner::disagreement(const Vec3& theta) {
-  std::vector<GroupEquations> views;
+  std::vector<GroupEquations<>> views;
   for (const textplane::PlaneTarget& target : targets_) {
     const auto input = textplane::photometric_input(*target.patch, 0, target.image, map_.camera);
     const auto view = textplane::linearise<textplane::Parameters::plane>(
@@ -115,6 +115,7 @@ Eigen::Matrix3d TextRefiner::disagreement(const Vec3& theta) {
 }
 
 bool TextRefiner::estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out) {
+  targets_.clear();
   const SE3d T_h_o = host.T_c_w * map_.keyframe(text.host).T_w_c;
   const Vec3 theta = textplane::reanchor_plane<double>(text.theta, T_h_o);
   textplane::SelectOptions options;
@@ -126,7 +127,6 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
                             grown(host.quad, parameters_.refine_margin), options);
   if (!textplane::is_ok(patch.status) || !(theta.norm() > 0)) return false;
 
-  targets_.clear();
   patches_.clear();
   std::vector<int> others;
   for (std::size_t i = 0; i < views.size(); ++i)
@@ -150,12 +150,30 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
   if (!textplane::is_ok(fit.status) || fit.zncc < parameters_.text_min_zncc) return false;
   textplane::Matrix3<double> J;
   out->theta = textplane::reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
-  out->covariance = J * (fit.covariance + disagreement(fit.theta)) * J.transpose();
+  if (!bend_of(patch, fit.theta, targets_, map_.camera, parameters_.refine_bend_sigmas, photometric_, &out->bend))
+    out->bend = {};
+  // The disagreement shows noise, too; but few views may agree by chance.
+  const Eigen::Matrix3d scatter = disagreement(fit.theta);
+  const Eigen::Matrix3d known = scatter.trace() > fit.covariance.trace() ? scatter : fit.covariance;
+  out->covariance = J * (known + out->bend.doubt) * J.transpose();
   out->zncc = fit.zncc;
   return out->theta.norm() > 0;
 }
 
+// Not planar: a bend, the mean over the hosts, explains much of why the views disagree.
+bool TextRefiner::is_bent(const std::vector<Estimate>& estimates) const {
+  const double n = static_cast<double>(estimates.size());
+  Vec2 bend = Vec2::Zero();
+  double explained = 0;
+  for (const Estimate& e : estimates) {
+    bend += e.bend.value / n;
+    explained += e.bend.explained / n;
+  }
+  return explained >= parameters_.refine_bend_share && bend.cwiseAbs().maxCoeff() >= parameters_.refine_most_bend;
+}
+
 void TextRefiner::refine(TextObject& text) {
+  if (!is_detected(text, parameters_)) return drop(text);
   const std::vector<View> views = views_of(text);
   double largest = 0;
   for (const View& view : views) largest = std::max(largest, view.area);
@@ -163,11 +181,16 @@ void TextRefiner::refine(TextObject& text) {
   for (std::size_t i = 0; i < views.size(); ++i)
     if (views[i].area >= parameters_.refine_area * largest) hosts.push_back(static_cast<int>(i));
   std::vector<Estimate> estimates;
+  bool compared = false;
   for (const int i : evenly_spaced(hosts, static_cast<std::size_t>(parameters_.refine_hosts))) {
     Estimate e;
     if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
+    compared = compared || !targets_.empty();
   }
-  if (estimates.empty()) return;
+  if (estimates.empty()) {
+    if (compared || is_uncertain(text, parameters_)) drop(text);
+    return;
+  }
   // A host that is blurred itself is similar to none of its targets.
   double most = 0;
   for (const Estimate& e : estimates) most = std::max(most, e.zncc);
@@ -182,7 +205,7 @@ void TextRefiner::refine(TextObject& text) {
   text.theta = mean;
   text.covariance = covariance;
   fit_to_surface(map_, parameters_, text);
-  if (is_uncertain(text, parameters_)) drop(text);
+  if (is_uncertain(text, parameters_) || is_bent(estimates)) drop(text);
 }
 
 void TextRefiner::refine() {

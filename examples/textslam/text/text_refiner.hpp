@@ -3,7 +3,8 @@
 // Each text is compared between its views, from several hosts, with all its pixels, each pair at the same blur
 // (textplane/photometry/blur.hpp). Each host samples narrow strokes differently, so the hosts' planes are averaged;
 // their scatter, and the disagreement of the views (jackknife.hpp), go into the covariance. Last, the map points of the
-// surface count (text_surface.hpp).
+// surface count, if the text lies on it (text_surface.hpp). What is bent (text_planarity.hpp), uncertain, or too seldom
+// detected is no text.
 #ifndef TEXTSLAM_TEXT_TEXT_REFINER_HPP
 #define TEXTSLAM_TEXT_TEXT_REFINER_HPP
 
@@ -12,6 +13,7 @@
 #include "textplane/photometry/blur.hpp"
 #include "textplane/solver/plane.hpp"
 #include "textslam/map/map.hpp"
+#include "textslam/text/text_planarity.hpp"
 
 namespace textslam {
 
@@ -19,8 +21,8 @@ class TextRefiner {
  public:
   TextRefiner(Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
 
-  /// Refines every mapped text and drops those whose normal stays uncertain. A text with too few whole views stays as
-  /// it was.
+  /// Refines every mapped text, and drops those that are not planar, whose normal stays uncertain, that agree with none
+  /// of their views, or that the detector saw too seldom. A text with too few whole views keeps its plane.
   void refine();
 
  private:
@@ -34,6 +36,7 @@ class TextRefiner {
     Vec3 theta;  // in the text's host
     Eigen::Matrix3d covariance;
     double zncc;
+    Bend bend;
   };
 
   std::vector<View> views_of(const TextObject& text) const;
@@ -41,6 +44,7 @@ class TextRefiner {
   bool add_target(const textplane::TextPatch& patch, const Vec3& theta, const View& host, const View& view);
   bool drop_dissimilar(const Vec3& theta);
   Eigen::Matrix3d disagreement(const Vec3& theta);
+  bool is_bent(const std::vector<Estimate>& estimates) const;
   void refine(TextObject& text);
 
   Map& map_;

@@ -45,6 +45,29 @@ Eigen::Matrix3d turned_about(const Vec3& theta, const Vec3& point, double sigma)
   return covariance;
 }
 
+// Where a plane is known by a guess alone: its slant in radians, its distance as a share.
+Eigen::Matrix3d guessed(const Vec3& theta, const Vec3& centre, double turn, double distance) {
+  return turned_about(theta, centre, turn) + distance * distance * theta * theta.transpose();
+}
+
+// Is the surface beside a text the one that it is on? Then the surface, fitted without the text, goes through the
+// text's centre and has its slant. A sign that stands off its wall is likely to be turned, too.
+bool lies_on(std::vector<SurfacePoint> points, const Vec3& centre, double length, const Parameters& parameters,
+             const TextObject& text) {
+  erase_if(points, [](const SurfacePoint& p) { return !(p.beside > 0); });
+  Vec3 theta = text.theta;
+  const double distance = 1 / theta.norm();
+  Eigen::Matrix3d covariance = text.covariance + guessed(theta, centre, radians(parameters.surface_most_turn),
+                                                         parameters.surface_near * length / distance);
+  if (!fit_to_surface(points, centre, parameters, &theta, &covariance)) return false;
+  const double gap = std::abs(theta.dot(centre) - 1) / theta.norm();
+  const double gap_sigma = std::sqrt(centre.dot(text.covariance * centre)) / theta.norm();
+  const double turn = degrees_between(textplane::plane_normal(theta), textplane::plane_normal(text.theta));
+  const double turn_sigma = std::hypot(normal_sigma(text) / radians(1), parameters.surface_bend);
+  return gap <= parameters.surface_gap * length + parameters.surface_sigmas * gap_sigma &&
+         turn <= parameters.surface_sigmas * turn_sigma;
+}
+
 }  // namespace
 
 std::vector<SurfacePoint> points_beside(const Map& map, const Parameters& parameters, const TextObject& text) {
@@ -64,7 +87,8 @@ std::vector<SurfacePoint> points_beside(const Map& map, const Parameters& parame
                                      std::max(0.0, std::abs(below.dot(offset)) - 0.5 * down.norm()));
     if (!(p.z() > 0) || !(beside <= reach) || !(std::abs(normal.dot(offset)) <= reach)) continue;
     const double variance = variance_along(map, point, T_w_h.R * normal, parameters.point_sigma);
-    if (variance > 0) points.push_back({p, std::hypot(std::sqrt(variance), parameters.surface_relief * beside)});
+    if (variance > 0)
+      points.push_back({p, std::hypot(std::sqrt(variance), parameters.surface_relief * beside), beside});
   }
   return points;
 }
@@ -107,8 +131,13 @@ bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vec3& centre,
 }
 
 void fit_to_surface(const Map& map, const Parameters& parameters, TextObject& text) {
+  std::array<Vec3, 4> c;
+  if (!textplane::is_ok(textplane::quad_points(text.patch.quad, map.camera, text.theta, &c))) return;
   const Vec3 centre = textplane::plane_point(text.theta, map.camera.unproject(textplane::centroid(text.patch.quad)));
-  fit_to_surface(points_beside(map, parameters, text), centre, parameters, &text.theta, &text.covariance);
+  const double length = std::max((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
+  const std::vector<SurfacePoint> points = points_beside(map, parameters, text);
+  if (lies_on(points, centre, length, parameters, text))
+    fit_to_surface(points, centre, parameters, &text.theta, &text.covariance);
 }
 
 bool plane_from_surface(const Map& map, const Parameters& parameters, TextObject& text) {
@@ -129,9 +158,7 @@ bool plane_from_surface(const Map& map, const Parameters& parameters, TextObject
   guess.host = text.host;
   guess.patch.quad = text.patch.quad;
   guess.theta = centre / centre.squaredNorm();
-  guess.covariance =
-      turned_about(guess.theta, centre, parameters.surface_guess_turn) +
-      parameters.surface_guess_depth * parameters.surface_guess_depth * guess.theta * guess.theta.transpose();
+  guess.covariance = guessed(guess.theta, centre, parameters.surface_guess_turn, parameters.surface_guess_depth);
   if (!fit_to_surface(points_beside(map, parameters, guess), centre, parameters, &guess.theta, &guess.covariance) ||
       !(normal_sigma(guess) <= radians(parameters.surface_max_sigma)))
     return false;

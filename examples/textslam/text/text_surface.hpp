@@ -11,7 +11,8 @@ namespace textslam {
 /// A map point in or beside a text, in the frame of the text's host.
 struct SurfacePoint {
   Vec3 p = Vec3::Zero();
-  double sigma = 0;  ///< Across the plane: of the point and of the relief of the surface there.
+  double sigma = 0;   ///< Across the plane: of the point and of the relief of the surface there.
+  double beside = 0;  ///< Distance from the text, along its plane; 0 within it.
 };
 
 /// The map points within surface_reach of a text with a plane, whose observations tell how far they are.
@@ -23,7 +24,8 @@ std::vector<SurfacePoint> points_beside(const Map& map, const Parameters& parame
 bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vec3& centre, const Parameters& parameters,
                     Vec3* theta, Eigen::Matrix3d* covariance);
 
-/// The same for a text of the map, with the points beside it.
+/// The same for a text of the map, with the points beside it, if they show a surface that goes through its centre
+/// (surface_gap) and has its slant (surface_sigmas). A sign that stands off its wall may be turned from it.
 void fit_to_surface(const Map& map, const Parameters& parameters, TextObject& text);
 
 /// The same for a text without a plane, by the points alone. False, and nothing changed, where its host sees fewer than

@@ -39,8 +39,8 @@ struct Linear {
     }
     return H.inverse() * b;
   }
-  std::vector<GroupEquations> at(const Vector3d& x) const {
-    std::vector<GroupEquations> groups;
+  std::vector<GroupEquations<>> at(const Vector3d& x) const {
+    std::vector<GroupEquations<>> groups;
     for (std::size_t g = 0; g < J.size(); ++g)
       groups.push_back({J[g].transpose() * J[g], J[g].transpose() * (J[g] * x - y[g])});
     return groups;
@@ -69,12 +69,12 @@ TEST(Jackknife, SeesWhatAGroupShares) {
 }
 
 TEST(Jackknife, OneGroupOrNoneTellsNothing) {
-  EXPECT_EQ(jackknife_covariance({}), Matrix3d::Zero());
+  EXPECT_EQ(jackknife_covariance<3>({}), Matrix3d::Zero());
   const Linear one(1, 0.1);
   EXPECT_EQ(jackknife_covariance(one.at(one.solve(kNone))), Matrix3d::Zero());
-  GroupEquations all, none;
+  GroupEquations<> all, none;
   all.H.setIdentity();
-  EXPECT_EQ(jackknife_covariance({all, none}), Matrix3d::Zero()) << "the second alone determines nothing";
+  EXPECT_EQ(jackknife_covariance<3>({all, none}), Matrix3d::Zero()) << "the second alone determines nothing";
 }
 
 }  // namespace jackknife_test

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <random>
 
@@ -82,7 +83,8 @@ class TextHostingTest : public testing::Test {
         for (int k = 0; k < kSamples * kSamples; ++k) {
           const Vec2 px(x + (k % kSamples - 1) / 3.0, y + (k / kSamples - 1) / 3.0);
           const Vec3 ray = T_w_c.R * map.camera.unproject(px);
-          const Vec3 p = T_w_c.t + (3 - T_w_c.t.z()) / ray.z() * ray;
+          Vec3 p = T_w_c.t + (3 - T_w_c.t.z()) / ray.z() * ray;
+          for (int i = 0; relief && i < 20; ++i) p = T_w_c.t + (3 + relief(p.x()) - T_w_c.t.z()) / ray.z() * ray;
           sum += ray.z() > 0 ? ink(p.x(), p.y()) : 0;
         }
         row[static_cast<std::size_t>(x + blur)] = sum / (kSamples * kSamples);
@@ -145,6 +147,7 @@ class TextHostingTest : public testing::Test {
 
   Map map;
   Parameters parameters;
+  std::function<double(double)> relief;  // of the wall at x, away from the camera; begin() renders anew
   std::mt19937 random_{1};
 };
 

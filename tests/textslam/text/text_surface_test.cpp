@@ -138,6 +138,38 @@ TEST_F(TextOnATableTest, PointsBesideATextAreSurerTheNearerTheyAre) {
   EXPECT_TRUE(points_beside(map, parameters, text).empty());
 }
 
+// The table, or another one `height` above or below it, tells the slant of a text that lies on it alone.
+TEST_F(TextOnATableTest, OnlyTheSurfaceThatATextLiesOnSpeaksForIt) {
+  for (const double height : {0.0, -0.012, -0.03, 0.012}) {
+    map.points.clear();
+    for (KeyFrame& keyframe : map.keyframes) keyframe.points.clear();
+    for (int i = 0; i < 121; ++i)
+      add(0.025 * (i % 11 - 5), 0.025 * (i / 11 - 5), height + 0.0005 * (i % 3 - 1), {0, 1, 2});
+    text.theta = turned(4);
+    text.covariance = known_to(0.0015);
+    ASSERT_GT(normal_sigma(text), 2 * kDegree);
+    const TextObject before = text;
+    fit_to_surface(map, parameters, text);
+    if (height == 0) {
+      EXPECT_LT(off(text.theta), 1);
+      EXPECT_LT(normal_sigma(text), 0.5 * normal_sigma(before));
+    } else {
+      EXPECT_EQ(text.theta, before.theta) << height << ": it stands off the surface";
+      EXPECT_EQ(text.covariance, before.covariance);
+    }
+  }
+}
+
+TEST_F(TextOnATableTest, ASurfaceThatIsTurnedFromAWellKnownTextIsAnother) {
+  for (int i = 0; i < 121; ++i) add(0.025 * (i % 11 - 5), 0.025 * (i / 11 - 5), 0, {0, 1, 2});
+  text.theta = turned(4);
+  text.covariance = known_to(0.0003);
+  ASSERT_LT(normal_sigma(text), 0.7 * kDegree);
+  const TextObject before = text;
+  fit_to_surface(map, parameters, text);
+  EXPECT_EQ(text.theta, before.theta);
+}
+
 // A text of which nothing is known but where its host sees it.
 TEST_F(TextOnATableTest, PointsAloneGiveATextItsPlane) {
   for (int i = 0; i < 49; ++i)
