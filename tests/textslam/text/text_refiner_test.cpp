@@ -49,6 +49,18 @@ TEST_F(TextRefinerTest, ATextWhoseNormalNobodyKnowsIsDropped) {
   EXPECT_EQ(text().state, TextState::dropped);
 }
 
+TEST_F(TextRefinerTest, ATextThatAgreesWithNoneOfItsViewsIsDropped) {
+  disturb(15);
+  refine();
+  EXPECT_EQ(text().state, TextState::dropped);
+}
+
+TEST_F(TextRefinerTest, AndOneThatTheDetectorSawTooSeldom) {
+  text().shown = static_cast<int>(text().detections / parameters.text_detected_share) + 1;
+  refine();
+  EXPECT_EQ(text().state, TextState::dropped);
+}
+
 // The limit is for what is known in the end, by the surface as well.
 TEST_F(TextRefinerTest, OneThatItsSurfaceTellsStays) {
   disturb(1);
