@@ -1,5 +1,5 @@
-// Planarity: how far a text is bent, as its images show it. A label round a tin and a carton's edge look like a plane from
-// near the host, and like nothing from elsewhere.
+// Planarity: how far a text is bent, as its images show it. A label round a tin and a carton's edge look like a plane
+// from near the host, and like nothing from elsewhere.
 //
 // The text is cut into parts, each with a plane of its own. What may differ between them is one quadratic form of the
 // inverse depth over the text, solved for together with the plane, from all views.

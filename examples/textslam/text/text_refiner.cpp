@@ -115,7 +115,6 @@ Eigen::Matrix3d TextRefiner::disagreement(const Vec3& theta) {
 }
 
 bool TextRefiner::estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out) {
-  targets_.clear();
   const SE3d T_h_o = host.T_c_w * map_.keyframe(text.host).T_w_c;
   const Vec3 theta = textplane::reanchor_plane<double>(text.theta, T_h_o);
   textplane::SelectOptions options;
@@ -127,6 +126,7 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
                             grown(host.quad, parameters_.refine_margin), options);
   if (!textplane::is_ok(patch.status) || !(theta.norm() > 0)) return false;
 
+  targets_.clear();
   patches_.clear();
   std::vector<int> others;
   for (std::size_t i = 0; i < views.size(); ++i)
@@ -181,16 +181,11 @@ void TextRefiner::refine(TextObject& text) {
   for (std::size_t i = 0; i < views.size(); ++i)
     if (views[i].area >= parameters_.refine_area * largest) hosts.push_back(static_cast<int>(i));
   std::vector<Estimate> estimates;
-  bool compared = false;
   for (const int i : evenly_spaced(hosts, static_cast<std::size_t>(parameters_.refine_hosts))) {
     Estimate e;
     if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
-    compared = compared || !targets_.empty();
   }
-  if (estimates.empty()) {
-    if (compared || is_uncertain(text, parameters_)) drop(text);
-    return;
-  }
+  if (estimates.empty()) return drop(text);
   // A host that is blurred itself is similar to none of its targets.
   double most = 0;
   for (const Estimate& e : estimates) most = std::max(most, e.zncc);

@@ -21,8 +21,8 @@ class TextRefiner {
  public:
   TextRefiner(Map& map, const Parameters& parameters) : map_(map), parameters_(parameters) {}
 
-  /// Refines every mapped text, and drops those that are not planar, whose normal stays uncertain, that agree with none
-  /// of their views, or that the detector saw too seldom. A text with too few whole views keeps its plane.
+  /// Refines every mapped text, and drops those that are not planar, whose normal stays uncertain, that the detector
+  /// saw too seldom, or of which no two whole views agree: their planes rest on parts, or on map points alone.
   void refine();
 
  private:
