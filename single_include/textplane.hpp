@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 120 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 908b9021738e220e
+// Hash of these files: 2bbcbde18604444f
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 908b9021738e220e"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 2bbcbde18604444f"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -169,6 +169,7 @@
 #define TEXTPLANE_CORE_NUMERIC_HPP
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -181,8 +182,13 @@ template <class S>
 using Vector3 = Eigen::Matrix<S, 3, 1>;  ///< A point, a direction, or a plane theta.
 template <class S>
 using Vector6 = Eigen::Matrix<S, 6, 1>;  ///< A twist xi = (v, omega).
+/// A matrix of fixed size. Its numbers lie column by column, also with EIGEN_DEFAULT_TO_ROW_MAJOR: kernels read them
+/// through pointers. (Eigen wants a single row to be stored by rows, which is the same.)
+template <class S, int Rows, int Columns>
+using FixedMatrix =
+    Eigen::Matrix<S, Rows, Columns, Rows == 1 && Columns != 1 ? Eigen::RowMajor : Eigen::ColMajor, Rows, Columns>;
 template <class S>
-using Matrix3 = Eigen::Matrix<S, 3, 3>;  ///< A rotation or a homography.
+using Matrix3 = FixedMatrix<S, 3, 3>;  ///< A rotation or a homography.
 
 namespace detail {
 // The scalar of sums over measurements of type S: double for float, else S itself.
@@ -196,14 +202,17 @@ struct WideScalar<float> {
 };
 template <class S>
 using Wide = typename WideScalar<S>::type;
+// The length of an array that a template names by an int: g++ calls the conversion one of signs.
+template <int N>
+constexpr std::size_t kLength = static_cast<std::size_t>(N);
 }  // namespace detail
 
 /// A B of fixed-size matrices, written out: Eigen's loop may become a weak symbol, and the linker may keep the copy
 /// with another instruction set. Eigen's expressions also compile slowly.
 template <class S, int Rows, int Inner, int Columns>
-Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
-                                        const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
-  Eigen::Matrix<S, Rows, Columns> c;
+FixedMatrix<S, Rows, Columns> product(const FixedMatrix<S, Rows, Inner>& a,
+                                      const FixedMatrix<S, Inner, Columns>& b) noexcept {
+  FixedMatrix<S, Rows, Columns> c;
   for (int j = 0; j < Columns; ++j) {
     for (int i = 0; i < Rows; ++i) {
       S sum = a(i, 0) * b(0, j);
@@ -216,9 +225,9 @@ Eigen::Matrix<S, Rows, Columns> product(const Eigen::Matrix<S, Rows, Inner>& a,
 
 /// A^T B, written out likewise. Long columns are summed in two chains, which halves the latency.
 template <class S, int Inner, int Rows, int Columns>
-Eigen::Matrix<S, Rows, Columns> transposed_product(const Eigen::Matrix<S, Inner, Rows>& a,
-                                                   const Eigen::Matrix<S, Inner, Columns>& b) noexcept {
-  Eigen::Matrix<S, Rows, Columns> c;
+FixedMatrix<S, Rows, Columns> transposed_product(const FixedMatrix<S, Inner, Rows>& a,
+                                                 const FixedMatrix<S, Inner, Columns>& b) noexcept {
+  FixedMatrix<S, Rows, Columns> c;
   for (int j = 0; j < Columns; ++j)
     for (int i = 0; i < Rows; ++i) {
       if constexpr (Inner > 2 && Inner % 2 == 0) {
@@ -239,8 +248,8 @@ Eigen::Matrix<S, Rows, Columns> transposed_product(const Eigen::Matrix<S, Inner,
 
 /// A^T, written out likewise.
 template <class S, int Rows, int Columns>
-Eigen::Matrix<S, Columns, Rows> transposed(const Eigen::Matrix<S, Rows, Columns>& a) noexcept {
-  Eigen::Matrix<S, Columns, Rows> c;
+FixedMatrix<S, Columns, Rows> transposed(const FixedMatrix<S, Rows, Columns>& a) noexcept {
+  FixedMatrix<S, Columns, Rows> c;
   for (int j = 0; j < Columns; ++j)
     for (int i = 0; i < Rows; ++i) c(j, i) = a(i, j);
   return c;
@@ -248,8 +257,8 @@ Eigen::Matrix<S, Columns, Rows> transposed(const Eigen::Matrix<S, Rows, Columns>
 
 /// The block of Rows x Columns at (row, column), written out likewise.
 template <int Rows, int Columns, class S, int AllRows, int AllColumns>
-Eigen::Matrix<S, Rows, Columns> block(const Eigen::Matrix<S, AllRows, AllColumns>& a, int row, int column) noexcept {
-  Eigen::Matrix<S, Rows, Columns> c;
+FixedMatrix<S, Rows, Columns> block(const FixedMatrix<S, AllRows, AllColumns>& a, int row, int column) noexcept {
+  FixedMatrix<S, Rows, Columns> c;
   for (int j = 0; j < Columns; ++j)
     for (int i = 0; i < Rows; ++i) c(i, j) = a(row + i, column + j);
   return c;
@@ -257,8 +266,8 @@ Eigen::Matrix<S, Rows, Columns> block(const Eigen::Matrix<S, AllRows, AllColumns
 
 /// factor A, written out likewise.
 template <class S, int Rows, int Columns>
-Eigen::Matrix<S, Rows, Columns> scaled(const S& factor, const Eigen::Matrix<S, Rows, Columns>& a) noexcept {
-  Eigen::Matrix<S, Rows, Columns> c;
+FixedMatrix<S, Rows, Columns> scaled(const S& factor, const FixedMatrix<S, Rows, Columns>& a) noexcept {
+  FixedMatrix<S, Rows, Columns> c;
   for (int i = 0; i < Rows * Columns; ++i) c.data()[i] = factor * a.data()[i];
   return c;
 }
@@ -302,7 +311,7 @@ bool all_finite(const Eigen::DenseBase<Derived>& m) noexcept {
 template <class S, int N>
 class Ldlt {
  public:
-  using Matrix = Eigen::Matrix<S, N, N>;  ///< The matrix of the system.
+  using Matrix = FixedMatrix<S, N, N>;    ///< The matrix of the system.
   using Vector = Eigen::Matrix<S, N, 1>;  ///< Right side and solution.
 
   /// Factorises `a`.
@@ -348,23 +357,23 @@ class Ldlt {
 
  private:
   Matrix l_;
-  S d_[N] = {};
+  S d_[detail::kLength<N>] = {};
   bool ok_ = false;
 };
 
 /// Eigenvalues (ascending) and eigenvectors (columns) of a symmetric N x N matrix by cyclic Jacobi rotations.
 template <class S, int N>
 struct SymmetricEigen {
-  Eigen::Matrix<S, N, 1> values;   ///< Eigenvalues.
-  Eigen::Matrix<S, N, N> vectors;  ///< Eigenvectors of unit length: columns, in the order of the values.
+  Eigen::Matrix<S, N, 1> values;  ///< Eigenvalues.
+  FixedMatrix<S, N, N> vectors;   ///< Eigenvectors of unit length: columns, in the order of the values.
 };
 
 /// Eigenvalues and eigenvectors of a symmetric matrix, by Jacobi rotations.
 template <class S, int N>
-SymmetricEigen<S, N> symmetric_eigen(const Eigen::Matrix<S, N, N>& matrix) noexcept {
+SymmetricEigen<S, N> symmetric_eigen(const FixedMatrix<S, N, N>& matrix) noexcept {
   using std::abs;
   using std::sqrt;
-  Eigen::Matrix<S, N, N> a = matrix;
+  FixedMatrix<S, N, N> a = matrix;
   SymmetricEigen<S, N> e;
   e.vectors.setIdentity();
   for (int sweep = 0; sweep < 30; ++sweep) {
@@ -438,7 +447,7 @@ enum class Status : std::uint8_t {
   degenerate,        ///< The geometry is degenerate: zero area, zero baseline, coincident points.
   non_finite,        ///< A NaN or an infinity in the input or in the result.
   invalid_argument,  ///< Null pointer, negative size, stride below the width, unknown option.
-  diverged,          ///< No step lowered the cost although the gradient does not vanish.
+  diverged,          ///< No step lowered the cost although the gradient does not vanish; or what was found is no match.
   unsupported,       ///< This form of the computation cannot take the case; another one can.
 };
 
@@ -482,7 +491,7 @@ struct is_camera_model : std::false_type {};
 template <template <class> class Model, class S>
 struct is_camera_model<
     Model<S>,
-    std::void_t<decltype(Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<Eigen::Matrix<S, 2, 3>*>(nullptr))),
+    std::void_t<decltype(Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<FixedMatrix<S, 2, 3>*>(nullptr))),
                          Status{Model<S>().unproject(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
                          Pinhole<S>(Model<S>().pinhole()), Model<S>(Model<S>().at_level(0)),
                          Model<S>::from_parameters(Model<S>().parameters()),
@@ -522,7 +531,7 @@ struct Pinhole {
 
   /// Pixel of the camera-frame point p; the caller has checked p_z > 0. If J is given it receives d pixel / d p (2 x
   /// 3).
-  Vector2<S> project(const Vector3<S>& p, Eigen::Matrix<S, 2, 3>* J = nullptr) const noexcept {
+  Vector2<S> project(const Vector3<S>& p, FixedMatrix<S, 2, 3>* J = nullptr) const noexcept {
     const S iz = S(1) / p[2], u = p[0] * iz, v = p[1] * iz;
     if (J) *J << fx * iz, S(0), -fx * u * iz, S(0), fy * iz, -fy * v * iz;
     return {fx * u + cx, fy * v + cy};
@@ -597,16 +606,16 @@ struct RadialTangential {
   /// In front of the camera, where the lens does not fold over (see undistort()).
   bool in_domain(const Vector3<S>& p) const noexcept {
     if (!(p[2] > S(0))) return false;
-    Eigen::Matrix<S, 2, 2> J;
+    FixedMatrix<S, 2, 2> J;
     distort({p[0] / p[2], p[1] / p[2]}, &J);
     return J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0) > min_determinant();
   }
 
   /// Pixel of the camera-frame point p, which is in the domain. If J is given it receives d pixel / d p (2 x 3).
-  Vector2<S> project(const Vector3<S>& p, Eigen::Matrix<S, 2, 3>* J = nullptr) const noexcept {
+  Vector2<S> project(const Vector3<S>& p, FixedMatrix<S, 2, 3>* J = nullptr) const noexcept {
     const Vector2<S> m(p[0] / p[2], p[1] / p[2]);
     if (!J) return intrinsics.pixel(distort(m));
-    Eigen::Matrix<S, 2, 2> D;
+    FixedMatrix<S, 2, 2> D;
     const Vector2<S> distorted = distort(m, &D);
     D.row(0) *= intrinsics.fx;
     D.row(1) *= intrinsics.fy;
@@ -624,7 +633,7 @@ struct RadialTangential {
   }
 
   /// Distorted normalised point of m. If J is given it receives d m_d / d m (2 x 2).
-  Vector2<S> distort(const Vector2<S>& m, Eigen::Matrix<S, 2, 2>* J = nullptr) const noexcept {
+  Vector2<S> distort(const Vector2<S>& m, FixedMatrix<S, 2, 2>* J = nullptr) const noexcept {
     const S x = m[0], y = m[1], r2 = x * x + y * y;
     const S radial = S(1) + r2 * (k1 + r2 * (k2 + r2 * k3));
     if (J) {
@@ -646,7 +655,7 @@ struct RadialTangential {
     const S tolerance = std::numeric_limits<S>::epsilon() < S(1e-10) ? S(1e-12) : S(1e-6);
     Vector2<S> x = distorted;
     for (int i = 0; i < 20; ++i) {
-      Eigen::Matrix<S, 2, 2> J;
+      FixedMatrix<S, 2, 2> J;
       const Vector2<S> e = distort(x, &J) - distorted;
       const S det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
       if (!(det > min_determinant()) || !all_finite(e)) return Status::degenerate;
@@ -950,8 +959,8 @@ Vector6<S> se3_log(const SE3<S>& T) noexcept {
 
 /// Ad_T with T Exp(xi) = Exp(Ad_T xi) T, for xi = (v, omega): [R, [t]x R; 0, R].
 template <class S>
-Eigen::Matrix<S, 6, 6> adjoint(const SE3<S>& T) noexcept {
-  Eigen::Matrix<S, 6, 6> a;
+FixedMatrix<S, 6, 6> adjoint(const SE3<S>& T) noexcept {
+  FixedMatrix<S, 6, 6> a;
   a.template block<3, 3>(0, 0) = T.R;
   a.template block<3, 3>(0, 3) = product(hat(T.t), T.R);
   a.template block<3, 3>(3, 0).setZero();
@@ -1088,7 +1097,7 @@ Vector3<S> plane_point(const Vector3<S>& theta, const Vector3<S>& m) noexcept {
 /// then the outputs are untouched.
 template <class S>
 Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* out, Matrix3<S>* J_theta = nullptr,
-                      Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {
+                      FixedMatrix<S, 3, 6>* J_pose = nullptr) noexcept {
   const Vector3<S> a = product(T_t_h.R, theta);
   const S k = S(1) + a.dot(T_t_h.t);
   if (!is_finite(k) || !all_finite(a)) return Status::non_finite;
@@ -1123,7 +1132,7 @@ Status reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Vector3<S>* 
 /// Value form of reanchor_plane(): zeros, in the Jacobians too, where the status form fails.
 template <class S>
 Vector3<S> reanchor_plane(const Vector3<S>& theta, const SE3<S>& T_t_h, Matrix3<S>* J_theta = nullptr,
-                          Eigen::Matrix<S, 3, 6>* J_pose = nullptr) noexcept {
+                          FixedMatrix<S, 3, 6>* J_pose = nullptr) noexcept {
   Vector3<S> out = Vector3<S>::Zero();
   if (J_theta) J_theta->setZero();
   if (J_pose) J_pose->setZero();
@@ -1186,8 +1195,8 @@ Status warp(const Matrix3<S>& H, const Vector3<S>& m, Vector2<S>* out) noexcept 
 /// Derivatives of the warped normalised point m'.
 template <class S>
 struct WarpJacobians {
-  Eigen::Matrix<S, 2, 6> pose;   ///< By the left perturbation of T_t_h, xi = (v, omega).
-  Eigen::Matrix<S, 2, 3> theta;  ///< By theta.
+  FixedMatrix<S, 2, 6> pose;   ///< By the left perturbation of T_t_h, xi = (v, omega).
+  FixedMatrix<S, 2, 3> theta;  ///< By theta.
 };
 
 /// m' of m~ through the plane. behind_camera unless both depths are positive (rho > 0, q_z > 0), non_finite for NaN and
@@ -1206,7 +1215,7 @@ Status warp_point(const Vector3<S>& theta, const SE3<S>& T_t_h, const Vector3<S>
   const Vector2<S> warped(q[0] * iz, q[1] * iz);
   if (!is_finite(iz) || !all_finite(warped)) return Status::non_finite;
   if (J) {
-    Eigen::Matrix<S, 2, 3> P;
+    FixedMatrix<S, 2, 3> P;
     P << iz, S(0), -warped[0] * iz, S(0), iz, -warped[1] * iz;
     WarpJacobians<S> derivatives;
     derivatives.pose.template leftCols<3>() = rho * P;
@@ -1229,8 +1238,8 @@ enum class PerturbationSide {
 /// d xi / d xi_h and d xi / d xi_t, xi the left perturbation of T_t_h.
 template <class S>
 struct RelativePoseJacobians {
-  Eigen::Matrix<S, 6, 6> host;    ///< d xi(T_t_h) / d xi of the host's pose.
-  Eigen::Matrix<S, 6, 6> target;  ///< d xi(T_t_h) / d xi of the target's pose.
+  FixedMatrix<S, 6, 6> host;    ///< d xi(T_t_h) / d xi of the host's pose.
+  FixedMatrix<S, 6, 6> target;  ///< d xi(T_t_h) / d xi of the target's pose.
 };
 
 /// How perturbations of the world poses move T_t_h = T_w_t^-1 T_w_h. right: host = Ad(T_t_h), target = -I; left:
@@ -1243,7 +1252,7 @@ RelativePoseJacobians<S> relative_pose_jacobians(const SE3<S>& T_w_h, const SE3<
   RelativePoseJacobians<S> J;
   if (side == PerturbationSide::right) {
     J.host = adjoint<S>(T_t_w * T_w_h);
-    J.target = -Eigen::Matrix<S, 6, 6>::Identity();
+    J.target = -FixedMatrix<S, 6, 6>::Identity();
   } else {
     J.host = adjoint(T_t_w);
     J.target = -J.host;
@@ -1283,10 +1292,10 @@ struct PlaneFit {
   /// Of theta: the inverse of the information sum w J^T J with w = 1 / variance. Without weights (or with relative
   /// ones) multiply it by sigma^2. Zero unless rank is 3.
   Matrix3<S> covariance = Matrix3<S>::Zero();
-  int rank = 0;                                 ///< Of the weighted design matrix (0 to 3).
-  S condition = std::numeric_limits<S>::max();  ///< Its largest over smallest singular value; max() unless rank is 3.
-  S sigma = S(0);                               ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
-  Status status = Status::too_few;              ///< Whether `value` can be used.
+  int rank = 0;                                   ///< Of the weighted design matrix (0 to 3).
+  S condition = (std::numeric_limits<S>::max)();  ///< Its largest over smallest singular value; max() unless rank is 3.
+  S sigma = S(0);                                 ///< sqrt(sum w r^2 / degrees of freedom); 0 without redundancy.
+  Status status = Status::too_few;                ///< Whether `value` can be used.
 };
 
 namespace detail {
@@ -1344,6 +1353,12 @@ bool set_covariance(const Ldlt<Wide<S>, 3>& information, const Wide<S>& scale, P
   return all_finite(fit->covariance) && all_finite(fit->value) && is_finite(fit->sigma);
 }
 
+/// False for pixels in the place of a normalised point: a ray more than 84 degrees off the axis, which no pinhole sees.
+template <class S>
+bool plausible_ray(const Vector3<S>& m) noexcept {
+  return !(m[0] * m[0] + m[1] * m[1] > S(100) * m[2] * m[2]);
+}
+
 template <class S>
 PlaneFit<S> with_status(PlaneFit<S> fit, Status status) noexcept {
   fit.status = status;
@@ -1367,7 +1382,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// m: homogeneous normalised points (third entry 1); rho: their inverse depths; weight: 1 / variance of each rho, or
 /// null for ones; a weight of 0 leaves its row out. Degrees of freedom of sigma: n - 3. Status: too_few (n < 3, rank
 /// still reported), rank_deficient (collinear or coincident points), behind_camera (the solution has rho <= 0 at one of
-/// the points), non_finite, invalid_argument (null pointer, negative n or weight).
+/// the points), non_finite, invalid_argument (null pointer, negative n or weight, a ray more than 84 degrees off the
+/// axis: pixels in the place of m~ = camera.unproject(pixel)).
 template <class S>
 PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const typename PlaneFit<S>::Scalar* weight,
                                       int n) noexcept {
@@ -1380,6 +1396,7 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
     Status status = Status::ok;
     const W w = detail::plane_weight(weight, i, &status);
     if (!all_finite(m[i]) || !is_finite(rho[i])) status = Status::non_finite;
+    if (status == Status::ok && !detail::plausible_ray(m[i])) status = Status::invalid_argument;
     if (status != Status::ok) return detail::failed_plane<S>(status);
     sums.add(m[i].template cast<W>(), w, w * W(rho[i]));
     used += w > W(0) ? 1 : 0;
@@ -1388,7 +1405,7 @@ PlaneFit<S> plane_from_inverse_depths(const Vector3<S>* m, const S* rho, const t
   detail::set_rank(sums.A, &fit);
   if (used < 3) return fit;
   const Ldlt<W, 3> ldlt(sums.A);
-  if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::rank_deficient);
+  if (fit.rank != 3 || !ldlt.ok()) return detail::with_status(fit, Status::rank_deficient);
   Vector3<W> theta = ldlt.solve(sums.b);
   // One step of refinement on the residuals brings the normal equations to the accuracy of an orthogonal factorisation.
   Vector3<W> correction = Vector3<W>::Zero();
@@ -1474,7 +1491,7 @@ Status refine_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, cons
 /// normalised target coordinate, or null for ones; 0 leaves its match out. `rank` and `condition` describe the
 /// linear system; degrees of freedom of sigma: 2 n - 3. Status: too_few, rank_deficient (collinear), degenerate (no
 /// baseline, or parallax below the rounding error, as after a pure rotation), behind_camera (a match ends behind a
-/// camera), non_finite, invalid_argument.
+/// camera), non_finite, invalid_argument (also for a ray more than 84 degrees off the axis, as pixels would be).
 template <class S>
 PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* target_m, int n, const SE3<S>& T_t_h,
                                const typename PlaneFit<S>::Scalar* weight = nullptr) noexcept {
@@ -1490,6 +1507,8 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
     Status status = Status::ok;
     const W w = detail::plane_weight(weight, i, &status);
     if (!all_finite(host_m[i]) || !all_finite(target_m[i])) status = Status::non_finite;
+    if (status == Status::ok && !(detail::plausible_ray(host_m[i]) && detail::plausible_ray(target_m[i])))
+      status = Status::invalid_argument;
     if (status != Status::ok) return detail::failed_plane<S>(status);
     const Vector3<W> m = host_m[i].template cast<W>(), mt = target_m[i].template cast<W>(), Rm = T.R * m;
     const Vector3<W> e = mt.cross(T.t);
@@ -1502,7 +1521,7 @@ PlaneFit<S> plane_from_matches(const Vector3<S>* host_m, const Vector3<S>* targe
   if (used < 3) return fit;
   if (fit.rank == 0) return detail::with_status(fit, Status::degenerate);
   const Ldlt<W, 3> start(linear.A);
-  if (fit.rank < 3 || !start.ok()) return detail::with_status(fit, Status::rank_deficient);
+  if (fit.rank != 3 || !start.ok()) return detail::with_status(fit, Status::rank_deficient);
 
   Vector3<W> theta = start.solve(linear.b);
   detail::MatchSystem<W> system;
@@ -1563,11 +1582,11 @@ PlaneFit<S> plane_from_points(const Vector3<S>* p, int n,
   const Ldlt<W, 3> ldlt(sums.A);
   const W rounding = detail::rank_ratio<S>() * sums.A.trace();  // of the coordinates, not of their differences
   if (!(e.values[1] > rounding)) {
-    fit.rank = fit.rank < 2 ? fit.rank : 2;
-    fit.condition = std::numeric_limits<S>::max();
+    fit.rank = (std::min)(fit.rank, 2);
+    fit.condition = (std::numeric_limits<S>::max)();
     return detail::with_status(fit, Status::rank_deficient);
   }
-  if (fit.rank < 3 || !ldlt.ok()) return detail::with_status(fit, Status::behind_camera);
+  if (fit.rank != 3 || !ldlt.ok()) return detail::with_status(fit, Status::behind_camera);
   const Vector3<W> normal = e.vectors.col(0);
   const W distance = normal.dot(centre);
   if (distance == W(0)) return detail::with_status(fit, Status::behind_camera);
@@ -2770,6 +2789,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"  // of masks, where intrinsics are macros: at -O0
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -5312,6 +5333,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif  // TEXTPLANE_HAS_KERNELS
 
@@ -5327,6 +5349,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -5615,6 +5639,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -5647,6 +5672,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -5889,6 +5916,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -6166,6 +6194,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -6215,13 +6245,14 @@ TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, si
   out->x_high = reduce_max(x_high);
   out->y_low = reduce_min(y_low);
   out->y_high = reduce_max(y_high);
-  const double all =
-      reduce_sum_double(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
+  const double all = reduce_sum_double(nothing) + 0.0 * static_cast<double>(out->x_low) +
+                     0.0 * static_cast<double>(out->x_high) + 0.0 * static_cast<double>(out->y_low) +
+                     0.0 * static_cast<double>(out->y_high);
   out->n = finite_d(all) ? n : 0;
 }
 TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
   const float middle = 0.5F * low + 0.5F * high;
-  return finite_d(middle) ? middle : 0.0F;
+  return finite_d(static_cast<double>(middle)) ? middle : 0.0F;
 }
 TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
@@ -6258,7 +6289,7 @@ TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy
 // The same for h from host pixel to target pixel.
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
                                      simd::Warp8* w) noexcept {
-  const double u = hx, v = hy;
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy);
   const double centred[9] = {h[0], h[1], h[0] * u + h[1] * v + h[2], h[3], h[4], h[3] * u + h[4] * v + h[5],
                              h[6], h[7], h[6] * u + h[7] * v + h[8]};
   return make_centred_warp(centred, hx, hy, width, height, w);
@@ -6500,13 +6531,14 @@ TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, si
   out->x_high = reduce_max(x_high);
   out->y_low = reduce_min(y_low);
   out->y_high = reduce_max(y_high);
-  const double all =
-      reduce_sum_double(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
+  const double all = reduce_sum_double(nothing) + 0.0 * static_cast<double>(out->x_low) +
+                     0.0 * static_cast<double>(out->x_high) + 0.0 * static_cast<double>(out->y_low) +
+                     0.0 * static_cast<double>(out->y_high);
   out->n = finite_d(all) ? n : 0;
 }
 TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
   const float middle = 0.5F * low + 0.5F * high;
-  return finite_d(middle) ? middle : 0.0F;
+  return finite_d(static_cast<double>(middle)) ? middle : 0.0F;
 }
 TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
@@ -6536,7 +6568,7 @@ TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy
 }
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
                                      simd::Warp8* w) noexcept {
-  const double u = hx, v = hy;
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy);
   const double centred[9] = {h[0], h[1], h[0] * u + h[1] * v + h[2], h[3], h[4], h[3] * u + h[4] * v + h[5],
                              h[6], h[7], h[6] * u + h[7] * v + h[8]};
   return make_centred_warp(centred, hx, hy, width, height, w);
@@ -6752,13 +6784,14 @@ TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, si
   out->x_high = reduce_max(x_high);
   out->y_low = reduce_min(y_low);
   out->y_high = reduce_max(y_high);
-  const double all =
-      reduce_sum_double(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
+  const double all = reduce_sum_double(nothing) + 0.0 * static_cast<double>(out->x_low) +
+                     0.0 * static_cast<double>(out->x_high) + 0.0 * static_cast<double>(out->y_low) +
+                     0.0 * static_cast<double>(out->y_high);
   out->n = finite_d(all) ? n : 0;
 }
 TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
   const float middle = 0.5F * low + 0.5F * high;
-  return finite_d(middle) ? middle : 0.0F;
+  return finite_d(static_cast<double>(middle)) ? middle : 0.0F;
 }
 TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
@@ -6788,7 +6821,7 @@ TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy
 }
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
                                      simd::Warp8* w) noexcept {
-  const double u = hx, v = hy;
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy);
   const double centred[9] = {h[0], h[1], h[0] * u + h[1] * v + h[2], h[3], h[4], h[3] * u + h[4] * v + h[5],
                              h[6], h[7], h[6] * u + h[7] * v + h[8]};
   return make_centred_warp(centred, hx, hy, width, height, w);
@@ -7004,13 +7037,14 @@ TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, si
   out->x_high = reduce_max(x_high);
   out->y_low = reduce_min(y_low);
   out->y_high = reduce_max(y_high);
-  const double all =
-      reduce_sum_double(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
+  const double all = reduce_sum_double(nothing) + 0.0 * static_cast<double>(out->x_low) +
+                     0.0 * static_cast<double>(out->x_high) + 0.0 * static_cast<double>(out->y_low) +
+                     0.0 * static_cast<double>(out->y_high);
   out->n = finite_d(all) ? n : 0;
 }
 TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
   const float middle = 0.5F * low + 0.5F * high;
-  return finite_d(middle) ? middle : 0.0F;
+  return finite_d(static_cast<double>(middle)) ? middle : 0.0F;
 }
 TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
@@ -7040,7 +7074,7 @@ TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy
 }
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
                                      simd::Warp8* w) noexcept {
-  const double u = hx, v = hy;
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy);
   const double centred[9] = {h[0], h[1], h[0] * u + h[1] * v + h[2], h[3], h[4], h[3] * u + h[4] * v + h[5],
                              h[6], h[7], h[6] * u + h[7] * v + h[8]};
   return make_centred_warp(centred, hx, hy, width, height, w);
@@ -7256,13 +7290,14 @@ TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, si
   out->x_high = reduce_max(x_high);
   out->y_low = reduce_min(y_low);
   out->y_high = reduce_max(y_high);
-  const double all =
-      reduce_sum_double(nothing) + 0.0 * out->x_low + 0.0 * out->x_high + 0.0 * out->y_low + 0.0 * out->y_high;
+  const double all = reduce_sum_double(nothing) + 0.0 * static_cast<double>(out->x_low) +
+                     0.0 * static_cast<double>(out->x_high) + 0.0 * static_cast<double>(out->y_low) +
+                     0.0 * static_cast<double>(out->y_high);
   out->n = finite_d(all) ? n : 0;
 }
 TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
   const float middle = 0.5F * low + 0.5F * high;
-  return finite_d(middle) ? middle : 0.0F;
+  return finite_d(static_cast<double>(middle)) ? middle : 0.0F;
 }
 TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
@@ -7292,7 +7327,7 @@ TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy
 }
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
                                      simd::Warp8* w) noexcept {
-  const double u = hx, v = hy;
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy);
   const double centred[9] = {h[0], h[1], h[0] * u + h[1] * v + h[2], h[3], h[4], h[3] * u + h[4] * v + h[5],
                              h[6], h[7], h[6] * u + h[7] * v + h[8]};
   return make_centred_warp(centred, hx, hy, width, height, w);
@@ -7480,6 +7515,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -7494,6 +7530,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -8078,6 +8116,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -8176,8 +8215,8 @@ struct PatchLevel {
 /// one side of it at the image's border. Unlike the interpolant's own gradient it favours no side at integer positions.
 /// The image must contain (x, y); zero along an axis of one pixel.
 inline void host_gradient(const ImageView8& image, float x, float y, float* gx, float* gy) noexcept {
-  const float left = std::max(x - 0.5F, 0.0F), right = std::min(x + 0.5F, static_cast<float>(image.width() - 1));
-  const float up = std::max(y - 0.5F, 0.0F), down = std::min(y + 0.5F, static_cast<float>(image.height() - 1));
+  const float left = (std::max)(x - 0.5F, 0.0F), right = (std::min)(x + 0.5F, static_cast<float>(image.width() - 1));
+  const float up = (std::max)(y - 0.5F, 0.0F), down = (std::min)(y + 0.5F, static_cast<float>(image.height() - 1));
   float a = 0, b = 0;
   *gx = sample_bilinear(image, right, y, &b) && sample_bilinear(image, left, y, &a) && right > left
             ? (b - a) / (right - left)
@@ -8215,7 +8254,7 @@ TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& came
   TextPatch patch;
   patch.quad = quad;
   patch.camera = camera;
-  const int levels = std::min({host.levels, kMaxPyramidLevels, static_cast<int>(pixels.size())});
+  const int levels = (std::min)({host.levels, kMaxPyramidLevels, static_cast<int>(pixels.size())});
   if (levels < 1 || !camera.valid()) return patch;
   if (!all_finite(quad)) {
     patch.status = Status::non_finite;
@@ -8244,9 +8283,9 @@ TextPatch patch_from_pixels(const PyramidView& host, const Pinhole<double>& came
       values->erase(values->begin() + static_cast<std::ptrdiff_t>(n), values->end());
     }
     level.find_bounds();
-    most = std::max(most, level.x.size());
+    most = (std::max)(most, level.x.size());
   }
-  patch.status = static_cast<int>(most) < std::max(min_pixels, 1) ? Status::too_few : Status::ok;
+  patch.status = static_cast<int>(most) < (std::max)(min_pixels, 1) ? Status::too_few : Status::ok;
   return patch;
 }
 
@@ -8256,7 +8295,7 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-using Matrix2d = Eigen::Matrix<double, 2, 2>;  ///< A covariance, px^2.
+using Matrix2d = FixedMatrix<double, 2, 2>;  ///< A covariance, px^2.
 
 /// Covariances, px^2 of each image, of the Gaussian filters that bring host and target to one blur on the plane.
 struct BlurMatch {
@@ -8270,8 +8309,9 @@ struct BlurMatch {
 /// of M and, along each, `spread` times the larger variance. host = B - V_h I, target = A B A^T - V_t I. With a spread
 /// above 1 (2 is a good one) a filter of known shape outweighs the unknown part of the blur.
 ///
-/// degenerate where A cannot be inverted, non_finite, invalid_argument for a negative variance or a spread below 1;
-/// *out is then untouched.
+/// degenerate where A cannot be inverted or is one of no image (entries of A or M beyond 1e100), non_finite also where
+/// the covariances would not be numbers, invalid_argument for a negative variance or a spread below 1; *out is then
+/// untouched.
 template <class S = double>  // instantiated where it is called: including the header costs little
 Status match_blur(const Matrix2d& A, double host_variance, double target_variance, double spread,
                   BlurMatch* out) noexcept {
@@ -8280,14 +8320,18 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
   if (!(host_variance >= 0) || !(target_variance >= 0) || !(spread >= 1)) return Status::invalid_argument;
   const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
   if (!(std::abs(det) > 1e-9) || !is_finite(1 / (det * det))) return Status::degenerate;
-  using Matrix = Eigen::Matrix<S, 2, 2>;
+  using Matrix = FixedMatrix<S, 2, 2>;
   Matrix inverse, A_transposed;
   inverse << A(1, 1) / det, -A(0, 1) / det, -A(1, 0) / det, A(0, 0) / det;
   const Matrix transposed = inverse.transpose();
-  const SymmetricEigen<S, 2> seen = symmetric_eigen<S, 2>(product(inverse, transposed));
+  const Matrix M = product(inverse, transposed);
+  // The squares of larger numbers are none, and eigenvalues are made of them.
+  for (int i = 0; i < 4; ++i)
+    if (!(std::abs(A(i / 2, i % 2)) <= 1e100) || !(std::abs(M(i / 2, i % 2)) <= 1e100)) return Status::degenerate;
+  const SymmetricEigen<S, 2> seen = symmetric_eigen<S, 2>(M);
   Matrix common = Matrix::Zero();
   for (int k = 0; k < 2; ++k) {
-    const double variance = spread * std::max(host_variance, target_variance * seen.values[k]);
+    const double variance = spread * (std::max)(host_variance, target_variance * seen.values[k]);
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) common(i, j) += variance * seen.vectors(i, k) * seen.vectors(j, k);
   }
@@ -8297,6 +8341,7 @@ Status match_blur(const Matrix2d& A, double host_variance, double target_varianc
     match.host(i, i) -= host_variance;
     match.target(i, i) -= target_variance;
   }
+  if (!all_finite(match.host) || !all_finite(match.target)) return Status::non_finite;
   *out = match;
   return Status::ok;
 }
@@ -8312,15 +8357,20 @@ class BlurKernel {
   /// The kernel of a covariance in px^2.
   template <class S = double>  // instantiated where it is called: including the header costs little
   explicit BlurKernel(const Matrix2d& covariance) noexcept {
-    Eigen::Matrix<S, 2, 2> finite = covariance;
+    FixedMatrix<S, 2, 2> finite = covariance;
     if (!all_finite(finite)) finite.setZero();
-    const SymmetricEigen<S, 2> axes = symmetric_eigen(finite);
+    // The squares of such numbers are none; the eigenvectors do not depend on the unit.
+    double most = 0;
+    for (int i = 0; i < 4; ++i) most = (std::max)(most, std::abs(finite(i / 2, i % 2)));
+    const double unit = most > 1e100 ? most / 1e100 : 1;
+    const SymmetricEigen<S, 2> axes = symmetric_eigen(scaled(1 / unit, finite));
     // The mean over a pixel is a blur, too.
     constexpr double kPixel = 1.0 / 12, kLeast = 1e-3;
     double precision[2];
-    for (int k = 0; k < 2; ++k) precision[k] = 1.0 / std::max(std::min(axes.values[k], kMaxVariance) - kPixel, kLeast);
-    radius_ =
-        std::min(kMaxRadius, static_cast<int>(std::ceil(2.7 * std::sqrt(1.0 / std::min(precision[0], precision[1])))));
+    for (int k = 0; k < 2; ++k)
+      precision[k] = 1.0 / (std::max)((std::min)(unit * axes.values[k], kMaxVariance) - kPixel, kLeast);
+    radius_ = (std::min)(kMaxRadius,
+                         static_cast<int>(std::ceil(2.7 * std::sqrt(1.0 / (std::min)(precision[0], precision[1])))));
     double sum = 0.0, raw[kSide * kSide];
     for (int y = -radius_; y <= radius_; ++y)
       for (int x = -radius_; x <= radius_; ++x) sum += raw[index(x, y)] = mean(x, y, axes, precision);
@@ -8367,7 +8417,8 @@ class BlurFilter {
                     const ImageView<std::uint8_t>& to) {
     if (!from.valid() || !to.valid() || to.width() != from.width() || to.height() != from.height())
       return Status::invalid_argument;
-    x0 = std::max(x0, 0), y0 = std::max(y0, 0), x1 = std::min(x1, from.width()), y1 = std::min(y1, from.height());
+    x0 = (std::max)(x0, 0), y0 = (std::max)(y0, 0), x1 = (std::min)(x1, from.width()),
+    y1 = (std::min)(y1, from.height());
     if (x0 >= x1 || y0 >= y1) return Status::ok;
     load(from, kernel.radius(), x0, y0, x1, y1);
     for (int y = y0; y < y1; ++y) {
@@ -8390,7 +8441,7 @@ class BlurFilter {
     for (std::size_t i = 0; i < n; ++i) {
       if (!host.contains(level->x[i], level->y[i])) continue;
       const int x = static_cast<int>(level->x[i]), y = static_cast<int>(level->y[i]);
-      x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x + 1), y1 = std::max(y1, y + 1);
+      x0 = (std::min)(x0, x), y0 = (std::min)(y0, y), x1 = (std::max)(x1, x + 1), y1 = (std::max)(y1, y + 1);
     }
     if (x0 >= x1) return Status::ok;
     load(host, kernel.radius(), x0, y0, x1, y1);
@@ -8421,10 +8472,10 @@ class BlurFilter {
     const int rows = y1 - y0 + 2 * radius;
     reserve(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows), &grey_);
     for (int y = 0; y < rows; ++y) {
-      const std::uint8_t* row = from.row(std::min(std::max(y0 - radius + y, 0), from.height() - 1));
+      const std::uint8_t* row = from.row((std::min)((std::max)(y0 - radius + y, 0), from.height() - 1));
       float* to = &grey_[static_cast<std::size_t>(y * stride_)];
       for (int x = 0; x < stride_; ++x)
-        to[x] = static_cast<float>(row[std::min(std::max(x0 - radius + x, 0), from.width() - 1)]);
+        to[x] = static_cast<float>(row[(std::min)((std::max)(x0 - radius + x, 0), from.width() - 1)]);
     }
   }
 
@@ -8520,9 +8571,10 @@ TEXTPLANE_END_NAMESPACE
 //
 // Error against the double reference, for samples 1e-4 px clear of pixel lines (where the gradient jumps) and patches
 // of at most 128 px: coordinates 1e-5 px; r sqrt(N) 1e-5 (1 + |g| / sigma), sigma being the standard deviation of the
-// target's intensities; entries of H and b 3e-5 of sqrt(F_ii F_jj) and sqrt(F_ii), F being H with the normalisation
-// frozen (for Cauchy and Tukey: and without weights); cost and E 1e-5 of themselves and 1e-6. For delta < 0.1 the bound
-// of H and b grows as 1 / delta, since weights are ratios to delta.
+// target's intensities. What that makes of the sums depends on the image. Whatever it is, white noise included: entries
+// of H and b 5e-4 of sqrt(F_ii F_jj) and sqrt(F_ii), F being H with the normalisation frozen (for Cauchy and Tukey: and
+// without weights); cost and E 1e-4 of themselves and 1e-5. On the textures of the tests (some 5 % of change a px):
+// 3e-5, and 1e-5 and 1e-6. For delta < 0.1 the bound of H and b grows as 1 / delta, since weights are ratios to delta.
 #ifndef TEXTPLANE_SIMD_RESIDUAL_HPP
 #define TEXTPLANE_SIMD_RESIDUAL_HPP
 
@@ -8544,6 +8596,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -8784,6 +8838,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -8883,6 +8938,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -8967,7 +9024,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
 
   // K_t H K_h^-1 as a function of u, v, and rho likewise; (mu, mv) is the ray where both are 0.
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
-  const double mu = (hx - a.host_camera[2]) * ifx, mv = (hy - a.host_camera[3]) * ify;
+  const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
+               mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
   const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
@@ -9067,7 +9125,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;
   const float hx = middle_x(bounds), hy = middle_y(bounds);
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
-  const double mu = (hx - a.host_camera[2]) * ifx, mv = (hy - a.host_camera[3]) * ify;
+  const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
+               mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
   const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
@@ -9166,7 +9225,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;
   const float hx = middle_x(bounds), hy = middle_y(bounds);
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
-  const double mu = (hx - a.host_camera[2]) * ifx, mv = (hy - a.host_camera[3]) * ify;
+  const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
+               mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
   const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
@@ -9265,7 +9325,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;
   const float hx = middle_x(bounds), hy = middle_y(bounds);
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
-  const double mu = (hx - a.host_camera[2]) * ifx, mv = (hy - a.host_camera[3]) * ify;
+  const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
+               mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
   const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
@@ -9364,7 +9425,8 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;
   const float hx = middle_x(bounds), hy = middle_y(bounds);
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
-  const double mu = (hx - a.host_camera[2]) * ifx, mv = (hy - a.host_camera[3]) * ify;
+  const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
+               mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
   const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
@@ -9408,6 +9470,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -9422,6 +9485,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -10273,6 +10338,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -10287,6 +10353,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -11147,6 +11215,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -11161,6 +11230,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -11912,6 +11983,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -11926,6 +11998,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -12379,6 +12453,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -12393,6 +12468,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -12827,6 +12904,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -12841,6 +12919,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -12951,16 +13031,18 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  if (!has_contrast(a, i_squares, i_mean + o.target, count) || !has_contrast(a, h_squares, h_mean + o.host, count))
+  if (!has_contrast(a, i_squares, i_mean + static_cast<double>(o.target), count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(o.host), count))
     return Status::no_contrast;
-  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
+  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count),
+               kappa = static_cast<double>(o.kappa);
   const double i_scale = root / i_s, h_scale = root / h_s;
   r->on_d = h_scale / kappa;
   r->on_i = r->on_d - i_scale;
   r->shift = i_mean * i_scale - h_mean * h_scale;
   r->i_mean = i_mean;
   r->i_s = i_s;
-  info->mean = i_mean + o.target;
+  info->mean = i_mean + static_cast<double>(o.target);
   info->s = i_s;
   return Status::ok;
 }
@@ -13064,16 +13146,18 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  if (!has_contrast(a, i_squares, i_mean + o.target, count) || !has_contrast(a, h_squares, h_mean + o.host, count))
+  if (!has_contrast(a, i_squares, i_mean + static_cast<double>(o.target), count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(o.host), count))
     return Status::no_contrast;
-  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
+  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count),
+               kappa = static_cast<double>(o.kappa);
   const double i_scale = root / i_s, h_scale = root / h_s;
   r->on_d = h_scale / kappa;
   r->on_i = r->on_d - i_scale;
   r->shift = i_mean * i_scale - h_mean * h_scale;
   r->i_mean = i_mean;
   r->i_s = i_s;
-  info->mean = i_mean + o.target;
+  info->mean = i_mean + static_cast<double>(o.target);
   info->s = i_s;
   return Status::ok;
 }
@@ -13177,16 +13261,18 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  if (!has_contrast(a, i_squares, i_mean + o.target, count) || !has_contrast(a, h_squares, h_mean + o.host, count))
+  if (!has_contrast(a, i_squares, i_mean + static_cast<double>(o.target), count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(o.host), count))
     return Status::no_contrast;
-  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
+  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count),
+               kappa = static_cast<double>(o.kappa);
   const double i_scale = root / i_s, h_scale = root / h_s;
   r->on_d = h_scale / kappa;
   r->on_i = r->on_d - i_scale;
   r->shift = i_mean * i_scale - h_mean * h_scale;
   r->i_mean = i_mean;
   r->i_s = i_s;
-  info->mean = i_mean + o.target;
+  info->mean = i_mean + static_cast<double>(o.target);
   info->s = i_s;
   return Status::ok;
 }
@@ -13290,16 +13376,18 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  if (!has_contrast(a, i_squares, i_mean + o.target, count) || !has_contrast(a, h_squares, h_mean + o.host, count))
+  if (!has_contrast(a, i_squares, i_mean + static_cast<double>(o.target), count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(o.host), count))
     return Status::no_contrast;
-  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
+  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count),
+               kappa = static_cast<double>(o.kappa);
   const double i_scale = root / i_s, h_scale = root / h_s;
   r->on_d = h_scale / kappa;
   r->on_i = r->on_d - i_scale;
   r->shift = i_mean * i_scale - h_mean * h_scale;
   r->i_mean = i_mean;
   r->i_s = i_s;
-  info->mean = i_mean + o.target;
+  info->mean = i_mean + static_cast<double>(o.target);
   info->s = i_s;
   return Status::ok;
 }
@@ -13403,16 +13491,18 @@ TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Off
   const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
   const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  if (!has_contrast(a, i_squares, i_mean + o.target, count) || !has_contrast(a, h_squares, h_mean + o.host, count))
+  if (!has_contrast(a, i_squares, i_mean + static_cast<double>(o.target), count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(o.host), count))
     return Status::no_contrast;
-  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count), kappa = o.kappa;
+  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count),
+               kappa = static_cast<double>(o.kappa);
   const double i_scale = root / i_s, h_scale = root / h_s;
   r->on_d = h_scale / kappa;
   r->on_i = r->on_d - i_scale;
   r->shift = i_mean * i_scale - h_mean * h_scale;
   r->i_mean = i_mean;
   r->i_s = i_s;
-  info->mean = i_mean + o.target;
+  info->mean = i_mean + static_cast<double>(o.target);
   info->s = i_s;
   return Status::ok;
 }
@@ -13432,6 +13522,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -13446,6 +13537,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -14300,6 +14393,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -14314,6 +14408,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -15122,6 +15218,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -15136,6 +15233,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -15834,6 +15933,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -15848,6 +15948,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -15911,11 +16013,13 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double count = n, by_count = 1 / count;
   float sum[4], i_offset, h_offset;
   centre_few(target, host, n, p, sum, &i_offset, &h_offset);
-  const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
-  const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  const double i_mean = static_cast<double>(sum[0]) * by_count, h_mean = static_cast<double>(sum[2]) * by_count;
+  const double i_squares = static_cast<double>(sum[1]) - static_cast<double>(sum[0]) * i_mean,
+               h_squares = static_cast<double>(sum[3]) - static_cast<double>(sum[2]) * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  info->mean = i_mean + i_offset;
-  if (!has_contrast(a, i_squares, info->mean, count) || !has_contrast(a, h_squares, h_mean + h_offset, count))
+  info->mean = i_mean + static_cast<double>(i_offset);
+  if (!has_contrast(a, i_squares, info->mean, count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(h_offset), count))
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
@@ -15948,8 +16052,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->root + k, mul(w, by_s));
   }
   reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
-  info->error = sum[0] * by_count;
-  info->cost = sum[1] * by_count;
+  info->error = static_cast<double>(sum[0]) * by_count;
+  info->cost = static_cast<double>(sum[1]) * by_count;
   return Status::ok;
 }
 
@@ -16138,7 +16242,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   double squares = 0;
   for (int g = 0; g < parameters; g += 3) {
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];
-    squares += (static_cast<double>(p[0]) + p[3]) + p[5];
+    squares += (static_cast<double>(p[0]) + static_cast<double>(p[3])) + static_cast<double>(p[5]);
   }
   return finite_d(squares) ? Status::ok : Status::unsupported;
 }
@@ -16195,11 +16299,13 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double count = n, by_count = 1 / count;
   float sum[4], i_offset, h_offset;
   centre_few(target, host, n, p, sum, &i_offset, &h_offset);
-  const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
-  const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  const double i_mean = static_cast<double>(sum[0]) * by_count, h_mean = static_cast<double>(sum[2]) * by_count;
+  const double i_squares = static_cast<double>(sum[1]) - static_cast<double>(sum[0]) * i_mean,
+               h_squares = static_cast<double>(sum[3]) - static_cast<double>(sum[2]) * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  info->mean = i_mean + i_offset;
-  if (!has_contrast(a, i_squares, info->mean, count) || !has_contrast(a, h_squares, h_mean + h_offset, count))
+  info->mean = i_mean + static_cast<double>(i_offset);
+  if (!has_contrast(a, i_squares, info->mean, count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(h_offset), count))
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
@@ -16231,8 +16337,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->root + k, mul(w, by_s));
   }
   reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
-  info->error = sum[0] * by_count;
-  info->cost = sum[1] * by_count;
+  info->error = static_cast<double>(sum[0]) * by_count;
+  info->cost = static_cast<double>(sum[1]) * by_count;
   return Status::ok;
 }
 TEXTPLANE_SIMD_ENTRY void weigh_few_all(const simd::ResidualArgs& a, int n, FewPixels* p,
@@ -16405,7 +16511,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   double squares = 0;
   for (int g = 0; g < parameters; g += 3) {
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];
-    squares += (static_cast<double>(p[0]) + p[3]) + p[5];
+    squares += (static_cast<double>(p[0]) + static_cast<double>(p[3])) + static_cast<double>(p[5]);
   }
   return finite_d(squares) ? Status::ok : Status::unsupported;
 }
@@ -16462,11 +16568,13 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double count = n, by_count = 1 / count;
   float sum[4], i_offset, h_offset;
   centre_few(target, host, n, p, sum, &i_offset, &h_offset);
-  const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
-  const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  const double i_mean = static_cast<double>(sum[0]) * by_count, h_mean = static_cast<double>(sum[2]) * by_count;
+  const double i_squares = static_cast<double>(sum[1]) - static_cast<double>(sum[0]) * i_mean,
+               h_squares = static_cast<double>(sum[3]) - static_cast<double>(sum[2]) * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  info->mean = i_mean + i_offset;
-  if (!has_contrast(a, i_squares, info->mean, count) || !has_contrast(a, h_squares, h_mean + h_offset, count))
+  info->mean = i_mean + static_cast<double>(i_offset);
+  if (!has_contrast(a, i_squares, info->mean, count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(h_offset), count))
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
@@ -16498,8 +16606,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->root + k, mul(w, by_s));
   }
   reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
-  info->error = sum[0] * by_count;
-  info->cost = sum[1] * by_count;
+  info->error = static_cast<double>(sum[0]) * by_count;
+  info->cost = static_cast<double>(sum[1]) * by_count;
   return Status::ok;
 }
 TEXTPLANE_SIMD_ENTRY void weigh_few_all(const simd::ResidualArgs& a, int n, FewPixels* p,
@@ -16672,7 +16780,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   double squares = 0;
   for (int g = 0; g < parameters; g += 3) {
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];
-    squares += (static_cast<double>(p[0]) + p[3]) + p[5];
+    squares += (static_cast<double>(p[0]) + static_cast<double>(p[3])) + static_cast<double>(p[5]);
   }
   return finite_d(squares) ? Status::ok : Status::unsupported;
 }
@@ -16729,11 +16837,13 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double count = n, by_count = 1 / count;
   float sum[4], i_offset, h_offset;
   centre_few(target, host, n, p, sum, &i_offset, &h_offset);
-  const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
-  const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  const double i_mean = static_cast<double>(sum[0]) * by_count, h_mean = static_cast<double>(sum[2]) * by_count;
+  const double i_squares = static_cast<double>(sum[1]) - static_cast<double>(sum[0]) * i_mean,
+               h_squares = static_cast<double>(sum[3]) - static_cast<double>(sum[2]) * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  info->mean = i_mean + i_offset;
-  if (!has_contrast(a, i_squares, info->mean, count) || !has_contrast(a, h_squares, h_mean + h_offset, count))
+  info->mean = i_mean + static_cast<double>(i_offset);
+  if (!has_contrast(a, i_squares, info->mean, count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(h_offset), count))
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
@@ -16765,8 +16875,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->root + k, mul(w, by_s));
   }
   reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
-  info->error = sum[0] * by_count;
-  info->cost = sum[1] * by_count;
+  info->error = static_cast<double>(sum[0]) * by_count;
+  info->cost = static_cast<double>(sum[1]) * by_count;
   return Status::ok;
 }
 TEXTPLANE_SIMD_ENTRY void weigh_few_all(const simd::ResidualArgs& a, int n, FewPixels* p,
@@ -16939,7 +17049,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   double squares = 0;
   for (int g = 0; g < parameters; g += 3) {
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];
-    squares += (static_cast<double>(p[0]) + p[3]) + p[5];
+    squares += (static_cast<double>(p[0]) + static_cast<double>(p[3])) + static_cast<double>(p[5]);
   }
   return finite_d(squares) ? Status::ok : Status::unsupported;
 }
@@ -16996,11 +17106,13 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
   const double count = n, by_count = 1 / count;
   float sum[4], i_offset, h_offset;
   centre_few(target, host, n, p, sum, &i_offset, &h_offset);
-  const double i_mean = sum[0] * by_count, h_mean = sum[2] * by_count;
-  const double i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  const double i_mean = static_cast<double>(sum[0]) * by_count, h_mean = static_cast<double>(sum[2]) * by_count;
+  const double i_squares = static_cast<double>(sum[1]) - static_cast<double>(sum[0]) * i_mean,
+               h_squares = static_cast<double>(sum[3]) - static_cast<double>(sum[2]) * h_mean;
   if (!finite_d(h_squares)) return Status::non_finite;
-  info->mean = i_mean + i_offset;
-  if (!has_contrast(a, i_squares, info->mean, count) || !has_contrast(a, h_squares, h_mean + h_offset, count))
+  info->mean = i_mean + static_cast<double>(i_offset);
+  if (!has_contrast(a, i_squares, info->mean, count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(h_offset), count))
     return Status::no_contrast;
   const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
   info->s = i_s;
@@ -17032,8 +17144,8 @@ TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* 
     store(p->root + k, mul(w, by_s));
   }
   reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
-  info->error = sum[0] * by_count;
-  info->cost = sum[1] * by_count;
+  info->error = static_cast<double>(sum[0]) * by_count;
+  info->cost = static_cast<double>(sum[1]) * by_count;
   return Status::ok;
 }
 TEXTPLANE_SIMD_ENTRY void weigh_few_all(const simd::ResidualArgs& a, int n, FewPixels* p,
@@ -17206,7 +17318,7 @@ TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::Residua
   double squares = 0;
   for (int g = 0; g < parameters; g += 3) {
     const float* p = sum[g / 3 < 2 ? g / 3 : 3];
-    squares += (static_cast<double>(p[0]) + p[3]) + p[5];
+    squares += (static_cast<double>(p[0]) + static_cast<double>(p[3])) + static_cast<double>(p[5]);
   }
   return finite_d(squares) ? Status::ok : Status::unsupported;
 }
@@ -17226,6 +17338,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -17240,6 +17353,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -17567,6 +17682,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -17816,12 +17932,13 @@ struct PhotometricOptions {
   /// default 0.5 is 1.345 sigma (95 % efficiency) for the residuals of a match with ZNCC 0.93, since E = sigma^2 and
   /// ZNCC = 1 - E / 2.
   Robust robust{RobustKind::huber, 0.5};
-  int min_visible = 15;       ///< The paper's minimum; fewer visible pixels are Status::too_few.
-  double min_contrast = 1.0;  ///< Least population standard deviation of either side, in intensity units.
-  bool precise = false;       ///< All in double, by the slow reference, whatever the input.
+  int min_visible = 15;  ///< The paper's minimum; fewer visible pixels are Status::too_few.
+  /// Least population standard deviation of either side, in intensity units; at most 1e30.
+  double min_contrast = 1.0;
+  bool precise = false;  ///< All in double, by the slow reference, whatever the input.
 
   /// Whether the numbers make sense.
-  bool valid() const noexcept { return robust.valid() && is_finite(min_contrast); }
+  bool valid() const noexcept { return robust.valid() && is_finite(min_contrast) && min_contrast <= 1e30; }
 };
 
 /// Whose gradients the derivatives use. The residual and its cost are the same for all; only J differs. With dq as the
@@ -17933,7 +18050,7 @@ struct ResidualStats {
 /// is_ok(status).
 template <int P>
 struct NormalEquations : ResidualStats {
-  Eigen::Matrix<double, P, P> H;  ///< J^T W J.
+  FixedMatrix<double, P, P> H;    ///< J^T W J.
   Eigen::Matrix<double, P, 1> b;  ///< J^T W r.
 
   NormalEquations() noexcept { clear(); }
@@ -18182,7 +18299,7 @@ inline Status normalise(int n, double min_contrast, PhotometricWorkspace& worksp
 template <int P, int... K>
 void row_sums(int n, const double* target, const double* row, double* e, double* c,
               std::integer_sequence<int, K...>) noexcept {
-  double sum[P] = {}, product[P] = {};
+  double sum[kLength<P>] = {}, product[kLength<P>] = {};
   for (int k = 0; k < n; ++k, row += P) {
     const double i = target[k];
     ((sum[K] += row[K], product[K] += i * row[K]), ...);
@@ -18193,7 +18310,7 @@ void row_sums(int n, const double* target, const double* row, double* e, double*
 // Turns the rows dI into rows of dr = -dI~, in place: -(1/s) (dI - e - I~ c), or -dI / s with the normalisation frozen.
 template <int P>
 void project(int n, double s, Normalisation normalisation, PhotometricWorkspace& workspace) noexcept {
-  double e[P] = {}, c[P] = {};
+  double e[kLength<P>] = {}, c[kLength<P>] = {};
   const double scale = -1.0 / s;
   const double* target = workspace.intensities();
   double* row = workspace.rows();
@@ -18225,7 +18342,7 @@ inline WeightedCost weigh(int n, const Robust& robust, PhotometricWorkspace& wor
 // Row I of the upper triangle of sum w j j^T, columns I to P - 1, and sum w r j_I. A pass over all pixels for each row
 // keeps its accumulators in registers.
 template <int P, int I, int... K>
-void accumulate_row(int n, const double* w, const double* r, const double* row, Eigen::Matrix<double, P, P>* H,
+void accumulate_row(int n, const double* w, const double* r, const double* row, FixedMatrix<double, P, P>* H,
                     Eigen::Matrix<double, P, 1>* b, std::integer_sequence<int, K...>) noexcept {
   double h[sizeof...(K)] = {}, g = 0.0;
   for (int k = 0; k < n; ++k, row += P) {
@@ -18239,14 +18356,14 @@ void accumulate_row(int n, const double* w, const double* r, const double* row, 
 
 // H = sum w j j^T, b = sum w r j.
 template <int P, int... I>
-void accumulate_rows(int n, PhotometricWorkspace& workspace, Eigen::Matrix<double, P, P>* H,
+void accumulate_rows(int n, PhotometricWorkspace& workspace, FixedMatrix<double, P, P>* H,
                      Eigen::Matrix<double, P, 1>* b, std::integer_sequence<int, I...>) noexcept {
   (accumulate_row<P, I>(n, workspace.intensities(), workspace.residuals(), workspace.rows(), H, b,
                         std::make_integer_sequence<int, P - I>()),
    ...);
 }
 template <int P>
-void accumulate(int n, PhotometricWorkspace& workspace, Eigen::Matrix<double, P, P>* H,
+void accumulate(int n, PhotometricWorkspace& workspace, FixedMatrix<double, P, P>* H,
                 Eigen::Matrix<double, P, 1>* b) noexcept {
   accumulate_rows<P>(n, workspace, H, b, std::make_integer_sequence<int, P>());
 }
@@ -18493,7 +18610,7 @@ void add_host_rows(const PolicyRequest<T>& request, const Matrix3<double>& inver
   const Matrix3<double> H = plane_homography(request.theta, request.T_t_h);
   const std::uint8_t* visible = workspace.visible();
   const double *t = request.T_t_h.t.data(), *residual = workspace.residuals(), *normalised = workspace.intensities();
-  double e[P] = {}, c[P] = {};
+  double e[kLength<P>] = {}, c[kLength<P>] = {};
   // The first pass sums what the exact normalisation projects out.
   for (int pass = request.options.normalisation == Normalisation::exact ? 0 : 1; pass < 2; ++pass) {
     double* out = workspace.rows();
@@ -18503,7 +18620,7 @@ void add_host_rows(const PolicyRequest<T>& request, const Matrix3<double>& inver
       const double h = residual[k] + normalised[k];
       const double au = static_cast<double>(patch.gx[i]) * camera.fx, av = static_cast<double>(patch.gy[i]) * camera.fy;
       const double aw = -(au * m[0] + av * m[1]);
-      double row[P], q[3], a[3];
+      double row[kLength<P>], q[3], a[3];
       for (int j = 0; j < 3; ++j) {
         q[j] = H(j, 0) * m[0] + H(j, 1) * m[1] + H(j, 2);
         a[j] = au * inverse(0, j) + av * inverse(1, j) + aw * inverse(2, j);
@@ -18808,6 +18925,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -18853,7 +18972,8 @@ TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* righ
 // generators are h_k (theta^T K_h^-1), h_(k+2) r_(k+1) - h_(k+1) r_(k+2), and (K_h H^-1 t) (e_k^T K_h^-1).
 TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
   const double fx = a.host_camera[0], fy = a.host_camera[1], ifx = 1 / fx, ify = 1 / fy;
-  const double c = a.host_camera[2] - f.warp.hx, d = a.host_camera[3] - f.warp.hy, cx = c * ifx, dy = d * ify;
+  const double c = a.host_camera[2] - static_cast<double>(f.warp.hx),
+               d = a.host_camera[3] - static_cast<double>(f.warp.hy), cx = c * ifx, dy = d * ify;
   double column[3][3], row[3][3], back[3];
   for (int k = 0; k < 3; ++k) {
     const double h0 = f.inverse[k], h1 = f.inverse[3 + k], h2 = f.inverse[6 + k];
@@ -18921,7 +19041,8 @@ TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* righ
 }
 TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
   const double fx = a.host_camera[0], fy = a.host_camera[1], ifx = 1 / fx, ify = 1 / fy;
-  const double c = a.host_camera[2] - f.warp.hx, d = a.host_camera[3] - f.warp.hy, cx = c * ifx, dy = d * ify;
+  const double c = a.host_camera[2] - static_cast<double>(f.warp.hx),
+               d = a.host_camera[3] - static_cast<double>(f.warp.hy), cx = c * ifx, dy = d * ify;
   double column[3][3], row[3][3], back[3];
   for (int k = 0; k < 3; ++k) {
     const double h0 = f.inverse[k], h1 = f.inverse[3 + k], h2 = f.inverse[6 + k];
@@ -18989,7 +19110,8 @@ TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* righ
 }
 TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
   const double fx = a.host_camera[0], fy = a.host_camera[1], ifx = 1 / fx, ify = 1 / fy;
-  const double c = a.host_camera[2] - f.warp.hx, d = a.host_camera[3] - f.warp.hy, cx = c * ifx, dy = d * ify;
+  const double c = a.host_camera[2] - static_cast<double>(f.warp.hx),
+               d = a.host_camera[3] - static_cast<double>(f.warp.hy), cx = c * ifx, dy = d * ify;
   double column[3][3], row[3][3], back[3];
   for (int k = 0; k < 3; ++k) {
     const double h0 = f.inverse[k], h1 = f.inverse[3 + k], h2 = f.inverse[6 + k];
@@ -19057,7 +19179,8 @@ TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* righ
 }
 TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
   const double fx = a.host_camera[0], fy = a.host_camera[1], ifx = 1 / fx, ify = 1 / fy;
-  const double c = a.host_camera[2] - f.warp.hx, d = a.host_camera[3] - f.warp.hy, cx = c * ifx, dy = d * ify;
+  const double c = a.host_camera[2] - static_cast<double>(f.warp.hx),
+               d = a.host_camera[3] - static_cast<double>(f.warp.hy), cx = c * ifx, dy = d * ify;
   double column[3][3], row[3][3], back[3];
   for (int k = 0; k < 3; ++k) {
     const double h0 = f.inverse[k], h1 = f.inverse[3 + k], h2 = f.inverse[6 + k];
@@ -19125,7 +19248,8 @@ TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* righ
 }
 TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
   const double fx = a.host_camera[0], fy = a.host_camera[1], ifx = 1 / fx, ify = 1 / fy;
-  const double c = a.host_camera[2] - f.warp.hx, d = a.host_camera[3] - f.warp.hy, cx = c * ifx, dy = d * ify;
+  const double c = a.host_camera[2] - static_cast<double>(f.warp.hx),
+               d = a.host_camera[3] - static_cast<double>(f.warp.hy), cx = c * ifx, dy = d * ify;
   double column[3][3], row[3][3], back[3];
   for (int k = 0; k < 3; ++k) {
     const double h0 = f.inverse[k], h1 = f.inverse[3 + k], h2 = f.inverse[6 + k];
@@ -19167,6 +19291,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -19181,6 +19306,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -20198,6 +20325,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -20291,6 +20419,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -21635,6 +21765,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -21649,6 +21780,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -21671,8 +21804,8 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
-               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
+               v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -21899,8 +22032,8 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
-               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
+               v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -22108,8 +22241,8 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
-               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
+               v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -22317,8 +22450,8 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
-               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
+               v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -22526,8 +22659,8 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   double g[8];
   const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
   for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
-  const double u = static_cast<double>(m.bounds.x_high) - f.warp.hx,
-               v = static_cast<double>(m.bounds.y_high) - f.warp.hy;
+  const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
+               v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
   double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
   for (int corner = 0; corner < 4; ++corner) {
     const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
@@ -22729,6 +22862,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -22858,16 +22992,16 @@ class TemplatePatch {
   bool set_intensity(const PatchView& patch, float* intensity) {
     double low = static_cast<double>(patch.intensity[0]), high = low;
     for (int i = 0; i < patch.n; ++i) {
-      low = std::min(low, static_cast<double>(patch.intensity[i]));
-      high = std::max(high, static_cast<double>(patch.intensity[i]));
+      low = (std::min)(low, static_cast<double>(patch.intensity[i]));
+      high = (std::max)(high, static_cast<double>(patch.intensity[i]));
     }
-    const double middle = std::floor(low + high) / 2, reach = std::max(high - middle, middle - low);
+    const double middle = std::floor(low + high) / 2, reach = (std::max)(high - middle, middle - low);
     if (!(reach > 0)) return false;
-    const double scale = std::min(64.0, kRange / reach);
+    const double scale = (std::min)(64.0, kRange / reach);
     double sum = 0, squares = 0;
     for (int i = 0; i < patch.n; ++i) {
       const double value = std::floor((static_cast<double>(patch.intensity[i]) - middle) * scale + 0.5);
-      const double kept = std::min(std::max(value, -kRange), kRange);
+      const double kept = (std::min)((std::max)(value, -kRange), kRange);
       cell(i, 0) = static_cast<std::int16_t>(kept);
       intensity[i] = static_cast<float>(kept);
       sum += kept;
@@ -22887,7 +23021,7 @@ class TemplatePatch {
     double j[8];
     for (int i = 0; i < model_.n; ++i) {
       derivatives(i, j);
-      for (int k = 0; k < 8; ++k) largest[k] = std::max(largest[k], std::abs(j[k]));
+      for (int k = 0; k < 8; ++k) largest[k] = (std::max)(largest[k], std::abs(j[k]));
     }
     for (int k = 0; k < 8; ++k) model_.step[k] = largest[k] > 0 ? largest[k] / kRange : 1.0;
     for (int i = 0; i < model_.n; ++i) {
@@ -22979,6 +23113,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -23172,6 +23308,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -23254,14 +23391,17 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// How LocalContrast compares a pixel with its surroundings.
 struct LocalContrastOptions {
-  int radius = 6;       ///< px: the square has 2 radius + 1 a side, cut where the image ends; in [1, kMaxRadius].
-  double floor = 4.0;   ///< Grey levels: deviations well below this are taken for noise and not made larger.
-  double scale = 40.0;  ///< Grey levels that one deviation becomes.
+  int radius = 6;  ///< px: the square has 2 radius + 1 a side, cut where the image ends; in [1, kMaxRadius].
+  /// Grey levels, in [0.01, 1e6]: deviations well below this are taken for noise and not made larger. Means are in
+  /// float: below 0.01 their rounding would be seen.
+  double floor = 4.0;
+  double scale = 40.0;                   ///< Grey levels that one deviation becomes; above 0, at most 1e6.
   static constexpr int kMaxRadius = 64;  ///< px, of the largest square.
 
   /// Whether the numbers make sense.
   bool valid() const noexcept {
-    return radius >= 1 && radius <= kMaxRadius && is_finite(floor) && floor > 0 && is_finite(scale) && scale > 0;
+    return radius >= 1 && radius <= kMaxRadius && is_finite(floor) && floor >= 0.01 && floor <= 1e6 &&
+           is_finite(scale) && scale > 0 && scale <= 1e6;
   }
 };
 
@@ -23281,7 +23421,7 @@ class LocalContrast {
         y0 > from.height() - to.height())
       return Status::invalid_argument;
     const int r = options_.radius, x1 = x0 + to.width();
-    const int left = std::max(x0 - r, 0), right = std::min(x1 + r, from.width());
+    const int left = (std::max)(x0 - r, 0), right = (std::min)(x1 + r, from.width());
     const auto n = static_cast<std::size_t>(right - left);
     // Made anew, not grown: the function that grows a vector would be shared between translation units (see
     // config.hpp).
@@ -23289,10 +23429,10 @@ class LocalContrast {
     if (means_.size() < 2 * n) means_ = std::vector<float>(2 * n);
     for (std::size_t i = 0; i < 2 * n; ++i) sums_[i] = 0;
 
-    int top = std::max(y0 - r, 0), bottom = top;  // rows [top, bottom) are in the sums of the columns
+    int top = (std::max)(y0 - r, 0), bottom = top;  // rows [top, bottom) are in the sums of the columns
     for (int y = y0; y < y0 + to.height(); ++y) {
-      for (; bottom < std::min(y + r, from.height()); ++bottom) exchange_rows(from.row(bottom) + left, nullptr, n);
-      const bool in = bottom < std::min(y + r + 1, from.height()), out = top < y - r;
+      for (; bottom < (std::min)(y + r, from.height()); ++bottom) exchange_rows(from.row(bottom) + left, nullptr, n);
+      const bool in = bottom < (std::min)(y + r + 1, from.height()), out = top < y - r;
       exchange_rows(in ? from.row(bottom) + left : nullptr, out ? from.row(top) + left : nullptr, n);
       bottom += in;
       top += out;
@@ -23339,7 +23479,7 @@ class LocalContrast {
     float share = 0;
     int columns = 0, first = left, last = left;  // columns [first, last) are in these
     for (int x = x0; x < x1; ++x) {
-      for (; last < std::min(x + r + 1, width); ++last) v += values[last - left], s += squares[last - left];
+      for (; last < (std::min)(x + r + 1, width); ++last) v += values[last - left], s += squares[last - left];
       for (; first < x - r; ++first) v -= values[first - left], s -= squares[first - left];
       if (columns != last - first) {
         columns = last - first;
@@ -23350,10 +23490,10 @@ class LocalContrast {
     }
     const auto scale = static_cast<float>(options_.scale), least = static_cast<float>(options_.floor * options_.floor);
     for (std::size_t i = 0; i < count; ++i) {
-      const float variance = std::max(square[i] - value[i] * value[i], 0.0F);
+      const float variance = (std::max)(square[i] - value[i] * value[i], 0.0F);
       const float out =
           128.5F + scale * (static_cast<float>(row[x0 + static_cast<int>(i)]) - value[i]) / std::sqrt(variance + least);
-      to[i] = static_cast<std::uint8_t>(std::min(std::max(out, 0.0F), 255.0F));
+      to[i] = static_cast<std::uint8_t>((std::min)((std::max)(out, 0.0F), 255.0F));
     }
   }
 
@@ -23611,6 +23751,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -24794,6 +24936,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -24808,6 +24951,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -24856,9 +25001,10 @@ TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
   store(out + entry * kBatchStep, value);
 }
 
-// Products of the rows row .. row + 2 among themselves and with r.
-TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
-                                        float* out) noexcept {
+// Products of the rows row .. row + 2 among themselves and with r. Returns a sum that is finite where these are: the
+// diagonal bounds the others.
+TEXTPLANE_SIMD_INLINE vf batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
+                                      float* out) noexcept {
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -24885,6 +25031,7 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   batch_put(b_out, 0, mul(scale_b, b0));
   batch_put(b_out, 1, mul(scale_b, b1));
   batch_put(b_out, 2, mul(scale_b, b2));
+  return madd(scale, add(s0, add(s3, s5)), mul(scale_b, add(b0, add(b1, b2))));
 }
 
 // Products of the rows from `row` on with those from `column` on.
@@ -24962,8 +25109,8 @@ TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept {
 TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
   store(out + entry * kBatchStep, value);
 }
-TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
-                                        float* out) noexcept {
+TEXTPLANE_SIMD_INLINE vf batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
+                                      float* out) noexcept {
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -24990,6 +25137,7 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   batch_put(b_out, 0, mul(scale_b, b0));
   batch_put(b_out, 1, mul(scale_b, b1));
   batch_put(b_out, 2, mul(scale_b, b2));
+  return madd(scale, add(s0, add(s3, s5)), mul(scale_b, add(b0, add(b1, b2))));
 }
 TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int parameters, int row, int column, vf scale,
                                        float* out) noexcept {
@@ -25065,8 +25213,8 @@ TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept {
 TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
   store(out + entry * kBatchStep, value);
 }
-TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
-                                        float* out) noexcept {
+TEXTPLANE_SIMD_INLINE vf batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
+                                      float* out) noexcept {
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -25093,6 +25241,7 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   batch_put(b_out, 0, mul(scale_b, b0));
   batch_put(b_out, 1, mul(scale_b, b1));
   batch_put(b_out, 2, mul(scale_b, b2));
+  return madd(scale, add(s0, add(s3, s5)), mul(scale_b, add(b0, add(b1, b2))));
 }
 TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int parameters, int row, int column, vf scale,
                                        float* out) noexcept {
@@ -25168,8 +25317,8 @@ TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept {
 TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
   store(out + entry * kBatchStep, value);
 }
-TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
-                                        float* out) noexcept {
+TEXTPLANE_SIMD_INLINE vf batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
+                                      float* out) noexcept {
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -25196,6 +25345,7 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   batch_put(b_out, 0, mul(scale_b, b0));
   batch_put(b_out, 1, mul(scale_b, b1));
   batch_put(b_out, 2, mul(scale_b, b2));
+  return madd(scale, add(s0, add(s3, s5)), mul(scale_b, add(b0, add(b1, b2))));
 }
 TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int parameters, int row, int column, vf scale,
                                        float* out) noexcept {
@@ -25271,8 +25421,8 @@ TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept {
 TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
   store(out + entry * kBatchStep, value);
 }
-TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
-                                        float* out) noexcept {
+TEXTPLANE_SIMD_INLINE vf batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
+                                      float* out) noexcept {
   vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
   for (int k = 0; k < n; ++k) {
     const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
@@ -25299,6 +25449,7 @@ TEXTPLANE_SIMD_INLINE void batch_square(const float* scratch, int n, int paramet
   batch_put(b_out, 0, mul(scale_b, b0));
   batch_put(b_out, 1, mul(scale_b, b1));
   batch_put(b_out, 2, mul(scale_b, b2));
+  return madd(scale, add(s0, add(s3, s5)), mul(scale_b, add(b0, add(b1, b2))));
 }
 TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int parameters, int row, int column, vf scale,
                                        float* out) noexcept {
@@ -25347,6 +25498,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -25361,6 +25513,8 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -25489,20 +25643,21 @@ TEXTPLANE_SIMD_INLINE unsigned batch_judge(const simd::BatchArgs& a, const Batch
   return keep_lanes;
 }
 
-// H and b from the weighted rows.
-TEXTPLANE_SIMD_INLINE void batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
-                                          float* out) noexcept {
+// H and b from the weighted rows. Returns the lanes where they are finite.
+TEXTPLANE_SIMD_INLINE unsigned batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
+                                              float* out) noexcept {
   const vf inverse_s = div(set1(1.0F), max_(target_s, set1(1e-30F))), scale = mul(inverse_s, inverse_s);
   const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));
   // Not a loop: with constants for rows, where things lie is known when this is compiled.
-  batch_square(scratch, n, parameters, 0, scale, scale_b, out);
-  batch_square(scratch, n, parameters, 3, scale, scale_b, out);
+  vf all = batch_square(scratch, n, parameters, 0, scale, scale_b, out);
+  all = add(all, batch_square(scratch, n, parameters, 3, scale, scale_b, out));
   batch_cross(scratch, n, parameters, 0, 3, scale, out);
   if (parameters > 6) {
-    batch_square(scratch, n, parameters, 6, scale, scale_b, out);
+    all = add(all, batch_square(scratch, n, parameters, 6, scale, scale_b, out));
     batch_cross(scratch, n, parameters, 0, 6, scale, out);
     batch_cross(scratch, n, parameters, 3, 6, scale, out);
   }
+  return bits_from_mask(lt(abs_(all), set1(3e38F)));
 }
 
 // One vector of objects, of which the first `lanes` exist. Statuses that are ok on entry are those of lanes with
@@ -25522,8 +25677,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
   const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
 
   const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
-  const unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
-                                          host_mean, root, all_lanes, status);
+  unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
+                                    host_mean, root, all_lanes, status);
 
   const int head = parameters * (parameters + 1) / 2 + parameters;
   if (keep_lanes != 0) {
@@ -25546,7 +25701,12 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                       &error);
     else
       batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
-    if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
+    if (parameters > 0) {
+      const unsigned finite = batch_products(a.scratch, n, parameters, target_s, root, out);
+      for (int l = 0; (keep_lanes & ~finite) != 0 && l < lanes; ++l)
+        if (keep_lanes & ~finite & 1U << l) status[l] = Status::non_finite;
+      keep_lanes &= finite;
+    }
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
     batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));
@@ -25704,18 +25864,19 @@ TEXTPLANE_SIMD_INLINE unsigned batch_judge(const simd::BatchArgs& a, const Batch
   }
   return keep_lanes;
 }
-TEXTPLANE_SIMD_INLINE void batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
-                                          float* out) noexcept {
+TEXTPLANE_SIMD_INLINE unsigned batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
+                                              float* out) noexcept {
   const vf inverse_s = div(set1(1.0F), max_(target_s, set1(1e-30F))), scale = mul(inverse_s, inverse_s);
   const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));
-  batch_square(scratch, n, parameters, 0, scale, scale_b, out);
-  batch_square(scratch, n, parameters, 3, scale, scale_b, out);
+  vf all = batch_square(scratch, n, parameters, 0, scale, scale_b, out);
+  all = add(all, batch_square(scratch, n, parameters, 3, scale, scale_b, out));
   batch_cross(scratch, n, parameters, 0, 3, scale, out);
   if (parameters > 6) {
-    batch_square(scratch, n, parameters, 6, scale, scale_b, out);
+    all = add(all, batch_square(scratch, n, parameters, 6, scale, scale_b, out));
     batch_cross(scratch, n, parameters, 0, 6, scale, out);
     batch_cross(scratch, n, parameters, 3, 6, scale, out);
   }
+  return bits_from_mask(lt(abs_(all), set1(3e38F)));
 }
 TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
                                         const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
@@ -25731,8 +25892,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
   const vf tiny = set1(1e-30F), target_s = sqrt_(target), host_s = sqrt_(host);
   const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
   const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
-  const unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
-                                          host_mean, root, all_lanes, status);
+  unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
+                                    host_mean, root, all_lanes, status);
   const int head = parameters * (parameters + 1) / 2 + parameters;
   if (keep_lanes != 0) {
     vf e[9], c[9];
@@ -25754,7 +25915,12 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                       &error);
     else
       batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
-    if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
+    if (parameters > 0) {
+      const unsigned finite = batch_products(a.scratch, n, parameters, target_s, root, out);
+      for (int l = 0; (keep_lanes & ~finite) != 0 && l < lanes; ++l)
+        if (keep_lanes & ~finite & 1U << l) status[l] = Status::non_finite;
+      keep_lanes &= finite;
+    }
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
     batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));
@@ -25910,18 +26076,19 @@ TEXTPLANE_SIMD_INLINE unsigned batch_judge(const simd::BatchArgs& a, const Batch
   }
   return keep_lanes;
 }
-TEXTPLANE_SIMD_INLINE void batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
-                                          float* out) noexcept {
+TEXTPLANE_SIMD_INLINE unsigned batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
+                                              float* out) noexcept {
   const vf inverse_s = div(set1(1.0F), max_(target_s, set1(1e-30F))), scale = mul(inverse_s, inverse_s);
   const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));
-  batch_square(scratch, n, parameters, 0, scale, scale_b, out);
-  batch_square(scratch, n, parameters, 3, scale, scale_b, out);
+  vf all = batch_square(scratch, n, parameters, 0, scale, scale_b, out);
+  all = add(all, batch_square(scratch, n, parameters, 3, scale, scale_b, out));
   batch_cross(scratch, n, parameters, 0, 3, scale, out);
   if (parameters > 6) {
-    batch_square(scratch, n, parameters, 6, scale, scale_b, out);
+    all = add(all, batch_square(scratch, n, parameters, 6, scale, scale_b, out));
     batch_cross(scratch, n, parameters, 0, 6, scale, out);
     batch_cross(scratch, n, parameters, 3, 6, scale, out);
   }
+  return bits_from_mask(lt(abs_(all), set1(3e38F)));
 }
 TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
                                         const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
@@ -25937,8 +26104,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
   const vf tiny = set1(1e-30F), target_s = sqrt_(target), host_s = sqrt_(host);
   const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
   const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
-  const unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
-                                          host_mean, root, all_lanes, status);
+  unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
+                                    host_mean, root, all_lanes, status);
   const int head = parameters * (parameters + 1) / 2 + parameters;
   if (keep_lanes != 0) {
     vf e[9], c[9];
@@ -25960,7 +26127,12 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                       &error);
     else
       batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
-    if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
+    if (parameters > 0) {
+      const unsigned finite = batch_products(a.scratch, n, parameters, target_s, root, out);
+      for (int l = 0; (keep_lanes & ~finite) != 0 && l < lanes; ++l)
+        if (keep_lanes & ~finite & 1U << l) status[l] = Status::non_finite;
+      keep_lanes &= finite;
+    }
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
     batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));
@@ -26116,18 +26288,19 @@ TEXTPLANE_SIMD_INLINE unsigned batch_judge(const simd::BatchArgs& a, const Batch
   }
   return keep_lanes;
 }
-TEXTPLANE_SIMD_INLINE void batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
-                                          float* out) noexcept {
+TEXTPLANE_SIMD_INLINE unsigned batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
+                                              float* out) noexcept {
   const vf inverse_s = div(set1(1.0F), max_(target_s, set1(1e-30F))), scale = mul(inverse_s, inverse_s);
   const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));
-  batch_square(scratch, n, parameters, 0, scale, scale_b, out);
-  batch_square(scratch, n, parameters, 3, scale, scale_b, out);
+  vf all = batch_square(scratch, n, parameters, 0, scale, scale_b, out);
+  all = add(all, batch_square(scratch, n, parameters, 3, scale, scale_b, out));
   batch_cross(scratch, n, parameters, 0, 3, scale, out);
   if (parameters > 6) {
-    batch_square(scratch, n, parameters, 6, scale, scale_b, out);
+    all = add(all, batch_square(scratch, n, parameters, 6, scale, scale_b, out));
     batch_cross(scratch, n, parameters, 0, 6, scale, out);
     batch_cross(scratch, n, parameters, 3, 6, scale, out);
   }
+  return bits_from_mask(lt(abs_(all), set1(3e38F)));
 }
 TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
                                         const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
@@ -26143,8 +26316,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
   const vf tiny = set1(1e-30F), target_s = sqrt_(target), host_s = sqrt_(host);
   const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
   const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
-  const unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
-                                          host_mean, root, all_lanes, status);
+  unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
+                                    host_mean, root, all_lanes, status);
   const int head = parameters * (parameters + 1) / 2 + parameters;
   if (keep_lanes != 0) {
     vf e[9], c[9];
@@ -26166,7 +26339,12 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                       &error);
     else
       batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
-    if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
+    if (parameters > 0) {
+      const unsigned finite = batch_products(a.scratch, n, parameters, target_s, root, out);
+      for (int l = 0; (keep_lanes & ~finite) != 0 && l < lanes; ++l)
+        if (keep_lanes & ~finite & 1U << l) status[l] = Status::non_finite;
+      keep_lanes &= finite;
+    }
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
     batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));
@@ -26322,18 +26500,19 @@ TEXTPLANE_SIMD_INLINE unsigned batch_judge(const simd::BatchArgs& a, const Batch
   }
   return keep_lanes;
 }
-TEXTPLANE_SIMD_INLINE void batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
-                                          float* out) noexcept {
+TEXTPLANE_SIMD_INLINE unsigned batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
+                                              float* out) noexcept {
   const vf inverse_s = div(set1(1.0F), max_(target_s, set1(1e-30F))), scale = mul(inverse_s, inverse_s);
   const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));
-  batch_square(scratch, n, parameters, 0, scale, scale_b, out);
-  batch_square(scratch, n, parameters, 3, scale, scale_b, out);
+  vf all = batch_square(scratch, n, parameters, 0, scale, scale_b, out);
+  all = add(all, batch_square(scratch, n, parameters, 3, scale, scale_b, out));
   batch_cross(scratch, n, parameters, 0, 3, scale, out);
   if (parameters > 6) {
-    batch_square(scratch, n, parameters, 6, scale, scale_b, out);
+    all = add(all, batch_square(scratch, n, parameters, 6, scale, scale_b, out));
     batch_cross(scratch, n, parameters, 0, 6, scale, out);
     batch_cross(scratch, n, parameters, 3, 6, scale, out);
   }
+  return bits_from_mask(lt(abs_(all), set1(3e38F)));
 }
 TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
                                         const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
@@ -26349,8 +26528,8 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
   const vf tiny = set1(1e-30F), target_s = sqrt_(target), host_s = sqrt_(host);
   const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
   const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
-  const unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
-                                          host_mean, root, all_lanes, status);
+  unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
+                                    host_mean, root, all_lanes, status);
   const int head = parameters * (parameters + 1) / 2 + parameters;
   if (keep_lanes != 0) {
     vf e[9], c[9];
@@ -26372,7 +26551,12 @@ TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFra
                       &error);
     else
       batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
-    if (parameters > 0) batch_products(a.scratch, n, parameters, target_s, root, out);
+    if (parameters > 0) {
+      const unsigned finite = batch_products(a.scratch, n, parameters, target_s, root, out);
+      for (int l = 0; (keep_lanes & ~finite) != 0 && l < lanes; ++l)
+        if (keep_lanes & ~finite & 1U << l) status[l] = Status::non_finite;
+      keep_lanes &= finite;
+    }
     float* tail = out + head * kBatchStep;
     batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
     batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));
@@ -26425,6 +26609,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -26477,11 +26662,11 @@ class TextBatch {
     valid_ = std::vector<std::uint8_t>(static_cast<std::size_t>(count));
     std::size_t total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
-      total += count_group(items + first, first, std::min(count - first, simd::kBatchLanes));
+      total += count_group(items + first, first, (std::min)(count - first, simd::kBatchLanes));
     pixels_ = cache_lines<float>(total);
     total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
-      total = add_group(items + first, first, std::min(count - first, simd::kBatchLanes), total);
+      total = add_group(items + first, first, (std::min)(count - first, simd::kBatchLanes), total);
     return Status::ok;
   }
 
@@ -26516,9 +26701,9 @@ class TextBatch {
       valid_[static_cast<std::size_t>(first + l)] = valid;
       int n = 0;
       for (int i = 0; valid && i < p.n; ++i) n += usable(p, i);
-      most = std::max(most, n);
+      most = (std::max)(most, n);
     }
-    most_ = std::max(most_, most);
+    most_ = (std::max)(most_, most);
     return static_cast<std::size_t>(most) * 3 * simd::kBatchLanes;
   }
 
@@ -26536,22 +26721,23 @@ class TextBatch {
       float x0 = 0, x1 = 0, y0 = 0, y1 = 0;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;
-        x0 = n ? std::min(x0, p.x[i]) : p.x[i];
-        x1 = n ? std::max(x1, p.x[i]) : p.x[i];
-        y0 = n ? std::min(y0, p.y[i]) : p.y[i];
-        y1 = n ? std::max(y1, p.y[i]) : p.y[i];
+        x0 = n ? (std::min)(x0, p.x[i]) : p.x[i];
+        x1 = n ? (std::max)(x1, p.x[i]) : p.x[i];
+        y0 = n ? (std::min)(y0, p.y[i]) : p.y[i];
+        y1 = n ? (std::max)(y1, p.y[i]) : p.y[i];
         ++n;
       }
       const float fx = x0 + 0.5F * (x1 - x0), fy = y0 + 0.5F * (y1 - y0);
       const double hx = static_cast<double>(fx), hy = static_cast<double>(fy);
-      group.ru[l] = std::max(static_cast<double>(x1) - hx, hx - static_cast<double>(x0));
-      group.rv[l] = std::max(static_cast<double>(y1) - hy, hy - static_cast<double>(y0));
+      group.ru[l] = (std::max)(static_cast<double>(x1) - hx, hx - static_cast<double>(x0));
+      group.rv[l] = (std::max)(static_cast<double>(y1) - hy, hy - static_cast<double>(y0));
       group.ifx[l] = 1.0 / item.host_camera.fx;
       group.ify[l] = 1.0 / item.host_camera.fy;
       group.mu[l] = (hx - item.host_camera.cx) * group.ifx[l];
       group.mv[l] = (hy - item.host_camera.cy) * group.ify[l];
       for (int k = 0; k < 3; ++k) group.theta[k][l] = item.theta[k];
-      most = std::max(most, n);
+      most = (std::max)(most, n);
+      if (n == 0) continue;  // there may be no pixels at all
       float* out = numbers(pixels_) + start + l;
       for (int i = 0; i < p.n; ++i) {
         if (!usable(p, i)) continue;
@@ -26805,6 +26991,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -28097,6 +28285,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -28189,8 +28378,9 @@ WarpSummary warp_patch(const ImageView<const S>& source, const Matrix3<double>& 
   summary.status = detail::check_warp(source.valid() && out.valid(), out.width(), out.height(), H, mask);
   if (!is_ok(summary.status)) return summary;
   // One row or column, or offsets beyond 32 bits: rare enough for the reference.
-  const bool large = source.stride() > std::numeric_limits<std::int32_t>::max() / source.height();
-  if (source.width() < 2 || source.height() < 2 || large) return reference::warp_patch(source, H, out, fill, mask);
+  const bool large = source.stride() > (std::numeric_limits<std::int32_t>::max)() / source.height();
+  if (source.width() < 2 || source.height() < 2 || large)
+    return reference::warp_patch(source, H, out, static_cast<double>(fill), mask);
 
   simd::WarpArgs args;
   args.source = source.data();
@@ -28305,6 +28495,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -28912,6 +29104,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -29061,10 +29254,10 @@ inline Status extract_upright_patch(const ImageView8& image, float x, float y, P
 // Samples at centre + A (i, j), |i|, |j| <= reach. All lie inside the image, to rounding. `out` begins with the sample
 // of (-reach, -reach); its rows are simd::kKltStride floats apart.
 TEXTPLANE_DEFERRED
-void sample_affine(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A_f, int reach,
-                   float* out) noexcept {
+void sample_affine(const ImageView8& image, const Vector2<float>& centre, const FixedMatrix<float, 2, 2>& A_f,
+                   int reach, float* out) noexcept {
   const int side = 2 * reach + 1;
-  const Eigen::Matrix2d A = A_f.cast<double>();
+  const FixedMatrix<double, 2, 2> A = A_f.cast<double>();
   const Vector2<double> first = centre.cast<double>() - A * Vector2<double>::Constant(reach);
   Matrix3<double> H = Matrix3<double>::Identity();
   H.topLeftCorner<2, 2>() = A;
@@ -29090,8 +29283,8 @@ void sample_affine(const ImageView8& image, const Vector2<float>& centre, const 
 /// `t->status`: ok; out_of_view where a sample leaves the image; no_contrast; degenerate for a singular A; non_finite;
 /// invalid_argument. No allocation; any number of threads.
 TEXTPLANE_DEFERRED
-Status extract_point_patch(const ImageView8& image, const Vector2<float>& centre, const Eigen::Matrix2f& A, int radius,
-                           PointPatch* t) noexcept {
+Status extract_point_patch(const ImageView8& image, const Vector2<float>& centre, const FixedMatrix<float, 2, 2>& A,
+                           int radius, PointPatch* t) noexcept {
   t->left = t->top = t->columns = t->rows = 0;
   t->dx = t->dy = 0;
   if (!image.valid() || radius < 1 || radius > kMaxPatchRadius) return t->status = Status::invalid_argument;
@@ -29120,11 +29313,12 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Parameters of track_klt() and align_point_patch(). px of the current level unless said otherwise.
 struct KltOptions {
-  int radius = 9;             ///< A patch has 2 radius + 1 pixels a side; in [1, kMaxPatchRadius]. track_klt() only.
-  int levels = 4;             ///< Pyramid levels used, at most those that exist. track_klt() only.
-  int max_iterations = 20;    ///< On every level.
-  float epsilon = 0.01F;      ///< px: a step shorter than this ends a level.
-  float min_contrast = 1.5F;  ///< Intensity: smallest standard deviation of the patch and of its image in the target.
+  int radius = 9;           ///< A patch has 2 radius + 1 pixels a side; in [1, kMaxPatchRadius]. track_klt() only.
+  int levels = 4;           ///< Pyramid levels used, at most those that exist. track_klt() only.
+  int max_iterations = 20;  ///< On every level; in [1, 10000].
+  float epsilon = 0.01F;    ///< px, above 0: a step shorter than this ends a level.
+  /// Intensity, at least 0: smallest standard deviation of the patch and of its image in the target.
+  float min_contrast = 1.5F;
   float min_eigenvalue = 0.003F;      ///< 1/px^2: smallest eigenvalue of J~^T J~ (a straight edge has 0).
   float min_zncc = 0.8F;              ///< Smallest correlation of a successful track.
   float max_forward_backward = 1.0F;  ///< px of level 0; 0 or less: no backward pass. track_klt() only.
@@ -29166,7 +29360,8 @@ inline Correlation correlate(const PointPatch& t, const ImageView8& image, float
   const double n = t.count();
   const double vv = sums.vv - sums.v * sums.v / n;  // kScale^2 ||I - mean||^2
   c.status = Status::no_contrast;
-  if (!(vv > kScale * kScale * n * (min_contrast * min_contrast)) || !(vv > 1e-6 * kScale * kScale * n)) return c;
+  const double least = static_cast<double>(min_contrast) * static_cast<double>(min_contrast);
+  if (!(vv > kScale * kScale * n * least) || !(vv > 1e-6 * kScale * kScale * n)) return c;
   const double inverse = 1.0 / (std::sqrt(vv) * t.norm);
   const double tv = sums.tv - sums.v * t.mean_v;
   c.bx = static_cast<float>((sums.xv - sums.v * t.mean_x - tv * t.along_x) * inverse);
@@ -29230,8 +29425,9 @@ inline Alignment align_translation(const PointPatch& t, const ImageView8& image,
 }
 
 inline bool valid_options(const KltOptions& options) noexcept {
-  return options.max_iterations >= 1 && options.epsilon > 0.0F && is_finite(options.epsilon) &&
-         is_finite(options.min_contrast) && is_finite(options.min_eigenvalue) && is_finite(options.min_zncc);
+  return options.max_iterations >= 1 && options.max_iterations <= 10000 && options.epsilon > 0.0F &&
+         is_finite(options.epsilon) && is_finite(options.min_contrast) && options.min_contrast >= 0.0F &&
+         is_finite(options.min_eigenvalue) && is_finite(options.min_zncc);
 }
 
 }  // namespace detail
@@ -29327,6 +29523,8 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #pragma clang fp contract(off)
 #elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=off", "no-fast-math")
 #endif
@@ -29899,6 +30097,7 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #endif
 #elif defined(__GNUC__)
 #pragma GCC pop_options
+#pragma GCC diagnostic pop
 #endif
 #endif
 #undef TEXTPLANE_SIMD_KERNEL
@@ -30017,15 +30216,19 @@ inline Status detect_fast(const ImageView8& image, int threshold, bool suppress,
 }
 
 /// Keeps the corners that the highest threshold with `enough` corners finds. Thresholds are `first`, lower(first) and
-/// so on down to `lowest`, which keeps all. Detect once at `lowest`: a score is the largest threshold that finds the
-/// corner.
+/// so on down to `lowest`, which keeps all; lower(t) that is not below t is `lowest`, too. Detect once at `lowest`: a
+/// score is the largest threshold that finds the corner.
 template <class Lower>
 void keep_enough(std::vector<Corner>* corners, int first, int lowest, int enough, const Lower& lower) {
-  for (int threshold = first;; threshold = std::max(lower(threshold), lowest)) {
+  for (int threshold = first;;) {
     const auto weak = [threshold](const Corner& c) { return c.score < static_cast<float>(threshold); };
     const auto all = static_cast<int>(corners->size());
     const int strong = all - static_cast<int>(std::count_if(corners->begin(), corners->end(), weak));
-    if (strong < enough && threshold > lowest) continue;
+    if (strong < enough && threshold > lowest) {
+      const int next = lower(threshold);
+      threshold = next < threshold ? (std::max)(next, lowest) : lowest;
+      continue;
+    }
     corners->erase(std::remove_if(corners->begin(), corners->end(), weak), corners->end());
     return;
   }
@@ -30155,8 +30358,9 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
   int levels = options.levels < from.levels ? options.levels : from.levels;
   if (to.levels < levels) levels = to.levels;
   const bool valid = levels >= 1 && levels <= kMaxPyramidLevels && options.radius >= 1 &&
-                     options.radius <= kMaxPatchRadius && detail::valid_options(options) &&
-                     detail::valid_levels(from, levels) && detail::valid_levels(to, levels);
+                     options.radius <= kMaxPatchRadius && is_finite(options.max_forward_backward) &&
+                     detail::valid_options(options) && detail::valid_levels(from, levels) &&
+                     detail::valid_levels(to, levels);
   for (int i = 0; i < n; ++i) {
     KltResult& result = out[i];
     result = KltResult();
@@ -30209,27 +30413,41 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// Parameters of select_pixels() and make_patch().
 struct SelectOptions {
-  int min_pixels = 15;            ///< The paper's minimum; fewer is Status::too_few.
-  int max_pixels = 300;           ///< On each level.
-  int levels = 3;                 ///< Pyramid levels of a patch.
-  int fast_threshold = 20;        ///< Intensity; lowered stepwise until half of max_pixels are corners.
-  int lowest_fast_threshold = 5;  ///< Intensity: it is not lowered further.
-  float min_gradient = 4.0F;      ///< Intensity per px: smallest central difference of a pixel that fills a gap.
+  int min_pixels = 15;            ///< The paper's minimum; fewer is Status::too_few. At least 0.
+  int max_pixels = 300;           ///< On each level; at least 1.
+  int levels = 3;                 ///< Pyramid levels of a patch; at least 1. More than there are: all.
+  int fast_threshold = 20;        ///< Intensity, in [0, 255]; lowered stepwise until half of max_pixels are corners.
+  int lowest_fast_threshold = 5;  ///< Intensity, in [0, 255]: it is not lowered further.
+  /// Intensity per px, at least 0: smallest central difference of a pixel that fills a gap.
+  float min_gradient = 4.0F;
+
+  /// Whether the numbers make sense.
+  bool valid() const noexcept {
+    return min_pixels >= 0 && max_pixels >= 1 && levels >= 1 && fast_threshold >= 0 && fast_threshold <= 255 &&
+           lowest_fast_threshold >= 0 && lowest_fast_threshold <= 255 && is_finite(min_gradient) && min_gradient >= 0;
+  }
 };
 
 namespace detail {
 
 // A grid of square cells over [x0, x0 + width) x [y0, y0 + height).
 struct CellGrid {
-  int x0 = 0, y0 = 0, cell = 1, columns = 0, rows = 0;
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0, cell = 1, columns = 0, rows = 0;
 
+  // width, height and cell are positive, and x0 + width and y0 + height are numbers.
   CellGrid(int x0_, int y0_, int width, int height, int cell_) noexcept
-      : x0(x0_), y0(y0_), cell(cell_), columns((width + cell_ - 1) / cell_), rows((height + cell_ - 1) / cell_) {}
+      : x0(x0_),
+        y0(y0_),
+        x1(x0_ + width),
+        y1(y0_ + height),
+        cell(cell_),
+        columns((width - 1) / cell_ + 1),
+        rows((height - 1) / cell_ + 1) {}
 
   std::size_t size() const noexcept { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
   bool contains(float x, float y) const noexcept {
     return is_finite(x) && is_finite(y) && x >= static_cast<float>(x0) && y >= static_cast<float>(y0) &&
-           x < static_cast<float>(x0 + columns * cell) && y < static_cast<float>(y0 + rows * cell);
+           x < static_cast<float>(x1) && y < static_cast<float>(y1);
   }
   // The caller has checked contains().
   std::size_t index(float x, float y) const noexcept {
@@ -30260,8 +30478,8 @@ PixelBox pixel_box(const ConvexPolygon<double>& polygon) noexcept {
   Bounds<double> b{polygon[0], polygon[0]};
   for (int i = 1; i < polygon.size(); ++i) {
     for (int k = 0; k < 2; ++k) {
-      b.min[k] = std::min(b.min[k], polygon[i][k]);
-      b.max[k] = std::max(b.max[k], polygon[i][k]);
+      b.min[k] = (std::min)(b.min[k], polygon[i][k]);
+      b.max[k] = (std::max)(b.max[k], polygon[i][k]);
     }
   }
   return {static_cast<int>(std::ceil(b.min[0])), static_cast<int>(std::ceil(b.min[1])),
@@ -30273,11 +30491,11 @@ TEXTPLANE_DEFERRED
 std::vector<Corner> corners_in_region(const ImageView8& image, const ConvexPolygon<double>& region, const PixelBox& box,
                                       const SelectOptions& options, int enough) {
   // The detector skips 3 px at each border of its image.
-  const int x0 = std::max(box.x0 - 3, 0), y0 = std::max(box.y0 - 3, 0);
-  const int x1 = std::min(box.x1 + 3, image.width()), y1 = std::min(box.y1 + 3, image.height());
+  const int x0 = (std::max)(box.x0 - 3, 0), y0 = (std::max)(box.y0 - 3, 0);
+  const int x1 = (std::min)(box.x1 + 3, image.width()), y1 = (std::min)(box.y1 + 3, image.height());
   const ImageView8 part(image.row(y0) + x0, x1 - x0, y1 - y0, image.stride());
   std::vector<Corner> found, inside;
-  detect_fast(part, std::min(options.fast_threshold, options.lowest_fast_threshold), true, found);
+  detect_fast(part, (std::min)(options.fast_threshold, options.lowest_fast_threshold), true, found);
   for (Corner c : found) {
     c.x += static_cast<float>(x0);
     c.y += static_cast<float>(y0);
@@ -30314,9 +30532,10 @@ void fill_by_gradient(const ImageView8& image, const ConvexPolygon<double>& regi
                       const CellGrid& grid, const SelectOptions& options, std::vector<Corner>* out) {
   std::vector<Corner> best(grid.size());
   for (const Corner& p : *out) best[grid.index(p.x, p.y)].score = -1.0F;
-  const int x0 = std::max(box.x0, 1), y0 = std::max(box.y0, 1);
-  const int x1 = std::min(box.x1, image.width() - 1), y1 = std::min(box.y1, image.height() - 1);
-  const float least = 4.0F * options.min_gradient * options.min_gradient;  // the differences below are doubled
+  const int x0 = (std::max)(box.x0, 1), y0 = (std::max)(box.y0, 1);
+  const int x1 = (std::min)(box.x1, image.width() - 1), y1 = (std::min)(box.y1, image.height() - 1);
+  const float gradient = (std::min)(options.min_gradient, 1e6F);  // more than any, and its square is a number
+  const float least = 4.0F * gradient * gradient;                 // the differences below are doubled
   for (int y = y0; y < y1; ++y) {
     const std::uint8_t* above = image.row(y - 1);
     const std::uint8_t* row = image.row(y);
@@ -30344,12 +30563,12 @@ void fill_by_gradient(const ImageView8& image, const ConvexPolygon<double>& regi
 /// cells, then the pixel of strongest gradient of every cell of a finer grid that is still empty, at most max_pixels in
 /// all. `quad`: px of `image`; the part of its convex hull inside the image counts. `out`: integer positions, replaced,
 /// each pixel once. Deterministic. Status::too_few where fewer than min_pixels qualify (`out` then holds those),
-/// degenerate for a quad without area, non_finite, invalid_argument. Allocates.
+/// degenerate for a quad without area, non_finite, invalid_argument (also for options that are not valid()). Allocates.
 TEXTPLANE_DEFERRED
 Status select_pixels(const ImageView8& image, const Quad<double>& quad, const SelectOptions& options,
                      std::vector<Vector2<float>>& out) {
   out.clear();
-  if (!image.valid() || options.max_pixels < 1 || options.min_pixels < 0) return Status::invalid_argument;
+  if (!image.valid() || !options.valid()) return Status::invalid_argument;
   if (!all_finite(quad)) return Status::non_finite;
   if (convex_hull(quad).empty()) return Status::degenerate;
   const ConvexPolygon<double> region = clip_to_image(quad, image.width(), image.height());
@@ -30357,13 +30576,14 @@ Status select_pixels(const ImageView8& image, const Quad<double>& quad, const Se
   if (box.empty()) return Status::too_few;
 
   const double most = static_cast<double>(options.max_pixels);
-  const int coarse = std::max(static_cast<int>(std::sqrt(area(region) / most)), 1);
-  const int fine = std::max(static_cast<int>(std::sqrt(area(region) / (2.0 * most))), 1);
+  const int coarse = (std::max)(static_cast<int>(std::sqrt(area(region) / most)), 1);
+  const int fine = (std::max)(static_cast<int>(std::sqrt(area(region) / (2.0 * most))), 1);
   const auto grid = [&box](int cell) {
     return detail::CellGrid(box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0, cell);
   };
 
-  std::vector<Corner> corners = detail::corners_in_region(image, region, box, options, (options.max_pixels + 1) / 2);
+  std::vector<Corner> corners =
+      detail::corners_in_region(image, region, box, options, options.max_pixels - options.max_pixels / 2);
   std::vector<Corner> chosen;
   detail::take_in_rounds(corners, grid(coarse), options.max_pixels, &chosen);
   detail::fill_by_gradient(image, region, box, grid(fine), options, &chosen);
@@ -30401,13 +30621,15 @@ void select_spread(const std::vector<Corner>& corners, int width, int height, in
 
 /// The patch of a text object: pixels selected on each of options.levels levels of its host image (fewer where the
 /// pyramid has fewer), with their intensities. `quad`: px of level 0; `camera`: the host's. Status of
-/// patch_from_pixels(), or of select_pixels() where the finest level fails: a patch without level 0 is of no use.
+/// patch_from_pixels(), or of select_pixels() where the finest level fails: a patch without level 0 is of no use; with
+/// options that are not valid() it is empty.
 /// Allocates.
 TEXTPLANE_DEFERRED
 TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {
-  const int levels = std::min({options.levels, host.levels, kMaxPyramidLevels});
-  std::vector<std::vector<Vector2<float>>> pixels(static_cast<std::size_t>(std::max(levels, 0)));
+  if (!options.valid()) return {};
+  const int levels = (std::min)({options.levels, host.levels, kMaxPyramidLevels});
+  std::vector<std::vector<Vector2<float>>> pixels(static_cast<std::size_t>((std::max)(levels, 0)));
   Status finest = Status::invalid_argument;
   for (std::size_t l = 0; l < pixels.size(); ++l) {
     const Quad<double> level_quad = quad_to_level(quad, static_cast<int>(l));
@@ -30423,7 +30645,7 @@ TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, con
 TEXTPLANE_DEFERRED
 TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {
-  const Pyramid pyramid(host, std::min(std::max(options.levels, 1), kMaxPyramidLevels));
+  const Pyramid pyramid(host, (std::min)((std::max)(options.levels, 1), kMaxPyramidLevels));
   return make_patch(pyramid.view(), camera, quad, options);
 }
 
@@ -30477,7 +30699,7 @@ void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
 template <class S>
 class BasicBlockCholesky {
  public:
-  using Block = Eigen::Matrix<S, 6, 6>;
+  using Block = FixedMatrix<S, 6, 6>;
 
   /// n block rows of zeros. Allocates where n exceeds every earlier one.
   void reset(int n) {
@@ -30493,7 +30715,7 @@ class BasicBlockCholesky {
   /// Block (i, j), i >= j, to add to. A diagonal block needs its lower triangle alone.
   Block& at(int i, int j) noexcept {
     int& first = first_[static_cast<std::size_t>(i)];
-    first = std::min(first, j);
+    first = (std::min)(first, j);
     return blocks_[index(i, j)];
   }
   const Block& at(int i, int j) const noexcept { return blocks_[index(i, j)]; }
@@ -30508,7 +30730,7 @@ class BasicBlockCholesky {
       for (int j = first_i; j <= i; ++j) {
         double* c = blocks_[index(i, j)].data();
         // The blocks of a row are contiguous: columns k to j are one 6 x 6 (j - k) matrix.
-        const int k = std::max(first_i, first_[static_cast<std::size_t>(j)]);
+        const int k = (std::max)(first_i, first_[static_cast<std::size_t>(j)]);
         if (k < j) subtract_outer(blocks_[index(i, k)].data(), blocks_[index(j, k)].data(), 6 * (j - k), c);
         if (j < i) divide_by_transpose(blocks_[index(j, j)].data(), c);
       }
@@ -30699,7 +30921,7 @@ Status check(const Linearised& system, double rank_tolerance) noexcept {
 // The factor of the damping after an accepted step, from its gain ratio.
 inline double damping_factor(double decrease, double predicted) noexcept {
   const double gain = predicted > 0.0 ? decrease / predicted : 1.0, x = 2.0 * gain - 1.0;
-  return std::min(std::max(1.0 - x * x * x, 0.1), 2.0);
+  return (std::min)((std::max)(1.0 - x * x * x, 0.1), 2.0);
 }
 
 // -(H + lambda D)^-1 b and the decrease that the quadratic model predicts for it.
@@ -30714,7 +30936,7 @@ DampedStep<P> damped_step(const Linearised& system, double lambda, double diagon
   DampedStep<P> out;
   double largest = 0.0;
   for (int i = 0; i < P; ++i) largest = system.H(i, i) > largest ? system.H(i, i) : largest;
-  Eigen::Matrix<double, P, P> damped = system.H;
+  FixedMatrix<double, P, P> damped = system.H;
   Eigen::Matrix<double, P, 1> damping;
   for (int i = 0; i < P; ++i) {
     const double floor = diagonal_floor * largest;
@@ -30785,7 +31007,7 @@ SolveSummary minimise(Problem& problem, typename Problem::State& state, const So
         if (is_ok(detail::check<P>(next, options.rank_tolerance))) {
           const double decrease = current.cost - e.cost;
           const bool flat = decrease <= options.cost_tolerance * current.cost;
-          lambda = std::max(lambda * detail::damping_factor(decrease, predicted), options.min_lambda);
+          lambda = (std::max)(lambda * detail::damping_factor(decrease, predicted), options.min_lambda);
           growth = detail::kFirstGrowth;
           promise = -1.0;
           summary.reduction += decrease;
@@ -30835,8 +31057,8 @@ inline LevelRange level_range(int coarsest, int finest, int available) noexcept 
 
 // Options of a coarse level: its result is only the start of the next one.
 inline SolveOptions coarse_options(SolveOptions options) noexcept {
-  options.cost_tolerance = std::max(options.cost_tolerance, 1e-3);
-  options.step_tolerance = std::max(options.step_tolerance, 1e-5);
+  options.cost_tolerance = (std::max)(options.cost_tolerance, 1e-3);
+  options.step_tolerance = (std::max)(options.step_tolerance, 1e-5);
   return options;
 }
 
@@ -30967,7 +31189,7 @@ class PlaneProblem {
       if (!fits(i)) continue;
       const auto q = request(i, theta);
       const NormalEquations<3> n = textplane::linearise<Parameters::plane>(q, memory_.photometric_);
-      path_ = std::max(path_, n.path);
+      path_ = (std::max)(path_, n.path);
       visible = is_ok(n.status) ? n.visible : 0;
       if (visible == 0) {
         if (trouble == Status::too_few) trouble = n.status;
@@ -30994,7 +31216,7 @@ class PlaneProblem {
       const int visible = memory_.counts_[static_cast<std::size_t>(i)];
       if (visible == 0) continue;
       const PhotometricCost c = textplane::evaluate(request(i, theta), memory_.photometric_, visible_set(i));
-      path_ = std::max(path_, c.path);
+      path_ = (std::max)(path_, c.path);
       // A target that fails as a whole costs as much as an uncorrelated patch.
       e.cost += visible * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost += is_ok(c.status) ? c.lost : visible;
@@ -31092,9 +31314,9 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   if (!is_ok(fit.status)) return fit;
 
   int levels = 0;
-  for (int i = 0; i < count; ++i) levels = std::max(levels, targets[i].image.levels);
+  for (int i = 0; i < count; ++i) levels = (std::max)(levels, targets[i].image.levels);
   const LevelRange range =
-      level_range(options.coarsest_level, options.finest_level, std::min(levels, patch.level_count()));
+      level_range(options.coarsest_level, options.finest_level, (std::min)(levels, patch.level_count()));
   PlaneProblem<View> problem(patch, targets, count, camera, options, workspace);
   PlaneSystem system;
   fit.status = Status::invalid_argument;
@@ -31104,10 +31326,10 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
   fit.zncc = problem.mean_zncc();
   fit.targets_used = problem.targets_used();
   fit.visible_pixels = problem.visible_pixels();
-  const int freedom = std::max(1, fit.visible_pixels - 2 * fit.targets_used - 3);
+  const int freedom = (std::max)(1, fit.visible_pixels - 2 * fit.targets_used - 3);
   // A perfect match would have no uncertainty. The floor is below the rounding error of two 8-bit images (1/6 of a grey
   // level squared) on a patch of any contrast.
-  fit.residual_variance = std::max(fit.cost / freedom, 1e-6);
+  fit.residual_variance = (std::max)(fit.cost / freedom, 1e-6);
   const Ldlt<double, 3> factor(system.H, options.solve.rank_tolerance);
   if (!factor.ok()) return fit;
   const Matrix3<double> inverse = factor.inverse();
@@ -31169,6 +31391,9 @@ TEXTPLANE_END_NAMESPACE
 // Points count on every level, in px of level 0. Points alone and text alone both work.
 #ifndef TEXTPLANE_SOLVER_POSE_HPP
 #define TEXTPLANE_SOLVER_POSE_HPP
+
+#include <algorithm>
+#include <cmath>
 
 // The joint cost of one camera pose over text objects and points, as a problem for minimise().
 //
@@ -31259,6 +31484,9 @@ struct PoseOptions {
   /// Whose gradients linearise the texts (docs/policy.md, policy_at_level()). Patches without gradients take forward.
   /// The cost alone accepts or rejects a step.
   LinearisePolicy policy = LinearisePolicy::forward;
+  /// A smaller ZNCC on the finest level is Status::diverged; -1 lets all pass. align_pose() only: refine_pose() tells
+  /// the ZNCC of every text.
+  double min_zncc = 0.5;
 };
 
 namespace detail {
@@ -31284,7 +31512,7 @@ class PoseWorkspace {
     for (int i = 0; i < text_count; ++i) {
       const int n = pixel_count(texts[i]);
       pixels += static_cast<std::size_t>(n);
-      largest = std::max(largest, n);
+      largest = (std::max)(largest, n);
     }
     photometric_.reserve(largest);
     if (visible_.size() < pixels) visible_.resize(pixels);
@@ -31326,7 +31554,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 struct PoseSystem {
-  Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
+  FixedMatrix<double, 6, 6> H = FixedMatrix<double, 6, 6>::Zero();
   Vector6<double> b = Vector6<double>::Zero();
   double cost = 0;
   Status status = Status::too_few;
@@ -31399,7 +31627,7 @@ class PoseProblem {
       if (state.visible == 0) continue;
       const PhotometricCost c =
           textplane::evaluate(request(texts_[i], T_t_w), memory_.photometric_, memory_.visible_.data() + state.offset);
-      path_ = std::max(path_, c.path);
+      path_ = (std::max)(path_, c.path);
       // An object that fails as a whole costs as much as an uncorrelated patch.
       e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
       lost_pixels += is_ok(c.status) ? c.lost : state.visible;
@@ -31418,7 +31646,7 @@ class PoseProblem {
     }
     const double pixels = visible_pixels_ > 0 ? static_cast<double>(lost_pixels) / visible_pixels_ : 0.0;
     const double points = active_points_ > 0 ? static_cast<double>(lost_points) / active_points_ : 0.0;
-    e.lost_fraction = std::max(pixels, points);
+    e.lost_fraction = (std::max)(pixels, points);
     return e;
   }
 
@@ -31450,7 +31678,7 @@ class PoseProblem {
     PhotometricWorkspace& workspace = memory_.photometric_;
     const PolicyRequest<Pixel> q = request(term, T_t_w);
     NormalEquations<6> n = textplane::linearise<Parameters::pose>(q, workspace);
-    path_ = std::max(path_, n.path);
+    path_ = (std::max)(path_, n.path);
     if (!is_ok(n.status)) return n.status;
     // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
     if (q.prepared && q.policy != LinearisePolicy::forward) {
@@ -31515,7 +31743,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// it is too_few, or the status of the first text that failed (out_of_view, behind_camera, no_contrast, ...).
 struct PoseResult {
   /// Of xi = (v, omega), left: H / sigma_rep^2. Its inverse is the covariance under Weighting::variance.
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  FixedMatrix<double, 6, 6> information = FixedMatrix<double, 6, 6>::Zero();
   double cost = 0;           ///< C(T_t_w) of the finest level.
   double zncc = 0;           ///< Mean over the texts that took part.
   int texts = 0;             ///< Texts that took part.
@@ -31531,9 +31759,11 @@ struct PoseFit : PoseResult {
   SE3d T_t_w;  ///< World to target: the best pose found, or the initial one after a failure. Finite if that one is.
 };
 
-/// Result of align_pose().
+/// Result of align_pose(). status: as above, and diverged where the target does not show the object at the pose found,
+/// by PoseOptions::min_zncc; all else is then as found.
 struct PoseAlignment : PoseResult {
-  SE3d T_t_h;  ///< Host to target.
+  SE3d T_t_h;           ///< Host to target.
+  int scale_shift = 0;  ///< Of photometric_input(), as chosen by the object's sizes in host and target.
 };
 
 namespace detail {
@@ -31543,7 +31773,7 @@ inline bool valid(const PoseOptions& o) noexcept {
   return o.photometric.valid() && o.point_robust.valid() && valid_sigma(o.sigma_photo) && valid_sigma(o.sigma_rep) &&
          o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
          (o.weighting == Weighting::paper || o.weighting == Weighting::variance) &&
-         o.policy <= LinearisePolicy::automatic && valid(o.solve);
+         o.policy <= LinearisePolicy::automatic && is_finite(o.min_zncc) && valid(o.solve);
 }
 
 // The levels that the target and any text have. Without any, one pass on the finest level, for the points.
@@ -31551,9 +31781,9 @@ inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int tar
                               const PoseOptions& options) noexcept {
   int patch_levels = 0;
   for (int i = 0; i < text_count; ++i)
-    if (texts[i].patch) patch_levels = std::max(patch_levels, texts[i].patch->level_count());
+    if (texts[i].patch) patch_levels = (std::max)(patch_levels, texts[i].patch->level_count());
   const LevelRange range =
-      level_range(options.coarsest_level, options.finest_level, std::min(patch_levels, target_levels));
+      level_range(options.coarsest_level, options.finest_level, (std::min)(patch_levels, target_levels));
   return range.coarsest >= range.finest ? range : LevelRange{options.finest_level, options.finest_level};
 }
 
@@ -31595,15 +31825,27 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
     if (!reproject(points[i], fit.T_t_w, camera, &p, &e)) continue;
     const double chi2 = e.squaredNorm() * scale / (points[i].sigma * points[i].sigma);
     fit.inlier_points += chi2 <= kChiSquare95TwoDof;
-    if (point_chi2) point_chi2[i] = static_cast<float>(std::min(chi2, 1e30));
+    if (point_chi2) point_chi2[i] = static_cast<float>((std::min)(chi2, 1e30));
   }
   return fit;
+}
+
+// The shift of the levels for the size at which the target shows the object at this pose, as far as both have levels.
+template <class View>
+int pose_scale_shift(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const View& target,
+                     const Pinhole<double>& camera, int finest_level) noexcept {
+  Quad<double> seen;
+  if (finest_level < 0 || !is_ok(project_quad<double>(patch.quad, patch.camera, theta, T_t_h, camera, &seen))) return 0;
+  const int shift = scale_shift(std::abs(area(patch.quad)), std::abs(area(seen)), kMaxPyramidLevels);
+  const auto room = [finest_level](int levels) { return (std::max)(levels - 1 - finest_level, 0); };
+  return (std::min)((std::max)(shift, -room(patch.level_count())), room(target.levels));
 }
 
 template <class View>
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const View& target,
                          const Pinhole<double>& camera, const PoseOptions& options) {
-  const PoseTextTerm term{&patch, theta, SE3d(), 1};
+  const int shift = pose_scale_shift(patch, theta, T_t_h, target, camera, options.finest_level);
+  const PoseTextTerm term{&patch, theta, SE3d(), 1, shift};
   PoseWorkspace workspace;
   workspace.reserve(&term, 1, 0);
   const PoseFit fit =
@@ -31611,6 +31853,8 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
   PoseAlignment out;
   static_cast<PoseResult&>(out) = fit;
   out.T_t_h = fit.T_t_w;
+  out.scale_shift = shift;
+  if (is_ok(out.status) && out.zncc < options.min_zncc) out.status = Status::diverged;
   return out;
 }
 }  // namespace detail
@@ -31643,7 +31887,9 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 }
 
 /// Pose T_t_h (host to target) of one text object with the plane `theta` (host frame), from the guess T_t_h. As
-/// refine_pose() with this object alone; allocates its own workspace.
+/// refine_pose() with this object alone, on levels of one scale: the sizes of patch.quad in the host and, by the guess,
+/// in the target choose `scale_shift`. Status::diverged where the final ZNCC is below options.min_zncc: the iteration
+/// found a minimum, but not this object. Allocates its own workspace.
 TEXTPLANE_DEFERRED
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
                          const PyramidView& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
@@ -31756,10 +32002,9 @@ class PoseSearch {
 /// The level that search_pose() searches in a target of `levels` levels: the coarsest, up to options.level, that patch
 /// and target have and that holds at least 2 min_visible pixels. 0 where none does, -1 where there is no level.
 inline int search_level(const TextPatch& patch, int levels, const SearchOptions& options) noexcept {
-  int level = std::min({options.level, patch.level_count() - 1, levels - 1});
-  while (level > 0 &&
-         static_cast<int>(patch.levels[static_cast<std::size_t>(level)].x.size()) < 2 * options.photometric.min_visible)
-    --level;
+  int level = (std::min)({options.level, patch.level_count() - 1, levels - 1});
+  const auto pixels = [&patch](int l) { return static_cast<int>(patch.levels[static_cast<std::size_t>(l)].x.size()); };
+  while (level > 0 && pixels(level) / 2 < options.photometric.min_visible) --level;  // twice that may be no int
   return level;
 }
 
@@ -31787,7 +32032,7 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
 
   detail::PoseSearch<> search(in, theta, T_t_h, {q[0] / q[2], q[1] / q[2]}, options, workspace,
                               prepared ? prepared + level : nullptr);
-  search.shifts(T_t_h, std::min(std::max(options.radius, 0), detail::PoseSearch<>::kMost), options.step, 0);
+  search.shifts(T_t_h, (std::min)((std::max)(options.radius, 0), detail::PoseSearch<>::kMost), options.step, 0);
   if (options.roll != 0) {
     const SE3d shifted = search.best();
     for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0})
@@ -31875,7 +32120,7 @@ struct WindowPointObservation {
   double sigma = 1;
 
   /// Out: |e|^2 / sigma^2 at the final state, without the robust function, also of observations that were left out.
-  /// The largest double where there is no projection.
+  /// The largest double where there is no projection, or where it is beyond that.
   double chi2 = 0;
   /// Out. ok; behind_camera: at the start (left out) or at the end; non_finite or invalid_argument (sigma <= 0): left
   /// out; too_few: left out with its point or frame.
@@ -32101,7 +32346,8 @@ class BasicWindowStructure {
       if (!is_finite(x)) return Status::non_finite;
     if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) ||
         !(o.initial_lambda > 0) || !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 ||
-        o.text_level < 0 || o.text_level >= kMaxPyramidLevels)
+        !(o.cost_tolerance >= 0) || !(o.step_tolerance >= 0) || !(o.max_lost_fraction >= 0) || o.text_level < 0 ||
+        o.text_level >= kMaxPyramidLevels)
       return Status::invalid_argument;
     for (const WindowFrame& f : w.frames)
       if (!all_finite(f.T_w_c)) return Status::non_finite;
@@ -32203,7 +32449,7 @@ class BasicWindowStructure {
   }
   void join(int a, int b) noexcept {
     const int ra = root(a), rb = root(b);
-    at(parent_, std::max(ra, rb)) = std::min(ra, rb);
+    at(parent_, (std::max)(ra, rb)) = (std::min)(ra, rb);
   }
 
   // Counts the degrees of freedom that nothing fixes, for each set of frames that landmarks connect.
@@ -32253,7 +32499,7 @@ class BasicWindowStructure {
       if (anchor.fixed_frame >= 0)
         gauge_freedom += anchor.scale || anchor.fixed_points > 0 ? 0 : 1;
       else
-        gauge_freedom += std::max(7 - 3 * anchor.fixed_points - (anchor.scale ? 1 : 0), 1);
+        gauge_freedom += (std::max)(7 - 3 * anchor.fixed_points - (anchor.scale ? 1 : 0), 1);
     }
   }
 
@@ -32341,10 +32587,10 @@ namespace detail {
 template <class S>
 class BasicWindowSchur {
  public:
-  using Matrix6 = Eigen::Matrix<S, 6, 6>;
-  using Matrix63 = Eigen::Matrix<S, 6, 3>;
-  using Matrix26 = Eigen::Matrix<S, 2, 6>;
-  using Matrix23 = Eigen::Matrix<S, 2, 3>;
+  using Matrix6 = FixedMatrix<S, 6, 6>;
+  using Matrix63 = FixedMatrix<S, 6, 3>;
+  using Matrix26 = FixedMatrix<S, 2, 6>;
+  using Matrix23 = FixedMatrix<S, 2, 3>;
 
   /// Pivots of at most this share of their diagonal entry count as undetermined.
   static constexpr double kRankTolerance = 1e-11;
@@ -32368,8 +32614,8 @@ class BasicWindowSchur {
       if (camera_a >= 0) at(scale_row_, 6 * camera_a + i) = row_a[i];
       if (camera_b >= 0) at(scale_row_, 6 * camera_b + i) = row_b[i];
     }
-    scale_cameras_[0] = std::max(camera_a, camera_b);
-    scale_cameras_[1] = std::min(camera_a, camera_b);
+    scale_cameras_[0] = (std::max)(camera_a, camera_b);
+    scale_cameras_[1] = (std::min)(camera_a, camera_b);
   }
 
   void add_camera(int camera, const Matrix6& H, const Vector6<S>& g) noexcept {
@@ -32518,7 +32764,7 @@ class BasicWindowSchur {
   // c += a^T b for column-major a (2 x Rows), b (2 x Columns) and c (Rows x Columns), down the columns of c.
   template <int Rows, int Columns>
   static void add_rows(const S* a, const S* b, S* c) noexcept {
-    S first[Rows], second[Rows];
+    S first[kLength<Rows>], second[kLength<Rows>];
     for (int r = 0; r < Rows; ++r) {
       first[r] = a[2 * r];
       second[r] = a[2 * r + 1];
@@ -32540,10 +32786,10 @@ class BasicWindowSchur {
     for (int c = 0; c < cameras; ++c)
       for (int i = 0; i < 6; ++i) {
         at(diagonal_, 6 * c + i) = reduced_.at(c, c)(i, i);
-        largest = std::max(largest, at(diagonal_, 6 * c + i));
+        largest = (std::max)(largest, at(diagonal_, 6 * c + i));
       }
     const double floor = largest > 0 ? 1e-12 * largest : 1;
-    for (double& d : diagonal_) d = std::max(d, floor);
+    for (double& d : diagonal_) d = (std::max)(d, floor);
   }
 
   Vector3<S> damping(int l) const noexcept {
@@ -32572,7 +32818,7 @@ class BasicWindowSchur {
     if (scale_row_.empty()) return;
     double weight = 0;
     for (std::size_t i = 0; i < scale_row_.size(); ++i)
-      if (scale_row_[i] != 0) weight = std::max(weight, diagonal_[i]);
+      if (scale_row_[i] != 0) weight = (std::max)(weight, diagonal_[i]);
     for (int a : scale_cameras_)
       for (int b : scale_cameras_)
         if (a >= b && b >= 0)
@@ -32658,7 +32904,7 @@ class BasicWindowTerms {
       t.status = !all_finite(t.theta)                                              ? Status::non_finite
                  : !t.patch || !is_ok(t.patch->status) || !t.patch->camera.valid() ? Status::invalid_argument
                                                                                    : Status::ok;
-      if (t.status == Status::ok) longest = std::max(longest, t.patch->max_pixels());
+      if (t.status == Status::ok) longest = (std::max)(longest, t.patch->max_pixels());
     }
     photometric_.reserve(longest);
     mask_begin_.assign(w.text_observations.size() + 1, 0);
@@ -32737,7 +32983,7 @@ class BasicWindowTerms {
       const WindowTextObservation& ob = at(w.text_observations, k);
       const int visible = at(text_, k).visible;
       const PhotometricCost c = textplane::evaluate(request(w, o, y, ob), photometric_, mask(k));
-      path_ = std::max(path_, c.path);
+      path_ = (std::max)(path_, c.path);
       pixels += visible;
       lost += is_ok(c.status) ? c.lost : visible;
       trial.cost += weight(o, ob, visible) * (is_ok(c.status) ? c.cost : o.photometric.robust.rho(2.0));
@@ -32753,7 +32999,8 @@ class BasicWindowTerms {
       Vector3<S> p_c;
       const bool usable = k.status != Status::non_finite && k.status != Status::invalid_argument;
       const bool front = usable && in_front(k, x, o, &p_c);
-      k.chi2 = front ? chi2(w, k, p_c) : std::numeric_limits<double>::max();
+      constexpr double kMost = (std::numeric_limits<double>::max)();
+      k.chi2 = front ? (std::min)(chi2(w, k, p_c), kMost) : kMost;
       if (k.status == Status::ok && !front) k.status = Status::behind_camera;
     }
     for (int k = 0; k < count(s.text_active); ++k) {
@@ -32826,7 +33073,7 @@ class BasicWindowTerms {
     NormalEquations<9>& out = at(text_, k);
     const ResidualRequest<std::uint8_t> q = request(w, o, x, ob);
     out = textplane::linearise<Parameters::pose_plane>(q, photometric_);
-    path_ = std::max(path_, out.path);
+    path_ = (std::max)(path_, out.path);
     if (is_ok(out.status))
       std::copy_n(photometric_.visible(), q.input.patch.n,
                   mask_.begin() + static_cast<std::ptrdiff_t>(at(mask_begin_, k)));
@@ -32839,14 +33086,14 @@ class BasicWindowTerms {
     const WindowPointObservation& ob = at(w.point_observations, k);
     Vector3<S> p_c;
     in_front(ob, x, o, &p_c);
-    Eigen::Matrix<S, 2, 3> J;
+    FixedMatrix<S, 2, 3> J;
     const Vector2<S> e = w.camera.project(p_c, &J) - ob.px;
     const double information = 1 / (ob.sigma * ob.sigma), r2 = e.squaredNorm() * information;
     const double weight = o.point_robust.weight(r2) * information;
     const int camera = at(s.camera_of_frame, ob.frame), slot = at(s.point_slot, k);
     const bool free = at(s.landmark_free, ob.point) != 0;
-    Eigen::Matrix<S, 2, 6> J_camera, weighted_camera;
-    Eigen::Matrix<S, 2, 3> J_point;
+    FixedMatrix<S, 2, 6> J_camera, weighted_camera;
+    FixedMatrix<S, 2, 3> J_point;
     if (camera >= 0) {
       for (int r = 0; r < 2; ++r) {
         for (int c = 0; c < 3; ++c) J_camera(r, c) = -J(r, c);
@@ -32873,7 +33120,7 @@ class BasicWindowTerms {
     const WindowTextObservation& ob = at(w.text_observations, k);
     const WindowText& t = at(w.texts, ob.text);
     const NormalEquations<9>& ne = at(text_, k);
-    const Eigen::Matrix<S, 9, 9>& H = ne.H;
+    const FixedMatrix<S, 9, 9>& H = ne.H;
     const Eigen::Matrix<S, 9, 1>& b = ne.b;
     const S scale = weight(o, ob, ne.visible);
     const int landmark = count(w.points) + ob.text;
@@ -32960,7 +33207,7 @@ class WindowSolver {
       if (system_.reduce(lambda) && system_.solve()) {
         const double predicted = system_.predicted_decrease();
         if (fresh) promised = predicted;
-        if (fresh && predicted <= std::max(o_.cost_tolerance * cost_, noise())) return Status::converged;
+        if (fresh && predicted <= (std::max)(o_.cost_tolerance * cost_, noise())) return Status::converged;
         fresh = false;
         ++sum_.iterations;
         const double step = move();
@@ -32970,8 +33217,8 @@ class WindowSolver {
           accept(step);
           if (!is_finite(cost_)) return Status::non_finite;
           if (decrease <= o_.cost_tolerance * before || step <= o_.step_tolerance) return Status::converged;
-          const double gain = 2 * std::min(decrease / predicted, 1.0) - 1;
-          lambda = std::max(lambda * std::max(1.0 / 3, 1 - gain * gain * gain), 1e-12);
+          const double gain = 2 * (std::min)(decrease / predicted, 1.0) - 1;
+          lambda = (std::max)(lambda * (std::max)(1.0 / 3, 1 - gain * gain * gain), 1e-12);
           growth = 2;
           fresh = true;
           continue;
@@ -32983,7 +33230,7 @@ class WindowSolver {
       lambda *= growth;
       growth *= 2;
       if (!(lambda <= o_.max_lambda))
-        return promised <= std::max(kStall * cost_, noise()) ? Status::converged : Status::diverged;
+        return promised <= (std::max)(kStall * cost_, noise()) ? Status::converged : Status::diverged;
     }
     return Status::iteration_limit;
   }
@@ -32997,7 +33244,7 @@ class WindowSolver {
       const Vector6<S> xi = system_.camera_step(c);
       SE3<S>& T = at(y_.T_w_c, at(structure_.frame_of_camera, c));
       T = renormalised(T * se3_exp(xi));
-      largest = std::max({largest, xi.template head<3>().norm() / length_, xi.template tail<3>().norm()});
+      largest = (std::max)({largest, xi.template head<3>().norm() / length_, xi.template tail<3>().norm()});
     }
     if (structure_.scale_a >= 0) restore_scale();
     const int points = count(w_.points);
@@ -33006,7 +33253,7 @@ class WindowSolver {
       const Vector3<S>& d = system_.landmark_step(l);
       const double size = l < points ? length_ : at(x_.landmark, l).norm();
       at(y_.landmark, l) += d;
-      largest = std::max(largest, d.norm() / size);
+      largest = (std::max)(largest, d.norm() / size);
     }
     return largest;
   }
@@ -33035,7 +33282,7 @@ class WindowSolver {
   double noise() const noexcept {
     const int texts = count(w_.text_observations);
     const double rounding = 1e-20 * (count(w_.point_observations) + texts);
-    return texts > 0 && !o_.photometric.precise ? std::max(rounding, kSinglePrecision * cost_) : rounding;
+    return texts > 0 && !o_.photometric.precise ? (std::max)(rounding, kSinglePrecision * cost_) : rounding;
   }
 
   void finish() {
