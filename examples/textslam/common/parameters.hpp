@@ -23,8 +23,8 @@ struct Parameters {
 #undef SECTION
 };
 
-/// The parameters for images of this size: what says "px at 640x480" is for images of that area, and grows with the side
-/// of a square of equal area. The coarsest pyramid level stays about as small as that of 640x480.
+/// The parameters for images of this size: what says "px at 640x480" is for images of that area, and grows with the
+/// side of a square of equal area. The coarsest pyramid level stays about as small as that of 640x480.
 inline Parameters at_size(Parameters parameters, int width, int height) {
   const double scale = std::sqrt(static_cast<double>(width) * height / (640.0 * 480.0));
   const auto pixels = [scale](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };

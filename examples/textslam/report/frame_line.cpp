@@ -20,6 +20,7 @@ std::string frame_line(int index, const FrameRecord& record, const Map& map) {
               {"keyframe", is_keyframe},
               {"map_keyframes", map.keyframe_ids().size()},
               {"pose", record.live ? short_pose(record.T_w_c_live) : Json(nullptr)},
+              {"position_sigma", record.live ? Json(record.position_sigma) : Json(nullptr)},
               {"ms", line_timing(record)}}
       .dump();
 }

@@ -1,6 +1,7 @@
 #include "textslam/report/outputs.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <vector>
 
@@ -21,6 +22,27 @@ std::vector<StampedPose> keyframe_trajectory(const Map& map) {
   return poses;
 }
 
+// Of all frames between key frames. Lengths are those of the trajectory.
+std::string covariance_lines(const System& system) {
+  std::string out =
+      "# timestamp, live or filled, covariance of (v, omega) upper triangle row by row: T_c_w -> exp(v, omega) T_c_w\n";
+  for (const FrameRecord& record : system.records()) {
+    const textplane::Ldlt<double, 6> ldlt(record.information);
+    if (record.state != FrameState::tracked || !ldlt.ok()) continue;
+    const Matrix6 covariance = ldlt.inverse();
+    char number[32];
+    std::snprintf(number, sizeof number, "%.6f", record.timestamp);
+    out += std::string(number) + (record.live ? " live" : " filled");
+    for (int i = 0; i < 6; ++i)
+      for (int j = i; j < 6; ++j) {
+        std::snprintf(number, sizeof number, " %.6e", covariance(i, j));
+        out += number;
+      }
+    out += '\n';
+  }
+  return out;
+}
+
 }  // namespace
 
 void write_outputs(const std::string& folder, const System& system, const RunSummary& summary,
@@ -30,6 +52,7 @@ void write_outputs(const std::string& folder, const System& system, const RunSum
       [&] { write_tum(at("trajectory.txt"), final_trajectory(system)); },
       [&] { write_tum(at("trajectory_live.txt"), live_trajectory(system)); },
       [&] { write_tum(at("keyframes.txt"), keyframe_trajectory(system.map())); },
+      [&] { write_file(at("covariances.txt"), covariance_lines(system)); },
       [&] { write_file(at("text_map.json"), text_map_json(system.map())); },
       [&] { write_file(at("text_map.ply"), text_map_ply(system.map())); },
       [&] { write_file(at("text_index.json"), text_index_json(index_texts(system.map(), image))); },

@@ -124,6 +124,7 @@ bool System::track(const Frame& frame, FrameRecord& record) {
   record.texts = report.texts;
   if (!report.ok) return false;
   record.information = report.information;
+  record.position_sigma = report.position_sigma;
   for (const int id : report.visible) ++map_.point(id).visible;
   for (const int id : report.found) ++map_.point(id).found;
   return true;
@@ -262,6 +263,7 @@ void System::fill_in(const std::function<Frame(int)>& load) {
     record.points = report.inliers;
     record.texts = report.texts;
     record.information = report.information;
+    record.position_sigma = report.position_sigma;
   }
 }
 

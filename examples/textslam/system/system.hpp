@@ -48,8 +48,9 @@ struct FrameRecord {
   int keyframe = -1;  ///< The key frame that the pose is relative to.
   SE3d T_k_c;         ///< Camera to that key frame.
   Matrix6 information = Matrix6::Zero();  ///< Of that, see PoseEstimate; zero where the pose is a key frame's.
-  SE3d T_w_c_live;    ///< Camera to the live world as known when the frame was processed; tracked frames alone.
-  bool live = false;  ///< Tracked in the map when it came, not filled in or joined afterwards.
+  SE3d T_w_c_live;            ///< Camera to the live world as known when the frame was processed; tracked frames alone.
+  bool live = false;          ///< Tracked in the map when it came, not filled in or joined afterwards.
+  double position_sigma = 0;  ///< Of the camera, as a share of the scene's depth, as tracked.
   int points = 0, texts = 0;
   std::vector<SeenPoint> seen;  ///< Between key frames: what the pose rests on.
   double detect_ms = 0, track_ms = 0, klt_ms = 0, pose_ms = 0, reobserve_ms = 0, map_ms = 0, adjust_ms = 0;

@@ -18,8 +18,8 @@ struct Track {
   bool inlier = true;                               ///< Of the last pose.
 };
 
-/// A pose with what is known of it, under left perturbations xi = (v, omega) of T_c_w: the inverse of its covariance. The
-/// map counts as known. v is in lengths of the map, so that information changes with the map's scale.
+/// A pose with what is known of it: the inverse of its covariance, under left perturbations xi = (v, omega) of T_c_w.
+/// The map counts as known. v is in lengths of the map, so that information changes with the map's scale.
 struct PoseEstimate {
   SE3d T_c_w;
   Matrix6 information = Matrix6::Zero();

@@ -176,8 +176,8 @@ void Tracker::relocate(const Frame& frame, const Candidate& candidate) {
   tracks_.push_back({px, candidate.point});
 }
 
-// Corners whose depth is not known yet, as points at the median depth of the key frame that saw them last: they hold the
-// rotation, and less of the position the farther the camera is from there.
+// Corners whose depth is not known yet, as points at the median depth of the key frame that saw them last: they hold
+// the rotation, and less of the position the farther the camera is from there.
 void Tracker::add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const {
   const double focal = std::max(map_.camera.fx, map_.camera.fy);
   std::map<int, double> depths;
@@ -238,11 +238,36 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
     report->inliers += track.inlier ? 1 : 0;
   }
   for (const float z : zncc) report->texts += z >= parameters_.text_min_zncc ? 1 : 0;
+  judge_position(*T_c_w, points, map_points, texts, report);
+  if (!(report->position_sigma <= parameters_.max_position_sigma)) return false;
   const int inliers = report->inliers;
-  const bool enough_points =
-      inliers + held >= parameters_.min_inliers && inliers + held >= parameters_.min_inlier_share * point_count;
+  // Corners without depth help to hold a pose. Alone they would pass it on from key frame to key frame.
+  const bool enough_points = 2 * inliers >= parameters_.min_inliers && inliers + held >= parameters_.min_inliers &&
+                             inliers + held >= parameters_.min_inlier_share * point_count;
   return enough_points || report->texts >= parameters_.enough_texts ||
          (report->texts > 0 && inliers >= parameters_.min_inliers / 2);
+}
+
+// The depths that corners are guessed at may all be wrong by the same factor: what they say of the position has that
+// error in common, which the information does not know.
+void Tracker::judge_position(const SE3d& T_c_w, const std::vector<textplane::PosePointTerm>& points, int map_points,
+                             const std::vector<textplane::PoseTextTerm>& texts, TrackReport* report) const {
+  std::vector<double> depths;
+  const double known = parameters_.point_sigma * parameters_.point_sigma;
+  double guessed = 0, all = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    depths.push_back((T_c_w * points[i].p_w).z());
+    const double weight = 1 / (points[i].sigma * points[i].sigma);
+    all += weight;
+    if (static_cast<int>(i) >= map_points)
+      guessed += weight * std::sqrt(std::max(0.0, points[i].sigma * points[i].sigma - known));
+  }
+  for (const textplane::PoseTextTerm& text : texts) {
+    const Vec3 corner = textplane::plane_point<double>(text.theta, map_.camera.unproject(text.patch->quad.corner[0]));
+    depths.push_back((T_c_w * (text.T_w_h * corner)).z());
+  }
+  const double focal = std::max(map_.camera.fx, map_.camera.fy), depth = median(std::move(depths));
+  report->position_sigma = position_sigma(report->information) / depth + (all > 0 ? guessed / all / focal : 0);
 }
 
 }  // namespace textslam

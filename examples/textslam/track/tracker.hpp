@@ -2,8 +2,9 @@
 // and tries a lost frame against an old key frame.
 //
 // Prediction (constant velocity, rotation by whole-image alignment) -> KLT of map points -> pose from points -> KLT of
-// other corners, expected by that pose -> search for other map points and those that drifted, by their key frame's patch
-// -> pose from points and text, coarse to fine.
+// other corners, expected by that pose -> search for other map points and those that drifted, by their key frame's
+// patch -> pose from points and text, coarse to fine. The pose holds where enough was found, and where its position is
+// known to max_position_sigma of the scene's depth.
 #ifndef TEXTSLAM_TRACK_TRACKER_HPP
 #define TEXTSLAM_TRACK_TRACKER_HPP
 
@@ -20,6 +21,7 @@ struct TrackReport {
   bool ok = false;
   SE3d T_c_w;
   Matrix6 information = Matrix6::Zero();  ///< Of T_c_w, as PoseEstimate has it.
+  double position_sigma = 0;              ///< Of the camera, as a share of the median depth of what holds the pose.
   int points = 0;                         ///< Map points tracked.
   int inliers = 0;                        ///< Of them, consistent with the pose.
   int texts = 0;                          ///< Texts that took part with a good ZNCC.
@@ -59,6 +61,8 @@ class Tracker {
   void reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report);
   void relocate(const Frame& frame, const Candidate& candidate);
   void add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const;
+  void judge_position(const SE3d& T_c_w, const std::vector<textplane::PosePointTerm>& points, int map_points,
+                      const std::vector<textplane::PoseTextTerm>& texts, TrackReport* report) const;
   bool fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report);
   bool looks_for_point(int id) const { return !map_.point(id).bad && (!local_ || local_->has_point(id)); }
 
