@@ -92,6 +92,7 @@ void cull_keyframe(Map& map, int id) {
   KeyFrame& keyframe = map.keyframe(id);
   keyframe.culled = true;
   keyframe.frame.image.reset();
+  keyframe.looks.reset();
   keyframe.frame.detections.clear();
   keyframe.frame.detections.shrink_to_fit();
   keyframe.points.shrink_to_fit();

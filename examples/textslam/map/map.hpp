@@ -5,6 +5,7 @@
 #define TEXTSLAM_MAP_MAP_HPP
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,11 +29,14 @@ struct MapPoint {
   bool bad = false;
 };
 
+struct KeyFrameLooks;
+
 struct KeyFrame {
   Frame frame;
   SE3d T_w_c;
   std::vector<int> points;  ///< Ids of the map points observed here.
   bool culled = false;      ///< Out of the map (culling.hpp): it has no image, and its pose means nothing.
+  mutable std::shared_ptr<const KeyFrameLooks> looks = {};  ///< Kept by places.hpp, which makes them when needed.
 };
 
 enum class TextState {

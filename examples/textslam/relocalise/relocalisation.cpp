@@ -97,12 +97,29 @@ Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters,
   return {};
 }
 
-Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame) {
-  if (parameters.mode == Mode::text) {
-    Relocalisation found = relocalise_by_texts(map, parameters, frame, {WordMatch::same, WordMatch::other});
+Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
+                                    const std::vector<int>& ids) {
+  for (const PlaceRank& place : rank_places(map, parameters, looks, ids, frame.index)) {
+    const MatchedPose pose = pose_by_place(map, parameters, looks, place.keyframe);
+    if (pose.inliers == 0) continue;
+    Relocalisation found = recognise_from(map, parameters, frame, pose.T_c_w);
     if (found.ok) return found;
   }
-  return relocalise_by_keyframes(map, parameters, frame);
+  return {};
+}
+
+Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks) {
+  Relocalisation found;
+  if (parameters.mode == Mode::text)
+    found = relocalise_by_texts(map, parameters, frame, {WordMatch::same, WordMatch::other});
+  if (!found.ok) found = relocalise_by_keyframes(map, parameters, frame);
+  if (!found.ok) found = relocalise_by_places(map, parameters, frame, looks, map.keyframe_ids());
+  return found;
+}
+
+Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame) {
+  FrameLooks looks(frame, parameters);
+  return relocalise(map, parameters, frame, looks);
 }
 
 }  // namespace textslam

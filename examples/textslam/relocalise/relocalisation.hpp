@@ -1,10 +1,11 @@
-// Relocalisation: the pose of a frame after tracking was lost, from the signs that it shows and from the key frames
-// that look most like it.
+// Relocalisation: the pose of a frame after tracking was lost, from the signs that it shows, from the key frames
+// that look most like it, and from points that look like those of key frames.
 #ifndef TEXTSLAM_RELOCALISE_RELOCALISATION_HPP
 #define TEXTSLAM_RELOCALISE_RELOCALISATION_HPP
 
 #include <vector>
 
+#include "textslam/relocalise/places.hpp"
 #include "textslam/relocalise/text_hypotheses.hpp"
 #include "textslam/track/tracker.hpp"
 
@@ -28,8 +29,15 @@ Relocalisation recognise_from(const Map& map, const Parameters& parameters, cons
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
                                    const std::vector<WordMatch>& ways);
 
+/// The first pose that holds of those by the looks of points in the key frames `ids`.
+Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
+                                    const std::vector<int>& ids);
+
 /// Tries the poses that the frame's detections suggest (mode text). Where none holds, tries the key frames whose
-/// coarsest images correlate best with the frame's.
+/// coarsest images correlate best with the frame's, then those with points that look alike. `looks` are the frame's.
+Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks);
+
+/// The same for a single map.
 Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame);
 
 }  // namespace textslam

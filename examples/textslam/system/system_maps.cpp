@@ -31,10 +31,11 @@ void System::take_map(std::size_t stored) {
 
 bool System::recover(const Frame& frame, FrameRecord& record) {
   Relocalisation found;
-  if (!map_.keyframes.empty()) found = relocalise(map_, parameters_, frame);
+  FrameLooks looks(frame, parameters_);
+  if (!map_.keyframes.empty()) found = relocalise(map_, parameters_, frame, looks);
   // The map that was left last is the likeliest.
   for (std::size_t i = stored_.size(); i > 0 && !found.ok; --i) {
-    found = relocalise(stored_[i - 1], parameters_, frame);
+    found = relocalise(stored_[i - 1], parameters_, frame, looks);
     if (found.ok) take_map(i - 1);
   }
   if (!found.ok) return false;
@@ -51,8 +52,9 @@ bool System::recover(const Frame& frame, FrameRecord& record) {
 
 // The key frame just added may show a stored map. Then the map that is worked on moves into it.
 void System::join_stored(const Frame& frame, FrameRecord& record) {
+  FrameLooks looks(frame, parameters_);
   for (std::size_t i = stored_.size(); i > 0; --i) {
-    const Relocalisation seen = relocalise(stored_[i - 1], parameters_, frame);
+    const Relocalisation seen = relocalise(stored_[i - 1], parameters_, frame, looks);
     if (!seen.ok) continue;
     take_over(adjuster_.settle(map_));
     const MapLink link = link_maps(stored_[i - 1], map_, parameters_, seen);

@@ -1,0 +1,165 @@
+#include "textslam/relocalise/places.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "textplane/features/fast.hpp"
+#include "textplane/features/select.hpp"
+#include "textslam/common/algorithms.hpp"
+#include "textslam/map/observations.hpp"
+
+namespace textslam {
+namespace {
+
+constexpr int kLevels = 3;               // that corners are looked for on
+constexpr int kSizes = 2 * kLevels - 1;  // that points are described at: half octaves
+constexpr int kMostSizesApart = 2;       // of a match: twice as near or as far
+
+double px_of_size(int size) { return std::exp2(0.5 * size); }
+
+// On one level, in px of level 0, strongest first.
+std::vector<Vec2f> corners_of_level(const Frame& frame, int level, const Parameters& parameters) {
+  const textplane::ImageView8 image = frame.image->level(level);
+  const int lowest = parameters.min_fast_threshold;
+  std::vector<textplane::Corner> corners;
+  textplane::detect_fast(image, std::min(parameters.fast_threshold, lowest), true, corners);
+  const int cell = std::max(parameters.min_corner_cell, parameters.corner_cell / 2);
+  textplane::select_spread(corners, image.width(), image.height(), cell, parameters.place_corners, {}, corners);
+  std::vector<Vec2f> out;
+  for (const textplane::Corner& c : corners) out.push_back(textplane::point_from_level(Vec2f(c.x, c.y), level));
+  return out;
+}
+
+void add_look(const SmoothedLevels& levels, const Vec2f& px, int size, int point, std::vector<CornerLook>* out) {
+  CornerLook look{px, size, point, {}};
+  if (levels.describe(px, px_of_size(size), &look.bits)) out->push_back(look);
+}
+
+// The strong corners of key frames at three sizes, as the camera may have come nearer or gone away.
+std::vector<CornerLook> strong_corners(const Frame& frame, const SmoothedLevels& levels, int sizes_around,
+                                       const Parameters& parameters) {
+  std::vector<CornerLook> out;
+  for (int level = 1; level < std::min(kLevels, frame.image->levels()); ++level) {
+    std::vector<Vec2f> corners = corners_of_level(frame, level, parameters);
+    if (static_cast<int>(corners.size()) > parameters.place_rank_corners)
+      corners.resize(static_cast<std::size_t>(parameters.place_rank_corners));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      for (int size = 2 * level - sizes_around; size <= 2 * level + sizes_around; ++size)
+        add_look(levels, corners[i], size, level * parameters.place_rank_corners + static_cast<int>(i), &out);
+  }
+  return out;
+}
+
+const KeyFrameLooks& looks_of_keyframe(const Map& map, int id, const Parameters& parameters) {
+  const KeyFrame& keyframe = map.keyframe(id);
+  std::vector<int> points = keyframe.points;
+  std::sort(points.begin(), points.end());
+  const auto* known = keyframe.looks.get();
+  if (known && std::includes(known->points.begin(), known->points.end(), points.begin(), points.end())) return *known;
+  auto fresh = std::make_shared<KeyFrameLooks>();
+  const SmoothedLevels levels(*keyframe.frame.image, kLevels);
+  for (const int point : points)
+    if (const Vec2* px = observed_in(map.point(point).observations, id))
+      for (int size = 0; size < kSizes; ++size) add_look(levels, px->cast<float>(), size, point, &fresh->looks);
+  fresh->points = std::move(points);
+  fresh->corners = known ? known->corners : strong_corners(keyframe.frame, levels, 1, parameters);
+  keyframe.looks = std::move(fresh);
+  return *keyframe.looks;
+}
+
+struct LookMatch {
+  int point = -1;
+  int bits = kDescriptorBits;
+  const CornerLook* found = nullptr;
+};
+
+// For each point (its looks follow each other) what it is most like, where nothing else is nearly as like it.
+std::vector<LookMatch> match_looks(const std::vector<CornerLook>& looks, const std::vector<CornerLook>& in_frame,
+                                   const Parameters& parameters) {
+  std::vector<LookMatch> matches;
+  const auto apart = [&](const CornerLook* a, const CornerLook* b) {
+    const auto most = static_cast<float>(parameters.place_same_corner * px_of_size(std::max(a->size, b->size)));
+    return (a->px - b->px).squaredNorm() > most * most;
+  };
+  for (std::size_t i = 0; i < looks.size();) {
+    LookMatch best{looks[i].point, kDescriptorBits, nullptr};
+    int second = kDescriptorBits;
+    for (; i < looks.size() && looks[i].point == best.point; ++i)
+      for (const CornerLook& other : in_frame) {
+        if (std::abs(other.size - looks[i].size) > kMostSizesApart) continue;
+        const int bits = bits_apart(looks[i].bits, other.bits);
+        if (bits >= second) continue;
+        const bool elsewhere = best.found && apart(best.found, &other);
+        if (bits < best.bits) {
+          if (elsewhere) second = best.bits;
+          best.bits = bits;
+          best.found = &other;
+        } else if (elsewhere) {
+          second = bits;
+        }
+      }
+    if (best.found && best.bits <= parameters.place_max_bits && best.bits < parameters.place_ratio * second)
+      matches.push_back(best);
+  }
+  // A corner of the frame is one point: that most like it.
+  std::stable_sort(matches.begin(), matches.end(), [](const LookMatch& a, const LookMatch& b) {
+    return a.found != b.found ? std::less<const CornerLook*>()(a.found, b.found) : a.bits < b.bits;
+  });
+  matches.erase(std::unique(matches.begin(), matches.end(),
+                            [](const LookMatch& a, const LookMatch& b) { return a.found == b.found; }),
+                matches.end());
+  return matches;
+}
+
+}  // namespace
+
+const std::vector<CornerLook>& FrameLooks::all() {
+  describe();
+  return all_;
+}
+
+const std::vector<CornerLook>& FrameLooks::strong() {
+  describe();
+  return strong_;
+}
+
+void FrameLooks::describe() {
+  if (described_) return;
+  described_ = true;
+  const SmoothedLevels levels(*frame_.image, kLevels);
+  for (int level = 0; level < levels.levels(); ++level)
+    for (const Vec2f& px : corners_of_level(frame_, level, parameters_)) add_look(levels, px, 2 * level, -1, &all_);
+  strong_ = strong_corners(frame_, levels, 0, parameters_);
+}
+
+std::vector<PlaceRank> rank_places(const Map& map, const Parameters& parameters, FrameLooks& looks,
+                                   const std::vector<int>& ids, int frame) {
+  std::vector<PlaceRank> ranks;
+  const std::size_t stride = ids.size() / static_cast<std::size_t>(parameters.place_compared) + 1;
+  for (std::size_t i = static_cast<std::size_t>(std::max(frame, 0)) % stride; i < ids.size(); i += stride) {
+    const KeyFrameLooks& known = looks_of_keyframe(map, ids[i], parameters);
+    const auto matches = static_cast<int>(match_looks(known.corners, looks.strong(), parameters).size());
+    if (matches >= parameters.place_min_matches) ranks.push_back({ids[i], matches});
+  }
+  std::stable_sort(ranks.begin(), ranks.end(),
+                   [](const PlaceRank& a, const PlaceRank& b) { return a.matches > b.matches; });
+  if (static_cast<int>(ranks.size()) > parameters.place_candidates)
+    ranks.resize(static_cast<std::size_t>(parameters.place_candidates));
+  return ranks;
+}
+
+MatchedPose pose_by_place(const Map& map, const Parameters& parameters, FrameLooks& looks, int keyframe) {
+  const KeyFrameLooks& known = looks_of_keyframe(map, keyframe, parameters);
+  std::vector<int> observed = map.keyframe(keyframe).points;
+  std::sort(observed.begin(), observed.end());
+  std::vector<PointMatch> matches;
+  for (const LookMatch& match : match_looks(known.looks, looks.all(), parameters))
+    if (std::binary_search(observed.begin(), observed.end(), match.point))
+      matches.push_back({match.point, map.point(match.point).p_w, match.found->px.cast<double>(),
+                         parameters.place_sigma * px_of_size(match.found->size)});
+  MatchedPose pose = pose_of_matches(matches, map.camera, map.keyframe(keyframe).T_w_c.inverse(), parameters);
+  if (pose.inliers < parameters.place_min_inliers) pose.inliers = 0;
+  return pose;
+}
+
+}  // namespace textslam

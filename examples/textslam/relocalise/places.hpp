@@ -1,0 +1,64 @@
+// Places: which key frames show what a frame shows, by the looks of points alone.
+//
+// A frame's corners are described on several pyramid levels, a key frame's map points at several sizes. Key frames are
+// ranked by matches of a few strong, coarse corners; the best ones by all their points, which then give a pose.
+#ifndef TEXTSLAM_RELOCALISE_PLACES_HPP
+#define TEXTSLAM_RELOCALISE_PLACES_HPP
+
+#include <memory>
+#include <vector>
+
+#include "textslam/map/map.hpp"
+#include "textslam/relocalise/descriptors.hpp"
+#include "textslam/relocalise/three_point_pose.hpp"
+
+namespace textslam {
+
+/// A corner as it looks at one size: a pixel of the pattern is 2^(size / 2) px of level 0.
+struct CornerLook {
+  Vec2f px = Vec2f::Zero();
+  int size = 0;
+  int point = -1;  ///< Of the map, in a key frame.
+  Descriptor bits{};
+};
+
+/// What is kept beside a key frame.
+struct KeyFrameLooks {
+  std::vector<int> points;          ///< That it observed when they were described, in order.
+  std::vector<CornerLook> looks;    ///< Of these points, all sizes of one together.
+  std::vector<CornerLook> corners;  ///< Strong corners for the ranking, likewise.
+};
+
+/// A frame's looks, made when first asked for.
+class FrameLooks {
+ public:
+  FrameLooks(const Frame& frame, const Parameters& parameters) : frame_(frame), parameters_(parameters) {}
+
+  const std::vector<CornerLook>& all();     ///< Corners of all levels, strongest first on each.
+  const std::vector<CornerLook>& strong();  ///< Of the coarser levels, few.
+
+ private:
+  void describe();
+
+  const Frame& frame_;
+  const Parameters& parameters_;
+  bool described_ = false;
+  std::vector<CornerLook> all_, strong_;
+};
+
+struct PlaceRank {
+  int keyframe = -1;
+  int matches = 0;  ///< Of strong corners.
+};
+
+/// Of the key frames `ids`, those that may show the same, the best first, at most place_candidates. Of many ids a part
+/// is compared, another one with each frame.
+std::vector<PlaceRank> rank_places(const Map& map, const Parameters& parameters, FrameLooks& looks,
+                                   const std::vector<int>& ids, int frame);
+
+/// The pose that the matches with the key frame's points give; without inliers where they are too few.
+MatchedPose pose_by_place(const Map& map, const Parameters& parameters, FrameLooks& looks, int keyframe);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RELOCALISE_PLACES_HPP
