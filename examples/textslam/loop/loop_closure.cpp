@@ -79,6 +79,20 @@ int key_frame_met(const Map& old_part, const Relocalisation& seen) {
   return static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 
+// Key frames of the old part that look like the newest.
+std::vector<PlaceRank> old_places(const Map& map, const LocalMap& local, const Parameters& parameters,
+                                  const Frame& frame, FrameLooks& looks) {
+  std::vector<int> ids = map.keyframe_ids();
+  erase_if(ids, [&](int id) { return local.has_keyframe(id); });
+  return rank_places(map, parameters, looks, ids, parameters.place_compared_in_passing, frame.index);
+}
+
+// Places that look the same may lie far apart; no drift takes one to the other.
+bool is_credible_drift(const Map& map, const Parameters& parameters, int newest, int met, const Relocalisation& seen) {
+  const double shift = (seen.T_c_w.inverse().t - map.keyframe(newest).T_w_c.t).norm();
+  return shift <= parameters.loop_most_drift * path_length_between(map, met, newest);
+}
+
 }  // namespace
 
 double path_length_between(const Map& map, int a, int b) {
@@ -104,12 +118,20 @@ Loop find_loop(const Map& map, const LocalMap& local, const Parameters& paramete
   Frame frame = newest.frame;
   frame.detections.clear();
   if (parameters.mode == Mode::text) frame.detections = detections_of_old(map, local, parameters, newest);
-  if (!expected && frame.detections.empty()) return loop;
-
-  const Map old = old_part(map, local);
+  Map old;
+  if (expected || !frame.detections.empty()) old = old_part(map, local);
   if (expected) loop.seen = recognise_from(old, parameters, frame, newest.T_w_c.inverse());
   if (!loop.seen.ok && !frame.detections.empty())
     loop.seen = relocalise_by_texts(old, parameters, frame, {WordMatch::same, WordMatch::unread});
+  if (!loop.seen.ok) {
+    FrameLooks looks(frame, parameters);
+    const std::vector<PlaceRank> places = old_places(map, local, parameters, frame, looks);
+    if (places.empty()) return loop;
+    old = old_part(map, local);
+    loop.seen = relocalise_by_places(old, parameters, frame, looks, places);
+    if (loop.seen.ok && !is_credible_drift(map, parameters, loop.keyframe, key_frame_met(old, loop.seen), loop.seen))
+      loop.seen = {};
+  }
   if (!loop.seen.ok) return loop;
   loop.link = link_maps(old, recent_part(map, local), parameters, loop.seen);
   loop.met = key_frame_met(old, loop.seen);

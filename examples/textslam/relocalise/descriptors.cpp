@@ -90,8 +90,8 @@ std::uint64_t bits_of_bytes(std::uint64_t v) {
 }  // namespace
 
 int bits_apart(const Descriptor& a, const Descriptor& b) {
-  const std::uint64_t low = bits_of_bytes(a[0] ^ b[0]) + bits_of_bytes(a[1] ^ b[1]);
-  const std::uint64_t high = bits_of_bytes(a[2] ^ b[2]) + bits_of_bytes(a[3] ^ b[3]);
+  const std::uint64_t low = bits_of_bytes(a.bits[0] ^ b.bits[0]) + bits_of_bytes(a.bits[1] ^ b.bits[1]);
+  const std::uint64_t high = bits_of_bytes(a.bits[2] ^ b.bits[2]) + bits_of_bytes(a.bits[3] ^ b.bits[3]);
   // Sums of bytes: at most 32 each, and 256 in all, so that the last sum takes 16 bits.
   const std::uint64_t sum = low + high;
   const std::uint64_t pairs = (sum & 0x00FF00FF00FF00FFU) + ((sum >> 8) & 0x00FF00FF00FF00FFU);
@@ -117,7 +117,7 @@ bool SmoothedLevels::describe(const Vec2f& px, double size, Descriptor* out) con
     return false;
   const int x = static_cast<int>(std::lround(at.x())), y = static_cast<int>(std::lround(at.y()));
   const textplane::ImageView8 view = image.view();
-  const Vec2f turned = stretch * direction(view, x, y, radius);
+  const Vec2f towards = direction(view, x, y, radius), turned = stretch * towards;
   const Pattern& places = pattern();
   std::array<std::uint8_t, 2 * kDescriptorBits> values;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -127,9 +127,9 @@ bool SmoothedLevels::describe(const Vec2f& px, double size, Descriptor* out) con
     const int dx = static_cast<int>(u + 1000.5F) - 1000, dy = static_cast<int>(v + 1000.5F) - 1000;
     values[i] = view.row(y + dy)[x + dx];
   }
-  *out = {};
+  *out = {{}, std::atan2(towards.y(), towards.x())};
   for (std::size_t i = 0; i < kDescriptorBits; ++i)
-    (*out)[i / 64] |= static_cast<std::uint64_t>(values[2 * i] < values[2 * i + 1]) << (i % 64);
+    out->bits[i / 64] |= static_cast<std::uint64_t>(values[2 * i] < values[2 * i + 1]) << (i % 64);
   return true;
 }
 

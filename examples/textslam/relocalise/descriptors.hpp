@@ -15,9 +15,12 @@
 
 namespace textslam {
 
-using Descriptor = std::array<std::uint64_t, 4>;
-
 constexpr int kDescriptorBits = 256;
+
+struct Descriptor {
+  std::array<std::uint64_t, kDescriptorBits / 64> bits{};
+  float angle = 0;  ///< Of its direction, radians.
+};
 
 /// Bits that differ.
 int bits_apart(const Descriptor& a, const Descriptor& b);

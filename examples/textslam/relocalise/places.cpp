@@ -32,7 +32,7 @@ std::vector<Vec2f> corners_of_level(const Frame& frame, int level, const Paramet
 
 void add_look(const SmoothedLevels& levels, const Vec2f& px, int size, int point, std::vector<CornerLook>* out) {
   CornerLook look{px, size, point, {}};
-  if (levels.describe(px, px_of_size(size), &look.bits)) out->push_back(look);
+  if (levels.describe(px, px_of_size(size), &look.descriptor)) out->push_back(look);
 }
 
 // The strong corners of key frames at three sizes, as the camera may have come nearer or gone away.
@@ -71,7 +71,26 @@ struct LookMatch {
   int point = -1;
   int bits = kDescriptorBits;
   const CornerLook* found = nullptr;
+  float turn = 0;  // from the key frame to the frame
 };
+
+// Wrong matches are turned anyhow, right ones all by the roll of the camera: those that agree with most others stay.
+void keep_turned_alike(std::vector<LookMatch>* matches, const Parameters& parameters) {
+  const auto most = static_cast<float>(radians(parameters.place_same_turn));
+  const auto alike = [&](const LookMatch& a, const LookMatch& b) {
+    return std::abs(std::remainder(a.turn - b.turn, static_cast<float>(2 * M_PI))) <= most;
+  };
+  std::ptrdiff_t best = 0;
+  LookMatch middle;
+  for (const LookMatch& match : *matches) {
+    const auto count =
+        std::count_if(matches->begin(), matches->end(), [&](const LookMatch& m) { return alike(m, match); });
+    if (count <= best) continue;
+    best = count;
+    middle = match;
+  }
+  erase_if(*matches, [&](const LookMatch& match) { return !alike(match, middle); });
+}
 
 // For each point (its looks follow each other) what it is most like, where nothing else is nearly as like it.
 std::vector<LookMatch> match_looks(const std::vector<CornerLook>& looks, const std::vector<CornerLook>& in_frame,
@@ -82,18 +101,19 @@ std::vector<LookMatch> match_looks(const std::vector<CornerLook>& looks, const s
     return (a->px - b->px).squaredNorm() > most * most;
   };
   for (std::size_t i = 0; i < looks.size();) {
-    LookMatch best{looks[i].point, kDescriptorBits, nullptr};
+    LookMatch best{looks[i].point, kDescriptorBits, nullptr, 0};
     int second = kDescriptorBits;
     for (; i < looks.size() && looks[i].point == best.point; ++i)
       for (const CornerLook& other : in_frame) {
         if (std::abs(other.size - looks[i].size) > kMostSizesApart) continue;
-        const int bits = bits_apart(looks[i].bits, other.bits);
+        const int bits = bits_apart(looks[i].descriptor, other.descriptor);
         if (bits >= second) continue;
         const bool elsewhere = best.found && apart(best.found, &other);
         if (bits < best.bits) {
           if (elsewhere) second = best.bits;
           best.bits = bits;
           best.found = &other;
+          best.turn = other.descriptor.angle - looks[i].descriptor.angle;
         } else if (elsewhere) {
           second = bits;
         }
@@ -108,6 +128,7 @@ std::vector<LookMatch> match_looks(const std::vector<CornerLook>& looks, const s
   matches.erase(std::unique(matches.begin(), matches.end(),
                             [](const LookMatch& a, const LookMatch& b) { return a.found == b.found; }),
                 matches.end());
+  keep_turned_alike(&matches, parameters);
   return matches;
 }
 
@@ -133,9 +154,9 @@ void FrameLooks::describe() {
 }
 
 std::vector<PlaceRank> rank_places(const Map& map, const Parameters& parameters, FrameLooks& looks,
-                                   const std::vector<int>& ids, int frame) {
+                                   const std::vector<int>& ids, int most, int frame) {
   std::vector<PlaceRank> ranks;
-  const std::size_t stride = ids.size() / static_cast<std::size_t>(parameters.place_compared) + 1;
+  const std::size_t stride = ids.size() / static_cast<std::size_t>(most) + 1;
   for (std::size_t i = static_cast<std::size_t>(std::max(frame, 0)) % stride; i < ids.size(); i += stride) {
     const KeyFrameLooks& known = looks_of_keyframe(map, ids[i], parameters);
     const auto matches = static_cast<int>(match_looks(known.corners, looks.strong(), parameters).size());

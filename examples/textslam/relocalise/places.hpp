@@ -19,7 +19,7 @@ struct CornerLook {
   Vec2f px = Vec2f::Zero();
   int size = 0;
   int point = -1;  ///< Of the map, in a key frame.
-  Descriptor bits{};
+  Descriptor descriptor = {};
 };
 
 /// What is kept beside a key frame.
@@ -51,10 +51,10 @@ struct PlaceRank {
   int matches = 0;  ///< Of strong corners.
 };
 
-/// Of the key frames `ids`, those that may show the same, the best first, at most place_candidates. Of many ids a part
-/// is compared, another one with each frame.
+/// Of the key frames `ids`, those that may show the same, the best first, at most place_candidates. About `most` of
+/// the ids are compared, others with each index `frame`.
 std::vector<PlaceRank> rank_places(const Map& map, const Parameters& parameters, FrameLooks& looks,
-                                   const std::vector<int>& ids, int frame);
+                                   const std::vector<int>& ids, int most, int frame);
 
 /// The pose that the matches with the key frame's points give; without inliers where they are too few.
 MatchedPose pose_by_place(const Map& map, const Parameters& parameters, FrameLooks& looks, int keyframe);

@@ -98,8 +98,8 @@ Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters,
 }
 
 Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
-                                    const std::vector<int>& ids) {
-  for (const PlaceRank& place : rank_places(map, parameters, looks, ids, frame.index)) {
+                                    const std::vector<PlaceRank>& places) {
+  for (const PlaceRank& place : places) {
     const MatchedPose pose = pose_by_place(map, parameters, looks, place.keyframe);
     if (pose.inliers == 0) continue;
     Relocalisation found = recognise_from(map, parameters, frame, pose.T_c_w);
@@ -108,18 +108,21 @@ Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters
   return {};
 }
 
-Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks) {
+Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
+                          bool lost) {
   Relocalisation found;
   if (parameters.mode == Mode::text)
     found = relocalise_by_texts(map, parameters, frame, {WordMatch::same, WordMatch::other});
   if (!found.ok) found = relocalise_by_keyframes(map, parameters, frame);
-  if (!found.ok) found = relocalise_by_places(map, parameters, frame, looks, map.keyframe_ids());
-  return found;
+  if (found.ok) return found;
+  const int most = lost ? parameters.place_compared : parameters.place_compared_in_passing;
+  return relocalise_by_places(map, parameters, frame, looks,
+                              rank_places(map, parameters, looks, map.keyframe_ids(), most, frame.index));
 }
 
 Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame) {
   FrameLooks looks(frame, parameters);
-  return relocalise(map, parameters, frame, looks);
+  return relocalise(map, parameters, frame, looks, true);
 }
 
 }  // namespace textslam

@@ -29,15 +29,17 @@ Relocalisation recognise_from(const Map& map, const Parameters& parameters, cons
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
                                    const std::vector<WordMatch>& ways);
 
-/// The first pose that holds of those by the looks of points in the key frames `ids`.
+/// The first pose that holds of those by the looks of points, in key frames that rank_places() found.
 Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
-                                    const std::vector<int>& ids);
+                                    const std::vector<PlaceRank>& places);
 
 /// Tries the poses that the frame's detections suggest (mode text). Where none holds, tries the key frames whose
 /// coarsest images correlate best with the frame's, then those with points that look alike. `looks` are the frame's.
-Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks);
+/// A frame that is not lost, but may show this map too, is compared with fewer of these.
+Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
+                          bool lost);
 
-/// The same for a single map.
+/// The same of a lost frame in a single map.
 Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame);
 
 }  // namespace textslam

@@ -32,10 +32,10 @@ void System::take_map(std::size_t stored) {
 bool System::recover(const Frame& frame, FrameRecord& record) {
   Relocalisation found;
   FrameLooks looks(frame, parameters_);
-  if (!map_.keyframes.empty()) found = relocalise(map_, parameters_, frame, looks);
+  if (!map_.keyframes.empty()) found = relocalise(map_, parameters_, frame, looks, true);
   // The map that was left last is the likeliest.
   for (std::size_t i = stored_.size(); i > 0 && !found.ok; --i) {
-    found = relocalise(stored_[i - 1], parameters_, frame, looks);
+    found = relocalise(stored_[i - 1], parameters_, frame, looks, true);
     if (found.ok) take_map(i - 1);
   }
   if (!found.ok) return false;
@@ -54,7 +54,7 @@ bool System::recover(const Frame& frame, FrameRecord& record) {
 void System::join_stored(const Frame& frame, FrameRecord& record) {
   FrameLooks looks(frame, parameters_);
   for (std::size_t i = stored_.size(); i > 0; --i) {
-    const Relocalisation seen = relocalise(stored_[i - 1], parameters_, frame, looks);
+    const Relocalisation seen = relocalise(stored_[i - 1], parameters_, frame, looks, false);
     if (!seen.ok) continue;
     take_over(adjuster_.settle(map_));
     const MapLink link = link_maps(stored_[i - 1], map_, parameters_, seen);

@@ -6,113 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <vector>
 
-#include "textslam/map/observations.hpp"
-#include "textslam/relocalise/boards_support.hpp"
-#include "textslam/relocalise/relocalisation.hpp"
-#include "textslam/track/feature_tracks.hpp"
+#include "textslam/relocalise/places_support.hpp"
 
 namespace textslam {
 namespace places_test {
 
-using boards_support::kDegree;
-using boards_support::moved;
-using boards_support::turn_between;
-
-// The corner of a room, papered with spots of several sizes; two key frames, and points on what they see.
-class PlacesTest : public testing::Test {
- protected:
-  PlacesTest() {
-    parameters.mode = Mode::points;
-    parameters = at_size(parameters, 640, 480);
-    map.camera = {525, 525, 319.5, 239.5};
-    map.width = 640;
-    map.height = 480;
-    map.number = 0;
-    for (const double x : {0.0, 0.15}) {
-      const SE3d T_w_c = moved({x, 0, 0}, {0, 0, 0});
-      map.keyframes.push_back({frame_at(T_w_c.inverse()), T_w_c, {}});
-    }
-    std::vector<Track> corners;
-    add_corners(map.keyframe(0).frame, 0, {}, parameters, corners);
-    for (const Track& corner : corners) {
-      const Vec3 p = hit(Vec3::Zero(), map.camera.unproject(corner.px.cast<double>()), nullptr);
-      const Vec2 other = map.camera.project(map.keyframe(1).T_w_c.inverse() * p);
-      if (!(other.x() > 20 && other.x() < 620)) continue;
-      map.points.push_back({p});
-      const int id = static_cast<int>(map.points.size()) - 1;
-      add_observation(map, id, 0, corner.px.cast<double>());
-      add_observation(map, id, 1, other);
-    }
-  }
-
-  static double spot(int i, int j, unsigned print) {
-    std::uint32_t h =
-        static_cast<std::uint32_t>(i) * 2654435761U ^ static_cast<std::uint32_t>(j) * 2246822519U ^ print * 3266489917U;
-    h = (h ^ (h >> 15)) * 739982445U;
-    h = (h ^ (h >> 12)) * 695872825U;
-    return (h ^ (h >> 15)) % 256;
-  }
-  static double smooth(double u, double v, unsigned print) {
-    const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
-    const double a = u - i, b = v - j;
-    return (1 - b) * ((1 - a) * spot(i, j, print) + a * spot(i + 1, j, print)) +
-           b * ((1 - a) * spot(i, j + 1, print) + a * spot(i + 1, j + 1, print));
-  }
-
-  // Two walls and the floor: the first that the ray meets.
-  Vec3 hit(const Vec3& from, const Vec3& ray, double* grey) const {
-    const Vec3 normals[] = {Vec3(0.6, 0, 0.8), Vec3(-0.7, 0, 0.714), Vec3(0, 1, 0)};
-    const double offsets[] = {2.6, 2.4, 0.9};
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double along = (offsets[i] - normals[i].dot(from)) / normals[i].dot(ray);
-      if (!(along > 0) || along >= nearest) continue;
-      nearest = along;
-      if (!grey) continue;
-      const Vec3 p = from + along * ray;
-      const double u = i == 2 ? p.x() : p.cross(normals[i]).y(), v = i == 2 ? p.z() : p.y();
-      const auto print = paper + 7 * static_cast<unsigned>(i);
-      *grey = 0.5 * smooth(u / 0.04, v / 0.04, print) + 0.5 * smooth(u / 0.11, v / 0.11, print + 3);
-    }
-    return from + nearest * ray;
-  }
-
-  Frame frame_at(const SE3d& T_c_w) const {
-    Image<std::uint8_t> image(map.width, map.height, 0);
-    const SE3d T_w_c = T_c_w.inverse();
-    for (int y = 0; y < map.height; ++y)
-      for (int x = 0; x < map.width; ++x) {
-        double grey = 0;
-        hit(T_w_c.t, T_w_c.R * map.camera.unproject(Vec2(x, y)), &grey);
-        image(x, y) = static_cast<std::uint8_t>(grey);
-      }
-    Frame frame;
-    frame.image = std::make_shared<const Pyramid>(image.view(), parameters.pyramid_levels);
-    return frame;
-  }
-
-  // A camera that has gone round the middle of the scene by `turn`, is `nearer` times as near, and is rolled.
-  static SE3d around(double turn, double nearer, double roll) {
-    const Vec3 middle(0.1, 0, 3);
-    const Eigen::Matrix3d R =
-        textplane::so3_exp<double>(Vec3(0, turn, 0)) * textplane::so3_exp<double>(Vec3(0, 0, roll));
-    return SE3d{R, middle - R * middle / nearer}.inverse();
-  }
-
-  void expect_found(const SE3d& truth) {
-    SCOPED_TRACE(testing::Message() << truth.inverse().t.transpose());
-    const Relocalisation found = relocalise(map, parameters, frame_at(truth));
-    ASSERT_TRUE(found.ok);
-    EXPECT_LT((found.T_c_w.inverse().t - truth.inverse().t).norm(), 0.01);
-    EXPECT_LT(turn_between(found.T_c_w, truth) / kDegree, 0.2);
-  }
-
-  Parameters parameters;
-  Map map;
-  unsigned paper = 1;
-};
+using namespace places_support;
 
 TEST_F(PlacesTest, AnotherViewOfAPlaceIsFound) {
   ASSERT_GT(map.points.size(), 200u);
@@ -155,19 +56,22 @@ TEST_F(PlacesTest, LooksFollowThePointsOfAKeyFrame) {
 TEST_F(PlacesTest, DescriptorsTurnWithTheCamera) {
   const SE3d turned = moved({0, 0, 0}, {0, 0, 70 * kDegree});
   const SmoothedLevels levels(*map.keyframe(0).frame.image, 3), other(*frame_at(turned).image, 3);
-  std::vector<double> same, different;
+  std::vector<double> same, different, turns;
   Descriptor before{};
   for (const MapPoint& point : map.points) {
     const Vec2 px = map.camera.project(point.p_w), then = map.camera.project(turned * point.p_w);
     Descriptor a, b;
     if (!levels.describe(px.cast<float>(), 2, &a) || !other.describe(then.cast<float>(), 2, &b)) continue;
     same.push_back(bits_apart(a, b));
+    turns.push_back(std::abs(std::remainder(b.angle - a.angle - 70 * kDegree, 2 * M_PI)) / kDegree);
     different.push_back(bits_apart(before, b));
     before = a;
   }
   ASSERT_GT(same.size(), 100u);
   std::sort(same.begin(), same.end());
+  std::sort(turns.begin(), turns.end());
   std::sort(different.begin(), different.end());
+  EXPECT_LT(turns[turns.size() * 8 / 10], 10) << "degrees";
   EXPECT_LT(same[same.size() * 8 / 10], 50) << "of 256 bits";
   EXPECT_NEAR(different[different.size() / 2], 128, 20) << "as different as chance makes it";
 }
@@ -181,7 +85,9 @@ TEST_F(PlacesTest, DescriptorsStayInTheImage) {
   EXPECT_FALSE(levels.describe({320, 240}, 0.5, &d));
   for (const float bad : {0.0F, 639.0F, -50.0F, 1e9F, std::numeric_limits<float>::quiet_NaN()})
     EXPECT_FALSE(levels.describe({bad, 240}, 1, &d)) << bad;
-  const Descriptor a{0x1, 0, 0, 0}, all{~0ULL, ~0ULL, ~0ULL, ~0ULL};
+  Descriptor a, all;
+  a.bits[0] = 1;
+  all.bits.fill(~std::uint64_t{0});
   EXPECT_EQ(bits_apart(a, {}), 1);
   EXPECT_EQ(bits_apart(all, {}), 256);
   EXPECT_EQ(bits_apart(all, a), 255);
