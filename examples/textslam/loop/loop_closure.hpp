@@ -1,8 +1,8 @@
 // Loop closure: the camera is back at a place whose key frames are no longer in the local map.
 //
-// A key frame is searched for in the old part of the map: by its signs; by the looks of its points; and, while the
-// drift is small, where the map expects it. Several key frames must agree on the similarity between the two parts. Then the drift is distributed over
-// the path between them, and what is in both is merged.
+// A key frame is searched for in the old part of the map: by its signs; while the drift is small, where the map expects
+// it; and by the looks of its points. Several key frames must agree on the similarity between the two parts. Then the
+// drift is distributed over the path between them, and what is in both is merged.
 #ifndef TEXTSLAM_LOOP_LOOP_CLOSURE_HPP
 #define TEXTSLAM_LOOP_LOOP_CLOSURE_HPP
 

@@ -33,8 +33,8 @@ class SmoothedLevels {
 
   int levels() const { return static_cast<int>(levels_.size()); }
 
-  /// Describes what is around `px` (level 0) at `size` px of level 0 a pixel of the pattern, at least 1. False where the
-  /// pattern leaves the image, or no level is so coarse.
+  /// Describes what is around `px` (level 0) at `size` px of level 0 a pixel of the pattern, at least 1. False where
+  /// the pattern leaves the image, or no level is so coarse.
   bool describe(const Vec2f& px, double size, Descriptor* out) const;
 
  private:
