@@ -132,6 +132,46 @@ std::vector<LookMatch> match_looks(const std::vector<CornerLook>& looks, const s
   return matches;
 }
 
+// Without those of points that have left the key frame.
+std::vector<CornerLook> looks_still_observed(const Map& map, int keyframe, const Parameters& parameters) {
+  std::vector<CornerLook> looks = looks_of_keyframe(map, keyframe, parameters).looks;
+  std::vector<int> observed = map.keyframe(keyframe).points;
+  std::sort(observed.begin(), observed.end());
+  erase_if(looks,
+           [&](const CornerLook& look) { return !std::binary_search(observed.begin(), observed.end(), look.point); });
+  return looks;
+}
+
+PointMatch point_match(const Map& map, const Parameters& parameters, int point, const CornerLook& found) {
+  return {point, map.point(point).p_w, found.px.cast<double>(), parameters.place_sigma * px_of_size(found.size)};
+}
+
+// The corner most like each point, near where a pose expects it: there it need not be clearly more alike than others.
+void add_expected(const Map& map, const Parameters& parameters, const std::vector<CornerLook>& looks,
+                  const std::vector<CornerLook>& in_frame, const SE3d& T_c_w, std::vector<PointMatch>* matches) {
+  for (std::size_t i = 0; i < looks.size();) {
+    const int point = looks[i].point;
+    const Vec3 p = T_c_w * map.point(point).p_w;
+    Vec2f px = Vec2f::Constant(-1e6F);  // out of reach
+    if (p.z() > 0) px = map.camera.project(p).cast<float>();
+    const CornerLook* found = nullptr;
+    int best = parameters.place_max_bits + 1;
+    for (; i < looks.size() && looks[i].point == point; ++i)
+      for (const CornerLook& other : in_frame) {
+        const auto most = static_cast<float>(parameters.relocation_search * px_of_size(other.size));
+        if (!((other.px - px).squaredNorm() <= most * most) || std::abs(other.size - looks[i].size) > kMostSizesApart)
+          continue;
+        const int bits = bits_apart(looks[i].descriptor, other.descriptor);
+        if (bits >= best) continue;
+        best = bits;
+        found = &other;
+      }
+    const bool known =
+        std::any_of(matches->begin(), matches->end(), [&](const PointMatch& m) { return m.point == point; });
+    if (found && !known) matches->push_back(point_match(map, parameters, point, *found));
+  }
+}
+
 }  // namespace
 
 const std::vector<CornerLook>& FrameLooks::all() {
@@ -169,16 +209,22 @@ std::vector<PlaceRank> rank_places(const Map& map, const Parameters& parameters,
   return ranks;
 }
 
-MatchedPose pose_by_place(const Map& map, const Parameters& parameters, FrameLooks& looks, int keyframe) {
-  const KeyFrameLooks& known = looks_of_keyframe(map, keyframe, parameters);
-  std::vector<int> observed = map.keyframe(keyframe).points;
-  std::sort(observed.begin(), observed.end());
+MatchedPose pose_by_places(const Map& map, const Parameters& parameters, FrameLooks& looks,
+                           const std::vector<int>& keyframes) {
   std::vector<PointMatch> matches;
-  for (const LookMatch& match : match_looks(known.looks, looks.all(), parameters))
-    if (std::binary_search(observed.begin(), observed.end(), match.point))
-      matches.push_back({match.point, map.point(match.point).p_w, match.found->px.cast<double>(),
-                         parameters.place_sigma * px_of_size(match.found->size)});
-  MatchedPose pose = pose_of_matches(matches, map.camera, map.keyframe(keyframe).T_w_c.inverse(), parameters);
+  for (const int id : keyframes) {
+    const std::vector<CornerLook> known = looks_still_observed(map, id, parameters);
+    for (const LookMatch& match : match_looks(known, looks.all(), parameters))
+      matches.push_back(point_match(map, parameters, match.point, *match.found));
+  }
+  MatchedPose pose = pose_of_matches(matches, map.camera, map.keyframe(keyframes.front()).T_w_c.inverse(), parameters);
+  if (pose.inliers >= parameters.place_first_inliers) {
+    matches.clear();
+    for (const int id : keyframes)
+      add_expected(map, parameters, looks_still_observed(map, id, parameters), looks.all(), pose.T_c_w, &matches);
+    const MatchedPose settled = settled_pose(matches, map.camera, pose.T_c_w, parameters);
+    if (settled.inliers >= pose.inliers) pose = settled;
+  }
   if (pose.inliers < parameters.place_min_inliers) pose.inliers = 0;
   return pose;
 }

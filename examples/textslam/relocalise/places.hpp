@@ -1,7 +1,7 @@
 // Places: which key frames show what a frame shows, by the looks of points alone.
 //
 // A frame's corners are described on several pyramid levels, a key frame's map points at several sizes. Key frames are
-// ranked by matches of a few strong, coarse corners; the best ones by all their points, which then give a pose.
+// ranked by matches of a few strong, coarse corners. The points of the best ones give a pose, by which more are found.
 #ifndef TEXTSLAM_RELOCALISE_PLACES_HPP
 #define TEXTSLAM_RELOCALISE_PLACES_HPP
 
@@ -56,8 +56,10 @@ struct PlaceRank {
 std::vector<PlaceRank> rank_places(const Map& map, const Parameters& parameters, FrameLooks& looks,
                                    const std::vector<int>& ids, int most, int frame);
 
-/// The pose that the matches with the key frame's points give; without inliers where they are too few.
-MatchedPose pose_by_place(const Map& map, const Parameters& parameters, FrameLooks& looks, int keyframe);
+/// The pose that the matches with the points of these key frames give, then the corners found where it expects points;
+/// without inliers where they are too few. The first key frame is the one most alike.
+MatchedPose pose_by_places(const Map& map, const Parameters& parameters, FrameLooks& looks,
+                           const std::vector<int>& keyframes);
 
 }  // namespace textslam
 

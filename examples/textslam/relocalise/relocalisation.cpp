@@ -99,8 +99,16 @@ Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters,
 
 Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
                                     const std::vector<PlaceRank>& places) {
+  // One by one, then all together: those of a wide view share few points with the frame each.
+  std::vector<std::vector<int>> tries;
+  std::vector<int> all;
   for (const PlaceRank& place : places) {
-    const MatchedPose pose = pose_by_place(map, parameters, looks, place.keyframe);
+    tries.push_back({place.keyframe});
+    all.push_back(place.keyframe);
+  }
+  if (all.size() > 1) tries.push_back(all);
+  for (const std::vector<int>& keyframes : tries) {
+    const MatchedPose pose = pose_by_places(map, parameters, looks, keyframes);
     if (pose.inliers == 0) continue;
     Relocalisation found = recognise_from(map, parameters, frame, pose.T_c_w);
     if (found.ok) return found;

@@ -105,6 +105,21 @@ Status three_point_pose(const std::array<Vec3, 3>& p_w, const std::array<Vec3, 3
   return Status::ok;
 }
 
+MatchedPose settled_pose(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, const SE3d& T_c_w,
+                         const Parameters& parameters) {
+  MatchedPose best{T_c_w, 0};
+  std::vector<PointMatch> agree = agreeing(matches, camera, parameters, T_c_w);
+  best.inliers = static_cast<int>(agree.size());
+  for (int round = 0; round < parameters.place_rounds && agree.size() >= 3; ++round) {
+    SE3d next = best.T_c_w;
+    if (!fit(agree, camera, &next)) break;
+    agree = agreeing(matches, camera, parameters, next);
+    if (static_cast<int>(agree.size()) < best.inliers) break;
+    best = {next, static_cast<int>(agree.size())};
+  }
+  return best;
+}
+
 MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, const SE3d& T_near,
                             const Parameters& parameters) {
   MatchedPose best;
@@ -129,14 +144,7 @@ MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const Pinhol
     for (const PointMatch& match : matches) inliers += agrees(match, camera, parameters, T_c_w) ? 1 : 0;
     if (inliers > best.inliers) best = {T_c_w, inliers};
   }
-  for (int round = 0; round < parameters.place_rounds && best.inliers >= 3; ++round) {
-    SE3d T_c_w = best.T_c_w;
-    if (!fit(agreeing(matches, camera, parameters, T_c_w), camera, &T_c_w)) break;
-    const int inliers = static_cast<int>(agreeing(matches, camera, parameters, T_c_w).size());
-    if (inliers < best.inliers) break;
-    best = {T_c_w, inliers};
-  }
-  return best;
+  return best.inliers < 3 ? best : settled_pose(matches, camera, best.T_c_w, parameters);
 }
 
 }  // namespace textslam

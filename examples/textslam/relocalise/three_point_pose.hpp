@@ -32,6 +32,10 @@ struct MatchedPose {
   int inliers = 0;  ///< Matches that agree with it; 0 where no pose was found.
 };
 
+/// Fits a pose to the matches that agree with it, until no more do.
+MatchedPose settled_pose(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, const SE3d& T_c_w,
+                         const Parameters& parameters);
+
 /// `T_near`: pose of a similar view, world to camera.
 MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, const SE3d& T_near,
                             const Parameters& parameters);

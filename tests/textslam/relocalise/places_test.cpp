@@ -36,11 +36,11 @@ TEST_F(PlacesTest, AnotherPlaceIsNotTakenForIt) {
 TEST_F(PlacesTest, LooksFollowThePointsOfAKeyFrame) {
   const Frame frame = frame_at(around(15 * kDegree, 1.2, 0));
   FrameLooks looks(frame, parameters);
-  const MatchedPose before = pose_by_place(map, parameters, looks, 0);
+  const MatchedPose before = pose_by_places(map, parameters, looks, {0});
   ASSERT_GT(before.inliers, 50);
   const auto kept = map.keyframe(0).looks;
   for (std::size_t i = 0; i < map.points.size(); i += 2) drop_point(map, static_cast<int>(i));
-  const MatchedPose half = pose_by_place(map, parameters, looks, 0);
+  const MatchedPose half = pose_by_places(map, parameters, looks, {0});
   EXPECT_GT(half.inliers, before.inliers / 4);
   EXPECT_LT(half.inliers, before.inliers * 3 / 4) << "what has left the map is not matched";
   EXPECT_EQ(map.keyframe(0).looks, kept) << "nothing is described again";
@@ -49,7 +49,7 @@ TEST_F(PlacesTest, LooksFollowThePointsOfAKeyFrame) {
   for (int k = 0; k < 2; ++k)
     add_observation(map, static_cast<int>(map.points.size()) - 1, k,
                     map.camera.project(map.keyframe(k).T_w_c.inverse() * p));
-  pose_by_place(map, parameters, looks, 0);
+  pose_by_places(map, parameters, looks, {0});
   EXPECT_EQ(map.keyframe(0).looks->points.size(), map.keyframe(0).points.size()) << "a new point is described";
 }
 
