@@ -108,4 +108,18 @@ std::vector<PhotoSet> read_oxford(const std::string& folder) {
   return {set};
 }
 
+std::vector<PhotoSet> make_jpeg(const std::vector<std::string>& folders, const std::vector<int>& qualities) {
+  std::vector<PhotoSet> out;
+  for (const std::string& folder : folders) {
+    PhotoSet set;
+    set.text = false;
+    set.first = folder + "/img1.png";
+    set.others.assign(qualities.size(), set.first);
+    set.truth.assign(qualities.size(), Matrix::Identity());
+    set.jpeg = qualities;
+    out.push_back(std::move(set));
+  }
+  return out;
+}
+
 }  // namespace planar

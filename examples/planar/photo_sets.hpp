@@ -18,6 +18,7 @@ struct PhotoSet {
   std::vector<std::string> others;
   std::vector<tp::Matrix3<double>> truth;
   std::vector<tp::Vector2<double>> not_text;  ///< px of the first: detections here hold no text and are dropped.
+  std::vector<int> jpeg;  ///< Quality that the others are degraded to; empty: they are taken as they are.
   bool text = true;  ///< Patches are text that the built-in detector finds; else random places rich in corners.
 };
 
@@ -33,6 +34,9 @@ std::vector<PhotoSet> read_still_scenes(const std::string& folder, const std::ve
                                         TruthPrecision* precision);
 /// img1.png to img6.png with H1to2p.txt to H1to6p.txt. Throws InputError.
 std::vector<PhotoSet> read_oxford(const std::string& folder);
+
+/// The first photograph of each folder of read_oxford(), and JPEG of these qualities made of it.
+std::vector<PhotoSet> make_jpeg(const std::vector<std::string>& folders, const std::vector<int>& qualities);
 
 /// The quads of text that the built-in detector finds, large enough for a trial, but those round a point of `not_text`.
 std::vector<tp::Quad<double>> text_quads(const tp::Image<std::uint8_t>& image,

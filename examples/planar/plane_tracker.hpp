@@ -15,6 +15,9 @@
 #include <vector>
 
 #include "planar/appearance.hpp"
+#include "planar/parts.hpp"
+#include "planar/pose_plane_problem.hpp"
+#include "planar/view_search.hpp"
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/quad_projection.hpp"
@@ -24,12 +27,6 @@
 namespace planar {
 
 namespace tp = textplane;
-
-/// Pose T_t_h and plane theta (host frame) of an object in one image.
-struct PlaneState {
-  tp::SE3d T_t_h;
-  tp::Vector3<double> theta = tp::Vector3<double>::UnitZ();
-};
 
 /// One set of parameters for every video and every image pair.
 struct PlaneTrackerOptions {
@@ -44,7 +41,16 @@ struct PlaneTrackerOptions {
   double focal = 8;         ///< Of the camera whose axis meets the quad's centre, in units of sqrt(the quad's area).
   double plane = 1e-3;      ///< Weight of the prior that the plane faces the first camera, relative to the data.
   double turn = 0.1;        ///< Weight of the prior on tilt (rad^2): a small quad hardly shows perspective.
-  double lost = 0.5;        ///< A frame with a lower ZNCC is lost: the next one starts where this one did.
+  double agree = 0.5;       ///< ZNCC from which on a part of the object agrees with an image (parts.hpp).
+  double good = 0.6;        ///< Share of parts from which on a pose is good.
+  double unsure = 0.3;      ///< Share of parts from which on it is a guess at least; below it the object is lost.
+  ViewSearchOptions views;  ///< Where a fit is not good.
+  std::size_t remembered = 5;  ///< Views that differ, to find the object again by.
+  double squeeze = 1.06;       ///< They differ where one is squeezed by more than this: (s + 1 / s) / 2, s in one direction.
+  int parts_level = 1;         ///< From this level on, finer ones included,
+  double whole = 0.95;         ///< Where fewer parts agree, these alone are fitted.
+  int coarse = 2;              ///< All starts are fitted to this level, and
+  std::size_t finalists = 5;   ///< Starts of that search that are fitted to the finest level.
 
   PlaneTrackerOptions() {
     select.levels = 4;
@@ -57,51 +63,19 @@ struct PlaneTrackerOptions {
   }
 };
 
-/// Pose and plane as a problem for tp::minimise(): nine parameters (v, omega, theta), some with a prior at the start.
-class PosePlaneProblem {
- public:
-  using State = PlaneState;
-  static constexpr int kParameters = 9;
+/// How far the pose of a frame can be trusted.
+enum class Confidence {
+  good,    ///< Most parts of the object agree with the image: it is there.
+  unsure,  ///< Some do. The pose is the best guess and may be wrong.
+  lost,    ///< Hardly any does, anywhere in the image. The pose is that of the last good frame.
+};
 
-  /// `from`: the mean of the priors on rotation and theta, with these weights.
-  PosePlaneProblem(const tp::PhotometricInput& input, const State& from, double turn, double plane,
-                   const tp::PhotometricOptions& options, tp::PhotometricWorkspace& workspace)
-      : input_(input), from_(from), options_(options), workspace_(workspace) {
-    weight_ << 0, 0, 0, turn, turn, 0, plane, plane, plane;
-  }
-
-  tp::NormalEquations<9> linearise(const State& x) noexcept {
-    auto sums =
-        tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{input_, x.theta, x.T_t_h, options_}, workspace_);
-    const Eigen::Matrix<double, 9, 1> off = distance(x);
-    sums.H.diagonal() += weight_;
-    sums.b += weight_.cwiseProduct(off);
-    sums.cost += off.dot(weight_.cwiseProduct(off));
-    return sums;
-  }
-  tp::Evaluation evaluate(const State& x) noexcept {
-    const auto c =
-        tp::evaluate(tp::ResidualRequest{input_, x.theta, x.T_t_h, options_}, workspace_, workspace_.visible());
-    const Eigen::Matrix<double, 9, 1> off = distance(x);
-    return {c.cost + off.dot(weight_.cwiseProduct(off)), static_cast<double>(c.lost) / input_.patch.n, c.status};
-  }
-  State retract(const State& x, const Eigen::Matrix<double, 9, 1>& step) const noexcept {
-    return {tp::se3_exp<double>(step.head<6>()) * x.T_t_h, x.theta + step.tail<3>()};
-  }
-
- private:
-  Eigen::Matrix<double, 9, 1> distance(const State& x) const noexcept {
-    Eigen::Matrix<double, 9, 1> off;
-    off << tp::Vector3<double>::Zero(), tp::so3_log<double>(x.T_t_h.R * from_.T_t_h.R.transpose()),
-        x.theta - from_.theta;
-    return off;
-  }
-
-  const tp::PhotometricInput& input_;
-  const State from_;
-  const tp::PhotometricOptions& options_;
-  tp::PhotometricWorkspace& workspace_;
-  Eigen::Matrix<double, 9, 1> weight_;
+/// A pose as a fit left it.
+struct Fit {
+  PlaneState state;
+  tp::Status status = tp::Status::too_few;
+  double zncc = -1;     ///< Of the pixels that were fitted.
+  Agreement agreement;  ///< On the finest level that was fitted.
 };
 
 class PlaneTracker {
@@ -112,58 +86,44 @@ class PlaneTracker {
     const tp::Vector2<double> centre = tp::centroid(quad);
     const double focal = options.focal * std::sqrt(std::abs(tp::area(quad)));
     camera_ = {focal, focal, centre[0], centre[1]};
-    patch_ = tp::make_patch(first, camera_, quad, options.select);
+    const tp::Pyramid pyramid(first, std::max(options.select.levels, options.views.levels));
+    patch_ = tp::make_patch(pyramid.view(), camera_, quad, options.select);
     workspace_.reserve(patch_.max_pixels());
-    appearance_ = Appearance(tp::Pyramid(first, patch_.level_count()).view(), patch_, options.appearance);
+    appearance_ = Appearance(pyramid.view(), patch_, options.appearance);
     prepared_ = std::vector<tp::TemplatePatch>(patch_.levels.size());
     for (std::size_t l = 0; l < prepared_.size(); ++l) prepared_[l].prepare(patch_.levels[l].view());
+    for (const tp::PatchLevel& level : patch_.levels) parts_.emplace_back(level);
+    if (!tp::is_ok(patch_.status)) return;
+    views_ = ViewSearch(pyramid.view(), camera_, quad, options.views, options.appearance.contrast);
+    remembered_ = {state_};
   }
 
   tp::Status status() const noexcept { return patch_.status; }
 
-  /// Tracks the object to the next image: an ok status, or the reason of the failure; the state is then that of the
-  /// previous frame.
+  /// Tracks the object to the next image: an ok status where confidence() is good, else the reason of the failure.
   tp::Status track(tp::ImageView8 image) {
-    image_.build(image, options_.select.levels);
-    PlaneState found, best;
-    tp::Status status = tp::Status::too_few;
-    double zncc = -1.0;
-    for (const tp::SE3d& guess : {state_.T_t_h, step_ * state_.T_t_h}) {
-      PlaneState tried = state_;
-      tried.T_t_h =
-          tp::search_pose(patch_, state_.theta, guess, image_, camera_, options_.search, workspace_, prepared_.data());
-      const PlaneState start = tried;
-      const tp::Status s = descend(image_, kAllLevels, tried);
-      if (tp::is_ok(s) && zncc_ > zncc) {
-        zncc = zncc_;
-        found = tried;
-        best = start;
-        status = s;
-      }
-    }
-    zncc_ = zncc;
-    if (tp::is_ok(status)) status = again(image_, best, status, found);
-    if (tp::is_ok(status) && zncc_ < options_.lost) status = tp::Status::diverged;
-    if (!tp::is_ok(status)) {
-      step_ = {};
-      return status;
-    }
-    step_ = found.T_t_h * state_.T_t_h.inverse();
-    state_ = found;
-    return status;
+    image_.build(image, std::max(options_.select.levels, options_.views.levels));
+    Fit best = follow();
+    if (!good(best) && confidence_ != Confidence::lost) best = better(best, find(near(), {state_}, 0));
+    if (!good(best)) best = better(best, find_anywhere());
+    return conclude(best);
   }
 
   /// Aligns coarse to fine from `state`, in place: first with the known plane, then with a free one. A poor fit is
   /// tried again.
   tp::Status align(const tp::PyramidView& image, PlaneState& state) {
-    const PlaneState start = state;
-    const tp::Status status = descend(image, kAllLevels, state);
-    return again(image, start, status, state);
+    const Fit fit = again(image, state, descend(image, kAllLevels, 0, state));
+    state = fit.state;
+    zncc_ = fit.zncc;
+    return fit.status;
   }
 
   const tp::Pinhole<double>& camera() const noexcept { return camera_; }
   const tp::TextPatch& patch() const noexcept { return patch_; }
-  const PlaneState& state() const noexcept { return state_; }
+  /// Of the last frame.
+  Confidence confidence() const noexcept { return confidence_; }
+  const PlaneState& state() const noexcept { return shown_; }
+  const Agreement& agreement() const noexcept { return agreement_; }
   double zncc() const noexcept { return zncc_; }
   /// The first frame's quad under the homography of `state`.
   tp::Quad<double> quad(const PlaneState& state) const noexcept {
@@ -172,70 +132,202 @@ class PlaneTracker {
                   &out);
     return out;
   }
-  tp::Quad<double> quad() const noexcept { return quad(state_); }
+  tp::Quad<double> quad() const noexcept { return quad(shown_); }
 
  private:
   static constexpr int kAllLevels = tp::kMaxPyramidLevels, kRounds = 3;
 
-  tp::Status descend(const tp::PyramidView& image, int coarsest, PlaneState& state) {
-    tp::Status status = tp::Status::too_few;
-    PlaneState from = state;
-    for (int level = std::min({coarsest, patch_.level_count() - 1, image.levels - 1}); level >= 0; --level) {
-      const bool known = level > options_.plane_level;
-      if (!known) from.theta = PlaneState().theta;
-      const int shift = scale_shift(state), host = level - std::min(shift, 0), target = level + std::max(shift, 0);
-      tp::PhotometricInput input = tp::photometric_input(appearance_.sharp(), level, image, camera_, shift);
-      if (!input.target.valid()) return tp::Status::invalid_argument;
-      const Window window = appearance_.window(input.target, tp::quad_to_level(quad(state), target));
-      if (!window.image.valid()) return tp::Status::out_of_view;
-      input.target = window.image;
-      input.target_camera = window.of(input.target_camera);
-      std::size_t look = appearance_.count();
-      for (int round = 0; round < kRounds; ++round) {
-        const std::size_t best =
-            appearance_.best(input, host, state.theta, state.T_t_h, options_.photometric, workspace_);
-        if (best == look) break;
-        look = best;
-        input.patch = appearance_.look(look, host);
-        PosePlaneProblem problem(input, from, options_.turn, known ? 1.0 : options_.plane, options_.photometric,
-                                 workspace_);
-        tp::NormalEquations<9> system;
-        status = tp::minimise(problem, state, options_.solve, &system).status;
-        // No step lowers the cost: the fit is converged, and ZNCC rates it.
-        if (status == tp::Status::diverged) status = tp::Status::converged;
-        zncc_ = system.zncc;
-      }
-    }
-    return status;
+  bool good(const Fit& fit) const noexcept {
+    return tp::is_ok(fit.status) && fit.agreement.share >= options_.good;
+  }
+  bool sure(const Fit& fit) const noexcept { return good(fit) && fit.zncc >= options_.sure; }
+  static const Fit& better(const Fit& a, const Fit& b) noexcept {
+    if (!tp::is_ok(b.status)) return a;
+    return !tp::is_ok(a.status) || b.agreement.score > a.agreement.score ? b : a;
   }
 
-  // The fit from `start` with zncc_; where it is poor, that of a search round it if it is better.
-  tp::Status again(const tp::PyramidView& image, const PlaneState& start, tp::Status status, PlaneState& state) {
-    const double zncc = tp::is_ok(status) ? zncc_ : -1.0;
-    if (zncc >= options_.sure) return status;
+  // From the last pose and the one of constant velocity.
+  Fit follow() {
+    Fit best;
+    PlaneState from = state_;
+    for (const tp::SE3d& guess : {state_.T_t_h, step_ * state_.T_t_h}) {
+      PlaneState start = state_;
+      start.T_t_h =
+          tp::search_pose(patch_, state_.theta, guess, image_, camera_, options_.search, workspace_, prepared_.data());
+      const Fit fit = descend(image_, kAllLevels, 0, start);
+      if (&better(best, fit) == &fit) {
+        best = fit;
+        from = start;
+      }
+      if (sure(best)) break;
+    }
+    return again(image_, from, best);
+  }
+
+  Region near() const noexcept {
+    const tp::Quad<double> last = quad(state_);
+    const tp::Vector2<double> c = tp::centroid(last);
+    const double reach = std::sqrt(std::abs(tp::area(last)));
+    return {c[0] - reach, c[1] - reach, c[0] + reach, c[1] + reach};
+  }
+
+  // The best fit from the places that a search finds.
+  Fit find(const Region& region, const std::vector<PlaneState>& views, double turn) {
+    std::vector<Fit> fits;
+    const int coarse = std::min({options_.coarse, patch_.level_count() - 1, image_.levels() - 1});
+    for (const Place& place : views_(image_, views, region, turn)) {
+      fits.push_back(descend(image_, kAllLevels, coarse, place.state));
+      if (!tp::is_ok(fits.back().status)) fits.pop_back();
+    }
+    std::stable_sort(fits.begin(), fits.end(),
+                     [](const Fit& a, const Fit& b) { return a.agreement.score > b.agreement.score; });
+    Fit best;
+    PlaneState from = state_;
+    for (std::size_t i = 0; i < fits.size() && i < options_.finalists && !sure(best); ++i) {
+      const Fit fit = descend(image_, coarse - 1, 0, fits[i].state);
+      if (&better(best, fit) == &fit) {
+        best = fit;
+        from = fits[i].state;
+      }
+    }
+    return again(image_, from, best);
+  }
+
+  // In the whole image, by all views; each time in another sector of turns, too.
+  Fit find_anywhere() {
+    const Region whole{0, 0, image_.level(0).width() - 1.0, image_.level(0).height() - 1.0};
+    std::vector<PlaneState> views{state_};
+    for (const PlaneState& view : remembered_)
+      if (!alike(quad(view), quad(state_))) views.push_back(view);
+    const Fit fit = find(whole, views, 0);
+    if (good(fit)) return fit;
+    const double sector = (2 * options_.views.turns + 1) * options_.views.turn;
+    const int sectors = static_cast<int>(std::ceil(6.283185307179586 / sector)) - 1;
+    return better(fit, find(whole, {state_}, sector * (1 + searches_++ % std::max(sectors, 1))));
+  }
+
+  tp::Status conclude(const Fit& fit) {
+    zncc_ = fit.zncc;
+    agreement_ = fit.agreement;
+    if (!good(fit)) {
+      const bool guess = tp::is_ok(fit.status) && fit.agreement.share >= options_.unsure;
+      confidence_ = guess ? Confidence::unsure : Confidence::lost;
+      shown_ = guess ? fit.state : state_;
+      step_ = {};
+      return tp::is_ok(fit.status) ? tp::Status::diverged : fit.status;
+    }
+    confidence_ = Confidence::good;
+    step_ = fit.state.T_t_h * state_.T_t_h.inverse();
+    state_ = shown_ = fit.state;
+    remember();
+    return fit.status;
+  }
+
+  // The first view stays, and of the others the latest.
+  void remember() {
+    const tp::Quad<double> now = quad(state_);
+    for (const PlaneState& view : remembered_)
+      if (alike(quad(view), now)) return;
+    if (remembered_.size() >= options_.remembered) remembered_.erase(remembered_.begin() + 1);
+    remembered_.push_back(state_);
+  }
+
+  // Whether one view is found by the other: they differ by little but place, turn and zoom within the steps of a search.
+  bool alike(const tp::Quad<double>& a, const tp::Quad<double>& b) const {
+    tp::Matrix2d A, B;
+    A << a.corner[2] - a.corner[0], a.corner[3] - a.corner[1];
+    B << b.corner[2] - b.corner[0], b.corner[3] - b.corner[1];
+    const tp::Matrix2d M = B * A.inverse();
+    const double det = M.determinant(), trace = M.squaredNorm();
+    if (!(det > 0)) return false;
+    const double turn = std::atan2(M(1, 0) - M(0, 1), M(0, 0) + M(1, 1));
+    const double squeeze = trace / (2 * det);  // (s + 1 / s) / 2 of the ratio s of the singular values
+    return squeeze < options_.squeeze && std::abs(turn) < options_.views.turns * options_.views.turn &&
+           std::abs(std::log(det)) < 2 * options_.views.zooms * std::log(options_.views.zoom);
+  }
+
+  Fit descend(const tp::PyramidView& image, int coarsest, int finest, const PlaneState& start) {
+    Fit fit;
+    fit.state = start;
+    PlaneState from = start;
+    for (int level = std::min({coarsest, patch_.level_count() - 1, image.levels - 1}); level >= finest; --level) {
+      const bool known = level > options_.plane_level;
+      if (!known) from.theta = PlaneState().theta;
+      fit_level(image, level, from, known ? 1.0 : options_.plane, &fit);
+      if (fit.status == tp::Status::out_of_view || fit.status == tp::Status::invalid_argument) break;
+    }
+    return fit;
+  }
+
+  // On one level; where only some parts agree, once more with those alone.
+  void fit_level(const tp::PyramidView& image, int level, const PlaneState& from, double plane, Fit* fit) {
+    const int shift = scale_shift(fit->state), host = level - std::min(shift, 0), target = level + std::max(shift, 0);
+    tp::PhotometricInput input = tp::photometric_input(appearance_.sharp(), level, image, camera_, shift);
+    fit->status = tp::Status::invalid_argument;
+    if (!input.target.valid()) return;
+    const Window window = appearance_.window(input.target, tp::quad_to_level(quad(fit->state), target));
+    fit->status = tp::Status::out_of_view;
+    if (!window.image.valid()) return;
+    input.target = window.image;
+    input.target_camera = window.of(input.target_camera);
+    const Parts& parts = parts_[static_cast<std::size_t>(host)];
+    std::size_t look = appearance_.count();
+    for (int round = 0; round < kRounds; ++round) {
+      const std::size_t best =
+          appearance_.best(input, host, fit->state.theta, fit->state.T_t_h, options_.photometric, workspace_);
+      if (best == look) break;
+      look = best;
+      input.patch = appearance_.look(look, host);
+      minimise(input, from, plane, fit);
+    }
+    const auto compare = [&] {
+      fit->agreement = parts.compare(input, tp::plane_homography(fit->state.theta, fit->state.T_t_h), options_.agree,
+                                     &mask_);
+    };
+    input.patch = appearance_.look(look, host);
+    compare();
+    for (int round = 0; round < kRounds && level <= options_.parts_level; ++round) {
+      const Agreement before = fit->agreement;
+      if (!tp::is_ok(fit->status) || before.share < options_.unsure || before.share > options_.whole) return;
+      const Fit all = *fit;
+      input.patch.mask = mask_.data();
+      minimise(input, from, plane, fit);
+      input.patch.mask = nullptr;
+      compare();
+      if (fit->agreement.score > before.score) continue;
+      *fit = all;
+      return;
+    }
+  }
+
+  void minimise(const tp::PhotometricInput& input, const PlaneState& from, double plane, Fit* fit) {
+    PosePlaneProblem problem(input, from, options_.turn, plane, options_.photometric, workspace_);
+    tp::NormalEquations<9> system;
+    fit->status = tp::minimise(problem, fit->state, options_.solve, &system).status;
+    // No step lowers the cost: the fit is converged, and ZNCC rates it.
+    if (fit->status == tp::Status::diverged) fit->status = tp::Status::converged;
+    fit->zncc = system.zncc;
+  }
+
+  // The fit from `start`; where it is poor, that of a search round it if it is better.
+  Fit again(const tp::PyramidView& image, const PlaneState& start, const Fit& fit) {
+    if (tp::is_ok(fit.status) && fit.zncc >= options_.sure) return fit;
     const int level = tp::search_level(patch_, image.levels, options_.again);
     const Window window =
         appearance_.window(image.level[static_cast<std::size_t>(level)], tp::quad_to_level(quad(start), level));
-    if (window.image.valid()) {
-      tp::PyramidView view;  // this level alone, for the search
-      view.levels = level + 1;
-      view.level[static_cast<std::size_t>(level)] = window.image;
-      tp::Pinhole<double> camera = camera_;
-      camera.cx -= std::ldexp(window.x, level);
-      camera.cy -= std::ldexp(window.y, level);
-      tp::SearchOptions search = options_.again;
-      search.level = level;
-      PlaneState tried = start;
-      tried.T_t_h = tp::search_pose(appearance_.sharp(), start.theta, start.T_t_h, view, camera, search, workspace_,
-                                    appearance_.prepared());
-      const tp::Status second = descend(image, level, tried);
-      if (tp::is_ok(second) && zncc_ > zncc) {
-        state = tried;
-        return second;
-      }
-    }
-    zncc_ = zncc;
-    return status;
+    if (!window.image.valid()) return fit;
+    tp::PyramidView view;  // this level alone, for the search
+    view.levels = level + 1;
+    view.level[static_cast<std::size_t>(level)] = window.image;
+    tp::Pinhole<double> camera = camera_;
+    camera.cx -= std::ldexp(window.x, level);
+    camera.cy -= std::ldexp(window.y, level);
+    tp::SearchOptions search = options_.again;
+    search.level = level;
+    PlaneState tried = start;
+    tried.T_t_h = tp::search_pose(appearance_.sharp(), start.theta, start.T_t_h, view, camera, search, workspace_,
+                                  appearance_.prepared());
+    return better(fit, descend(image, level, 0, tried));
   }
 
   int scale_shift(const PlaneState& state) const noexcept {
@@ -247,11 +339,19 @@ class PlaneTracker {
   tp::TextPatch patch_;
   std::vector<tp::TemplatePatch> prepared_;  // of patch_
   Appearance appearance_;
+  std::vector<Parts> parts_;  // of its levels
+  ViewSearch views_;
+  std::vector<PlaneState> remembered_;
+  std::vector<std::uint8_t> mask_;
   tp::Pyramid image_;
   tp::PhotometricWorkspace workspace_;
-  PlaneState state_;
+  PlaneState state_;  // of the last good frame
+  PlaneState shown_;
   tp::SE3d step_;
+  Agreement agreement_;
+  Confidence confidence_ = Confidence::good;
   double zncc_ = 0;
+  int searches_ = 0;
 };
 
 }  // namespace planar

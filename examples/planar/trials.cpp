@@ -5,9 +5,11 @@
 #include <ctime>
 #include <functional>
 
+#include "io/image_codecs.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "planar/peers.hpp"
+#include "planar/plane_video.hpp"
 #include "renderer/random.hpp"
 
 namespace planar {
@@ -64,12 +66,6 @@ class CornerProblem {
   const tp::Quad<double>& to_;
   const tp::Pinhole<double>& camera_;
 };
-
-double corner_error(const tp::Quad<double>& a, const tp::Quad<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) sum += (a.corner[i] - b.corner[i]).norm() / 4;
-  return sum;
-}
 
 /// `state` turned, shifted and scaled at random. Its corners move by `offset` px on average.
 PlaneState perturbed(const PlaneTracker& tracker, const PlaneState& state, double offset, textslam::Random& random) {
@@ -149,8 +145,13 @@ Photos load_photos(const PhotoSet& set, int count, textslam::Random& random) {
   p.first = textslam::load_grey(set.first);
   p.first_pyramid.build(p.first.view(), levels);
   p.local.emplace_back(p.first_pyramid.view());
-  for (const std::string& other : set.others) {
-    p.others.emplace_back(textslam::load_grey(other).view(), levels);
+  for (std::size_t i = 0; i < set.others.size(); ++i) {
+    textslam::Image<std::uint8_t> image = textslam::load_grey(set.others[i]);
+    if (!set.jpeg.empty()) {
+      const std::string bytes = textslam::encode_jpeg(image.view(), set.jpeg[i]);
+      image = textslam::decode_jpeg(bytes, set.others[i]);
+    }
+    p.others.emplace_back(image.view(), levels);
     p.local.emplace_back(p.others.back().view());
   }
   p.quads = set.text ? text_quads(p.first, set.not_text) : random_quads(p.first, count, random);
