@@ -79,7 +79,8 @@ class Appearance {
 
   /// The degree of blur most similar to the image of `in` under a pose; of nearly equal ones the sharpest.
   std::size_t best(tp::PhotometricInput in, int level, const tp::Vector3<double>& theta, const tp::SE3d& T_t_h,
-                   const tp::PhotometricOptions& photometric, tp::PhotometricWorkspace& workspace) const noexcept {
+                   const tp::PhotometricOptions& photometric, tp::PhotometricWorkspace& workspace,
+                   double* best_zncc) const noexcept {
     std::size_t found = 0;
     double zncc = -2;
     for (std::size_t k = 0; k < looks_.size(); ++k) {
@@ -89,6 +90,7 @@ class Appearance {
       zncc = cost.zncc;
       found = k;
     }
+    *best_zncc = zncc;
     return found;
   }
 

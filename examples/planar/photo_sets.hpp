@@ -19,7 +19,7 @@ struct PhotoSet {
   std::vector<tp::Matrix3<double>> truth;
   std::vector<tp::Vector2<double>> not_text;  ///< px of the first: detections here hold no text and are dropped.
   std::vector<int> jpeg;  ///< Quality that the others are degraded to; empty: they are taken as they are.
-  bool text = true;  ///< Patches are text that the built-in detector finds; else random places rich in corners.
+  bool text = true;       ///< Patches are text that the built-in detector finds; else random places rich in corners.
 };
 
 /// How precise the truth of a folder of scenes is (registration.hpp), px: the mean distance of a match from it, and the

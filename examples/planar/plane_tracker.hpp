@@ -35,26 +35,29 @@ struct PlaneTrackerOptions {
   tp::SolveOptions solve;
   tp::SearchOptions search;  ///< For the start of a video frame, on grey levels.
   AppearanceOptions appearance;
-  double sure = 0.9;        ///< A fit with a lower ZNCC is tried again.
-  tp::SearchOptions again;  ///< For the second try, on local contrast.
-  int plane_level = 2;      ///< From this level on the plane is free, too.
-  double focal = 8;         ///< Of the camera whose axis meets the quad's centre, in units of sqrt(the quad's area).
-  double plane = 1e-3;      ///< Weight of the prior that the plane faces the first camera, relative to the data.
-  double turn = 0.1;        ///< Weight of the prior on tilt (rad^2): a small quad hardly shows perspective.
-  double agree = 0.5;       ///< ZNCC from which on a part of the object agrees with an image (parts.hpp).
-  double good = 0.6;        ///< Share of parts from which on a pose is good.
-  double unsure = 0.3;      ///< Share of parts from which on it is a guess at least; below it the object is lost.
-  ViewSearchOptions views;  ///< Where a fit is not good.
+  double sure = 0.9;           ///< A fit with a lower ZNCC is tried again.
+  tp::SearchOptions again;     ///< For the second try, on local contrast.
+  int plane_level = 2;         ///< From this level on the plane is free, too.
+  double focal = 8;            ///< Of the camera whose axis meets the quad's centre, in units of sqrt(the quad's area).
+  double plane = 1e-2;         ///< Weight of the prior that the plane faces the first camera, relative to the data.
+  double turn = 0.1;           ///< Weight of the prior on tilt (rad^2): a small quad hardly shows perspective.
+  double typical = 0.95;       ///< The weights are for fits of this ZNCC; they grow with 1 - ZNCC,
+  double most_noise = 20;      ///< at most by this factor.
+  double agree = 0.5;          ///< ZNCC from which on a part of the object agrees with an image (parts.hpp).
+  double good = 0.42;          ///< Share of parts that agree times ZNCC: from it on a pose is good.
+  double unsure = 0.25;        ///< From it on it is a guess at least; below it the object is lost.
+  ViewSearchOptions views;     ///< Where a fit is not good.
   std::size_t remembered = 5;  ///< Views that differ, to find the object again by.
-  double squeeze = 1.06;       ///< They differ where one is squeezed by more than this: (s + 1 / s) / 2, s in one direction.
-  int parts_level = 1;         ///< From this level on, finer ones included,
-  double whole = 0.95;         ///< Where fewer parts agree, these alone are fitted.
-  int coarse = 2;              ///< All starts are fitted to this level, and
-  std::size_t finalists = 5;   ///< Starts of that search that are fitted to the finest level.
+  double squeeze = 1.06;  ///< They differ where one is squeezed by more than this: (s + 1 / s) / 2, s in one direction.
+  int parts_level = 3;    ///< From this level on, finer ones included,
+  double least_share = 0.3;   ///< where from this share of parts on agree,
+  double whole = 0.95;        ///< Where fewer parts agree, these alone are fitted.
+  int coarse = 2;             ///< All starts are fitted to this level, and
+  std::size_t finalists = 5;  ///< Starts of that search that are fitted to the finest level.
 
   PlaneTrackerOptions() {
     select.levels = 4;
-    select.max_pixels = 500;
+    select.max_pixels = 1000;
     solve.max_iterations = 30;
     search.level = 3;
     search.radius = 5;
@@ -105,7 +108,10 @@ class PlaneTracker {
     image_.build(image, std::max(options_.select.levels, options_.views.levels));
     Fit best = follow();
     if (!good(best) && confidence_ != Confidence::lost) best = better(best, find(near(), {state_}, 0));
-    if (!good(best)) best = better(best, find_anywhere());
+    if (!good(best)) {
+      const Fit far = find_anywhere();
+      if (good(far) || !guess(best)) best = better(best, far);
+    }
     return conclude(best);
   }
 
@@ -137,9 +143,10 @@ class PlaneTracker {
  private:
   static constexpr int kAllLevels = tp::kMaxPyramidLevels, kRounds = 3;
 
-  bool good(const Fit& fit) const noexcept {
-    return tp::is_ok(fit.status) && fit.agreement.share >= options_.good;
-  }
+  // Few parts must agree well, many need not.
+  static double trust(const Fit& fit) noexcept { return fit.agreement.share * fit.zncc; }
+  bool good(const Fit& fit) const noexcept { return tp::is_ok(fit.status) && trust(fit) >= options_.good; }
+  bool guess(const Fit& fit) const noexcept { return tp::is_ok(fit.status) && trust(fit) >= options_.unsure; }
   bool sure(const Fit& fit) const noexcept { return good(fit) && fit.zncc >= options_.sure; }
   static const Fit& better(const Fit& a, const Fit& b) noexcept {
     if (!tp::is_ok(b.status)) return a;
@@ -154,7 +161,7 @@ class PlaneTracker {
       PlaneState start = state_;
       start.T_t_h =
           tp::search_pose(patch_, state_.theta, guess, image_, camera_, options_.search, workspace_, prepared_.data());
-      const Fit fit = descend(image_, kAllLevels, 0, start);
+      const Fit fit = plausible(start, descend(image_, kAllLevels, 0, start));
       if (&better(best, fit) == &fit) {
         best = fit;
         from = start;
@@ -176,15 +183,15 @@ class PlaneTracker {
     std::vector<Fit> fits;
     const int coarse = std::min({options_.coarse, patch_.level_count() - 1, image_.levels() - 1});
     for (const Place& place : views_(image_, views, region, turn)) {
-      fits.push_back(descend(image_, kAllLevels, coarse, place.state));
-      if (!tp::is_ok(fits.back().status)) fits.pop_back();
+      fits.push_back(plausible(place.state, descend(image_, kAllLevels, coarse, place.state)));
+      if (!guess(fits.back())) fits.pop_back();
     }
     std::stable_sort(fits.begin(), fits.end(),
                      [](const Fit& a, const Fit& b) { return a.agreement.score > b.agreement.score; });
     Fit best;
     PlaneState from = state_;
     for (std::size_t i = 0; i < fits.size() && i < options_.finalists && !sure(best); ++i) {
-      const Fit fit = descend(image_, coarse - 1, 0, fits[i].state);
+      const Fit fit = plausible(fits[i].state, descend(image_, coarse - 1, 0, fits[i].state));
       if (&better(best, fit) == &fit) {
         best = fit;
         from = fits[i].state;
@@ -210,9 +217,8 @@ class PlaneTracker {
     zncc_ = fit.zncc;
     agreement_ = fit.agreement;
     if (!good(fit)) {
-      const bool guess = tp::is_ok(fit.status) && fit.agreement.share >= options_.unsure;
-      confidence_ = guess ? Confidence::unsure : Confidence::lost;
-      shown_ = guess ? fit.state : state_;
+      confidence_ = guess(fit) ? Confidence::unsure : Confidence::lost;
+      shown_ = guess(fit) ? fit.state : state_;
       step_ = {};
       return tp::is_ok(fit.status) ? tp::Status::diverged : fit.status;
     }
@@ -246,6 +252,12 @@ class PlaneTracker {
            std::abs(std::log(det)) < 2 * options_.views.zooms * std::log(options_.views.zoom);
   }
 
+  // A fit that bent the object far from its start holds on to something else.
+  Fit plausible(const PlaneState& start, Fit fit) const {
+    if (tp::is_ok(fit.status) && !alike(quad(start), quad(fit.state))) fit.status = tp::Status::diverged;
+    return fit;
+  }
+
   Fit descend(const tp::PyramidView& image, int coarsest, int finest, const PlaneState& start) {
     Fit fit;
     fit.state = start;
@@ -272,26 +284,27 @@ class PlaneTracker {
     input.target_camera = window.of(input.target_camera);
     const Parts& parts = parts_[static_cast<std::size_t>(host)];
     std::size_t look = appearance_.count();
+    double zncc = 0;
     for (int round = 0; round < kRounds; ++round) {
       const std::size_t best =
-          appearance_.best(input, host, fit->state.theta, fit->state.T_t_h, options_.photometric, workspace_);
+          appearance_.best(input, host, fit->state.theta, fit->state.T_t_h, options_.photometric, workspace_, &zncc);
       if (best == look) break;
       look = best;
       input.patch = appearance_.look(look, host);
-      minimise(input, from, plane, fit);
+      minimise(input, from, plane, zncc, fit);
     }
     const auto compare = [&] {
-      fit->agreement = parts.compare(input, tp::plane_homography(fit->state.theta, fit->state.T_t_h), options_.agree,
-                                     &mask_);
+      fit->agreement =
+          parts.compare(input, tp::plane_homography(fit->state.theta, fit->state.T_t_h), options_.agree, &mask_);
     };
     input.patch = appearance_.look(look, host);
     compare();
     for (int round = 0; round < kRounds && level <= options_.parts_level; ++round) {
       const Agreement before = fit->agreement;
-      if (!tp::is_ok(fit->status) || before.share < options_.unsure || before.share > options_.whole) return;
+      if (!tp::is_ok(fit->status) || before.share < options_.least_share || before.share > options_.whole) return;
       const Fit all = *fit;
       input.patch.mask = mask_.data();
-      minimise(input, from, plane, fit);
+      minimise(input, from, plane, fit->zncc, fit);
       input.patch.mask = nullptr;
       compare();
       if (fit->agreement.score > before.score) continue;
@@ -300,8 +313,10 @@ class PlaneTracker {
     }
   }
 
-  void minimise(const tp::PhotometricInput& input, const PlaneState& from, double plane, Fit* fit) {
-    PosePlaneProblem problem(input, from, options_.turn, plane, options_.photometric, workspace_);
+  void minimise(const tp::PhotometricInput& input, const PlaneState& from, double plane, double zncc, Fit* fit) {
+    // What the pixels say weighs the less, the more they differ.
+    const double noise = std::min(std::max((1 - zncc) / (1 - options_.typical), 1.0), options_.most_noise);
+    PosePlaneProblem problem(input, from, noise * options_.turn, noise * plane, options_.photometric, workspace_);
     tp::NormalEquations<9> system;
     fit->status = tp::minimise(problem, fit->state, options_.solve, &system).status;
     // No step lowers the cost: the fit is converged, and ZNCC rates it.
@@ -327,7 +342,7 @@ class PlaneTracker {
     PlaneState tried = start;
     tried.T_t_h = tp::search_pose(appearance_.sharp(), start.theta, start.T_t_h, view, camera, search, workspace_,
                                   appearance_.prepared());
-    return better(fit, descend(image, level, 0, tried));
+    return better(fit, plausible(tried, descend(image, level, 0, tried)));
   }
 
   int scale_shift(const PlaneState& state) const noexcept {

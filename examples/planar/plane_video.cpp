@@ -43,7 +43,8 @@ PlaneVideo read_plane_video(const std::string& folder, const std::string& sequen
       throw textslam::InputError(path, number, "not frame,flag and eight numbers");
     if (flag == 0) out.truth[frame] = q;
   }
-  if (out.truth.size() < 2 || out.truth.begin()->first != 1) throw textslam::InputError(path, 0, "no corners of frame 1");
+  if (out.truth.size() < 2 || out.truth.begin()->first != 1)
+    throw textslam::InputError(path, 0, "no corners of frame 1");
   return out;
 }
 

@@ -1,30 +1,31 @@
 // real_images: tracking and alignment on real photographs, beside OpenCV's ECC, KLT with RANSAC and plain SSD. Writes
 // docs/real_images.md. The data are folders in the layout of the published sets; they are not part of the repository.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <exception>
-#include <fstream>
 #include <functional>
-#include <map>
+#include <iterator>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <sstream>
 
-#include "io/image_file.hpp"
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
 #include "planar/peers.hpp"
+#include "planar/plane_video.hpp"
+#include "planar/recovery.hpp"
 #include "planar/trials.hpp"
 
 namespace {
 using namespace planar;
 using textslam::InputError;
 
-constexpr double kPrecision = 5.0;  // px, mean over the corners: what the benchmark scores with
-constexpr double kOffset = 4.0;     // px
+constexpr double kOffset = 4.0;  // px
 constexpr std::uint64_t kSeeds[] = {1, 2, 3};
 constexpr int kTrialsOfASeed = 100;
+constexpr std::size_t kStarts = 8;
+const std::vector<int> kQualities = {20, 10, 5, 3};  // of JPEG
 
 std::string text(const char* format, double a, double b = 0) {
   char out[256];
@@ -32,69 +33,49 @@ std::string text(const char* format, double a, double b = 0) {
   return out;
 }
 
-/// Quads by frame number of a file `frame,flag,x1,y1,...,x4,y4`; flag 0 is usable.
-std::map<int, tp::Quad<double>> read_corners(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path, 0, "cannot be read");
-  std::map<int, tp::Quad<double>> out;
-  std::string line;
-  std::getline(file, line);
-  for (int number = 2; std::getline(file, line); ++number) {
-    int frame = 0, flag = 0;
-    tp::Quad<double> q;
-    auto& c = q.corner;
-    if (std::sscanf(line.c_str(), "%d,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &frame, &flag, &c[0][0], &c[0][1], &c[1][0],
-                    &c[1][1], &c[2][0], &c[2][1], &c[3][0], &c[3][1]) != 10)
-      throw InputError(path, number, "not frame,flag and eight numbers");
-    if (flag == 0) out[frame] = q;
-  }
-  if (out.empty() || out.begin()->first != 1) throw InputError(path, 0, "no corners of frame 1");
-  return out;
-}
+using Track = std::function<bool(const textslam::Image<std::uint8_t>&, tp::Quad<double>*)>;
 
-/// One row of the tracking table: annotated frames within 5 px, and the mean time of a frame.
-std::string track(const std::string& folder, const std::map<int, tp::Quad<double>>& truth, const std::string& name,
-                  const std::function<std::function<bool(const textslam::Image<std::uint8_t>&, tp::Quad<double>*)>(
-                      const textslam::Image<std::uint8_t>&)>& make) {
-  const auto load = [&folder](int n) { return textslam::load_grey(folder + "/" + text("%08.0f", n) + ".jpg"); };
-  const auto tracker = make(load(1));
-  tp::Quad<double> quad = truth.at(1);
-  int good = 0, all = 0, frames = 0;
-  double milliseconds = 0;
-  for (int n = 2; n <= truth.rbegin()->first; ++n) {
-    const auto image = load(n);
+/// One row of the tracking table: annotated frames within 5 px, and the time of a frame.
+std::string track(const PlaneVideo& video, const std::string& name,
+                  const std::function<Track(const textslam::Image<std::uint8_t>&)>& make) {
+  const Track tracker = make(video.load(1));
+  tp::Quad<double> quad = video.truth.at(1);
+  int good = 0, all = 0;
+  std::vector<double> times;
+  for (int n = 2; n <= video.truth.rbegin()->first; ++n) {
+    const auto image = video.load(n);
     const std::clock_t begin = std::clock();
     tracker(image, &quad);
-    milliseconds += 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    ++frames;
-    const auto at = truth.find(n);
-    if (at == truth.end()) continue;
-    double error = 0;
-    for (std::size_t i = 0; i < 4; ++i) error += (quad.corner[i] - at->second.corner[i]).norm() / 4;
+    times.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    const auto at = video.truth.find(n);
+    if (at == video.truth.end()) continue;
     ++all;
-    good += error <= kPrecision;
+    good += corner_error(quad, at->second) <= kFound;
   }
+  std::sort(times.begin(), times.end());
   return "| " + name + " | " + std::to_string(good) + " of " + std::to_string(all) +
-         text(" | %.1f %% | %.2f |\n", 100.0 * good / all, milliseconds / frames);
+         text(" | %.1f %% | %.2f |", 100.0 * good / all, times[times.size() / 2]) + text(" %.1f |\n", times.back());
 }
 
-std::string tracking_table(const std::string& folder, const std::string& sequence, const std::string& label) {
-  const auto truth = read_corners(folder + "/" + sequence + "_gt_corners.csv");
-  const std::string images = folder + "/" + sequence;
+Track ours(const textslam::Image<std::uint8_t>& first, const tp::Quad<double>& start) {
+  const auto tracker = std::make_shared<PlaneTracker>(first.view(), start);
+  return [tracker](const textslam::Image<std::uint8_t>& image, tp::Quad<double>* quad) {
+    const bool found = tp::is_ok(tracker->track(image.view()));
+    *quad = tracker->quad();
+    return found;
+  };
+}
+
+std::string tracking_table(const PlaneVideo& video, const std::string& label) {
   using textslam::Image;
-  std::string out = "\n" + label +
-                    ":\n\n| tracker | annotated frames within 5 px | share | ms a frame |\n| --- | --- | --- | --- |\n";
-  out += track(images, truth, "textplane", [&](const Image<std::uint8_t>& first) {
-    const auto tracker = std::make_shared<PlaneTracker>(first.view(), truth.at(1));
-    return [tracker](const Image<std::uint8_t>& image, tp::Quad<double>* quad) {
-      const bool found = tp::is_ok(tracker->track(image.view()));
-      *quad = tracker->quad();
-      return found;
-    };
-  });
-  out += track(images, truth, "ECC, coarse to fine", [&](const Image<std::uint8_t>& first) {
+  const tp::Quad<double> start = video.truth.at(1);
+  std::string out =
+      "\n" + label +
+      ":\n\n| tracker | annotated frames within 5 px | share | ms a frame, median | slowest |\n| --- | --- "
+      "| --- | --- | --- |\n";
+  out += track(video, "textplane", [&](const Image<std::uint8_t>& first) { return ours(first, start); });
+  out += track(video, "ECC, coarse to fine", [&](const Image<std::uint8_t>& first) -> Track {
     const auto pyramid = std::make_shared<tp::Pyramid>(first.view(), 4);
-    const tp::Quad<double> start = truth.at(1);
     return [pyramid, start, H = tp::Matrix3<double>(tp::Matrix3<double>::Identity())](const Image<std::uint8_t>& image,
                                                                                       tp::Quad<double>* quad) mutable {
       return align_ecc(*pyramid, start, tp::Pyramid(image.view(), 4), &H) && tp::is_ok(tp::transform(start, H, quad));
@@ -103,14 +84,54 @@ std::string tracking_table(const std::string& folder, const std::string& sequenc
   const auto mat = [](const Image<std::uint8_t>& image) {
     return cv::Mat(image.height(), image.width(), CV_8U, const_cast<std::uint8_t*>(image.data())).clone();
   };
-  out += track(images, truth, "KLT, homography by RANSAC", [&](const Image<std::uint8_t>& first) {
-    const auto tracker = std::make_shared<KltHomography>(mat(first), truth.at(1));
-    const tp::Quad<double> start = truth.at(1);
+  out += track(video, "KLT, homography by RANSAC", [&](const Image<std::uint8_t>& first) -> Track {
+    const auto tracker = std::make_shared<KltHomography>(mat(first), start);
     return [tracker, start, mat](const Image<std::uint8_t>& image, tp::Quad<double>* quad) {
       tp::Matrix3<double> H;
       return tracker->track(mat(image), &H) && tp::is_ok(tp::transform(start, H, quad));
     };
   });
+  return out;
+}
+
+/// Ours begun at eight annotated frames, spread over the first three quarters of a video.
+std::string starts_table(const PlaneVideo& video, const std::string& label) {
+  std::string starts, within;
+  for (std::size_t k = 0; k < kStarts; ++k) {
+    auto at = video.truth.begin();
+    std::advance(at, static_cast<std::ptrdiff_t>(k * 3 * video.truth.size() / (4 * kStarts)));
+    const Track tracker = ours(video.load(at->first), at->second);
+    int good = 0, all = 0;
+    tp::Quad<double> quad;
+    for (int n = at->first + 1; n <= video.truth.rbegin()->first; ++n) {
+      tracker(video.load(n), &quad);
+      const auto truth = video.truth.find(n);
+      if (truth == video.truth.end()) continue;
+      ++all;
+      good += corner_error(quad, truth->second) <= kFound;
+    }
+    starts += " " + std::to_string(at->first) + " |";
+    within += " " + std::to_string(good) + " of " + std::to_string(all) + " |";
+  }
+  std::string line = "|";
+  for (std::size_t k = 0; k <= kStarts; ++k) line += " --- |";
+  return "\n| " + label + ", begun at frame |" + starts + "\n" + line + "\n| within 5 px |" + within + "\n";
+}
+
+std::string recovery_row(const std::string& name, const Recovery& r) {
+  return "| " + name + " | " + std::to_string(r.found) + " of " + std::to_string(r.trials) + " | " +
+         std::to_string(r.judged) + " | " + std::to_string(r.good) + " | " + std::to_string(r.wrong) +
+         text(" | %.0f | %.0f |\n", r.searches > 0 ? r.searching / r.searches : 0, r.slowest);
+}
+
+std::string recovery_table(const PlaneVideo& video, const std::string& label) {
+  const std::uint64_t seed = kSeeds[0];
+  std::string out = "\n" + label +
+                    ":\n\n| what happens | found again | frames judged | said to be good | of these wrong | ms a frame "
+                    "that is not good | slowest |\n| --- | --- | --- | --- | --- | --- | --- |\n";
+  out += recovery_row("covered for 20 frames", cover(video, kTrialsOfASeed, 20, 1.0, seed));
+  out += recovery_row("half covered for 5 frames", cover(video, kTrialsOfASeed, 5, 0.5, seed));
+  out += recovery_row("frames dropped, 30 to 60 px", jump(video, kTrialsOfASeed, 30, 60, seed));
   return out;
 }
 
@@ -149,15 +170,34 @@ thread; times are milliseconds of CPU time. All tables use the same parameters (
 The data are published sets and not part of this repository: POT-210 (Liang et al., ICRA 2018), HOPE-Image (Tyree et
 al., 2022) and Oxford's affine regions (Mikolajczyk et al., 2005).
 
-How far to trust it: the tracker was developed on these very images, and none were held out. Only the random choices
-were: settings were judged on starts and Oxford patches of seeds 7 to 9, and the tables show seeds 1 to 3. Over
-fifteen settings of window, floor, blur, robust cost and pulls the result was 96 to 99.6 % on HOPE, 96 to 99.3 % on
-leuven and 93 to 98.6 % on bikes.
+How far to trust it: the tracker was developed on these very images, and none were held out: frames 1 to 100 of V24_7
+and 1 to 50 of V25_2 and nothing after them, HOPE, and leuven, bikes and graf of Oxford. Only the random choices were
+held out: settings were judged on starts and Oxford patches of seeds 7 to 9 and on recovery trials of seeds 7 and 11,
+and the tables show seeds 1 to 3. Over fifteen settings of window, floor, blur, robust cost and pulls the result was 96
+to 99.6 % on HOPE, 96 to 99.3 % on leuven and 93 to 98.6 % on bikes.
 
 ## A plane through a video
 
 Two sequences of POT-210, with corners annotated in every second frame. The quad of the first frame is given, the
-camera is unknown. The peers start each frame from the homography of the last one.
+camera is unknown. The peers start each frame from the homography of the last one. Ours searches where a fit is not
+good, so that its slowest frame takes far longer than the median.
+)";
+
+const char* const kRecovery = R"(
+Begun at eight other annotated frames, with the quad of that frame:
+)";
+
+const char* const kTrialsOfRecovery = R"(
+## A plane that was lost
+
+A trial begins at a random annotated frame, with its quad, and follows the plane for five frames. Then a rectangle of
+random bars of the size of print covers the plane's bounding box and 5 % more on every side, moves with the plane while
+the video goes on, and is taken away after 20 frames. In a second kind it covers half of the plane, from a random side,
+for five frames. In a third, frames are left out, so that the corners move by 30 to 60 px on average from one frame to
+the next. A plane counts as found again where `confidence()` is good and the corners are within 5 px: after a cover at
+an annotated frame within five frames, after a jump at once. Frames judged are the annotated ones, and those in which
+all of the plane is covered. A frame is wrong where the pose is said to be good and is more than 5 px off, or the plane
+is covered. 100 trials each, seed 1.
 )";
 
 const char* const kTrials = R"(
@@ -195,6 +235,13 @@ each, and 286 and 283 trials on leuven and bikes:
 | also the object blurred like the image | 99.1 % | 98.6 % | 97.2 % |
 )";
 
+const char* const kJpeg = R"(
+## JPEG artefacts
+
+The first photographs of leuven, bikes and graf against themselves, saved by libjpeg with a low quality. The truth is
+the identity. Settings were judged on seed 7.
+)";
+
 int run(int argc, char** argv) {
   std::string pot, hope, oxford, output = "real_images.md";
   std::vector<std::string> not_text;
@@ -202,7 +249,7 @@ int run(int argc, char** argv) {
   app.add_option("--pot", pot, "folder with V24_7_960x540, V25_2 and their _gt_corners.csv")->required();
   app.add_option("--hope", hope, "folder of scenes, each with photographs in several lights")->required();
   app.add_option("--not-text", not_text, "scene,x,y of what the detector takes for text there, seen by eye");
-  app.add_option("--oxford", oxford, "folder with leuven and bikes")->required();
+  app.add_option("--oxford", oxford, "folder with leuven, bikes and graf")->required();
   app.add_option("--output", output, "the page to write");
   try {
     app.parse(argc, argv);
@@ -211,10 +258,14 @@ int run(int argc, char** argv) {
   }
   cv::setNumThreads(1);
   std::string page = kHead;
-  page +=
-      tracking_table(pot, "V24_7_960x540",
-                     "V24_7 (an information panel, free motion, partly hidden by a sheet of paper from frame 96 on)");
-  page += tracking_table(pot, "V25_2", "V25_2 (a poster, rotation)");
+  const PlaneVideo panel = read_plane_video(pot, "V24_7_960x540"), poster = read_plane_video(pot, "V25_2");
+  page += tracking_table(
+      panel, "V24_7 (an information panel, free motion, partly hidden by a sheet of paper from frame 96 on)");
+  page += tracking_table(poster, "V25_2 (a poster, rotation)");
+  page += kRecovery;
+  page += starts_table(panel, "V24_7") + starts_table(poster, "V25_2");
+  page += kTrialsOfRecovery;
+  page += recovery_table(panel, "V24_7") + recovery_table(poster, "V25_2");
   page += kTrials;
   TruthPrecision precision;
   const std::vector<PhotoSet> still = read_still_scenes(hope, not_text, &precision);
@@ -226,6 +277,10 @@ int run(int argc, char** argv) {
               precision.round_trip, precision.largest_round_trip);
   page += trial_table(read_oxford(oxford + "/leuven"), "Oxford leuven, light");
   page += trial_table(read_oxford(oxford + "/bikes"), "Oxford bikes, blur");
+  page += kJpeg;
+  for (const int quality : kQualities)
+    page += trial_table(make_jpeg({oxford + "/leuven", oxford + "/bikes", oxford + "/graf"}, {quality}),
+                        "JPEG of quality " + std::to_string(quality));
   textslam::write_file(output, page);
   std::fputs(page.c_str(), stdout);
   return 0;

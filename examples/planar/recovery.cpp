@@ -36,7 +36,8 @@ void draw_cover(const tp::Quad<double>& quad, double share, std::uint64_t seed, 
     for (int x = std::max(static_cast<int>(x0), 0); x < std::min(static_cast<int>(x1), image.width()); ++x) {
       // Cells of 9 x 12 px with a bar across or down each, at random.
       const int u = x - static_cast<int>(x0), v = y - static_cast<int>(y0);
-      const std::uint64_t word = textslam::hash(seed, static_cast<std::uint64_t>(u / 9), static_cast<std::uint64_t>(v / 12));
+      const std::uint64_t word =
+          textslam::hash(seed, static_cast<std::uint64_t>(u / 9), static_cast<std::uint64_t>(v / 12));
       const int at = static_cast<int>(word >> 8 & 7);
       const bool ink = word & 1 ? std::abs(u % 9 - at) < 2 : std::abs(v % 12 - at) < 2;
       image(x, y) = ink ? 60 : 190;
@@ -67,12 +68,6 @@ class Judge {
     ++out_.judged;
     out_.good += good;
     out_.wrong += good && !right;
-    if (good && !right && getenv("DBG"))
-      printf("  wrong: hidden %d err %.1f zncc %.2f share %.2f score %.2f\n", known.hidden, known.hidden ? 0 : corner_error(tracker_.quad(), *known.corners),
-             tracker_.zncc(), tracker_.agreement().share, tracker_.agreement().score);
-    if (!good && getenv("DBG2"))
-      printf("  not good: hidden %d err %.1f zncc %.2f share %.2f score %.2f\n", known.hidden, known.hidden ? 0 : corner_error(tracker_.quad(), *known.corners),
-             tracker_.zncc(), tracker_.agreement().share, tracker_.agreement().score);
     return good && right;
   }
 
@@ -109,7 +104,8 @@ Recovery cover(const PlaneVideo& video, int trials, int covered, double share, s
       auto image = video.load(first + k);
       const bool now = k > kFollowed && k <= kFollowed + covered;
       if (now) draw_cover(video.corners(first + k), share, texture, image);
-      found = judge.step(image, now && share >= 1 ? Known{nullptr, true} : known(video, first + k)) && k > kFollowed + covered;
+      found = judge.step(image, now && share >= 1 ? Known{nullptr, true} : known(video, first + k)) &&
+              k > kFollowed + covered;
     }
     out.found += found;
   }

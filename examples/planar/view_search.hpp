@@ -21,17 +21,17 @@ namespace planar {
 namespace tp = textplane;
 
 struct ViewSearchOptions {
-  double side = 18;     ///< px: least square root of a view's area on the level that is searched.
-  int pixels = 150;     ///< Of the object that are compared.
-  int levels = 6;       ///< Pyramid levels that it may choose from.
-  double step = 1.5;    ///< px of the level, between places.
-  double turn = 0.2;    ///< rad, between turns.
-  double zoom = 1.19;   ///< Between zooms.
-  int turns = 2;        ///< To either side.
-  int zooms = 2;        ///< To either side.
-  double least = 0.3;   ///< Places of a lower ZNCC are no start.
+  double side = 18;                    ///< px: least square root of a view's area on the level that is searched.
+  int pixels = 150;                    ///< Of the object that are compared.
+  int levels = 6;                      ///< Pyramid levels that it may choose from.
+  double step = 1.5;                   ///< px of the level, between places.
+  double turn = 0.2;                   ///< rad, between turns.
+  double zoom = 1.19;                  ///< Between zooms.
+  int turns = 2;                       ///< To either side.
+  int zooms = 2;                       ///< To either side.
+  double least = 0.3;                  ///< Places of a lower ZNCC are no start.
   tp::PhotometricOptions photometric;  ///< Of every pixel.
-  std::size_t keep = 24;  ///< Starts at most.
+  std::size_t keep = 24;               ///< Starts at most.
 };
 
 /// The part of an image that the object's centre is searched in, px.
@@ -75,9 +75,11 @@ class ViewSearch {
     int contrasted_level = -1;
     for (const PlaneState& view : views) {
       tp::Quad<double> seen;
-      if (!tp::is_ok(tp::transform(
-              patch_.quad, tp::pixel_homography(tp::plane_homography(view.theta, view.T_t_h), camera_, camera_), &seen)))
+      if (!tp::is_ok(tp::transform(patch_.quad,
+                                   tp::pixel_homography(tp::plane_homography(view.theta, view.T_t_h), camera_, camera_),
+                                   &seen)))
         continue;
+      if (!(tp::area(seen) > options_.side * options_.side)) continue;
       const int host = level_of(tp::area(patch_.quad), patch_.level_count());
       const int level = level_of(tp::area(seen), image.levels);
       if (host < 0 || level < 0) continue;
@@ -141,8 +143,7 @@ class ViewSearch {
       for (int x = 0; x < columns; ++x) {
         const auto i = static_cast<std::size_t>(y * columns + x);
         if (zncc_[i] < options_.least || !is_peak(x, y, columns, rows)) continue;
-        found.push_back(
-            {{poses_[i], view.theta}, region.x0 + step * x, region.y0 + step * y, turn, zncc_[i]});
+        found.push_back({{poses_[i], view.theta}, region.x0 + step * x, region.y0 + step * y, turn, zncc_[i]});
       }
   }
 
