@@ -6,6 +6,9 @@
 // again from a search on a finer level: the coarsest cannot tell repeated texture apart, and has few pixels of small
 // text. H = R + t theta^T with both free is any homography, so the focal length affects conditioning alone. Weak priors
 // hold what H does not determine: its scale, the plane without parallax, and the perspective of a small quad.
+//
+// A pose is good only where enough parts of the object agree with the image (parts.hpp). Where it is not, the object is
+// searched round its last place, then in the whole image, by the views of it that were seen (view_search.hpp).
 #ifndef TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
 #define TEXTPLANE_EXAMPLES_PLANE_TRACKER_HPP
 
@@ -16,6 +19,7 @@
 
 #include "planar/appearance.hpp"
 #include "planar/parts.hpp"
+#include "planar/plane_tracker_options.hpp"
 #include "planar/pose_plane_problem.hpp"
 #include "planar/view_search.hpp"
 #include "textplane/features/select.hpp"
@@ -27,59 +31,6 @@
 namespace planar {
 
 namespace tp = textplane;
-
-/// One set of parameters for every video and every image pair.
-struct PlaneTrackerOptions {
-  tp::SelectOptions select;
-  tp::PhotometricOptions photometric;
-  tp::SolveOptions solve;
-  tp::SearchOptions search;  ///< For the start of a video frame, on grey levels.
-  AppearanceOptions appearance;
-  double sure = 0.9;           ///< A fit with a lower ZNCC is tried again.
-  tp::SearchOptions again;     ///< For the second try, on local contrast.
-  int plane_level = 2;         ///< From this level on the plane is free, too.
-  double focal = 8;            ///< Of the camera whose axis meets the quad's centre, in units of sqrt(the quad's area).
-  double plane = 1e-2;         ///< Weight of the prior that the plane faces the first camera, relative to the data.
-  double turn = 0.1;           ///< Weight of the prior on tilt (rad^2): a small quad hardly shows perspective.
-  double typical = 0.95;       ///< The weights are for fits of this ZNCC; they grow with 1 - ZNCC,
-  double most_noise = 20;      ///< at most by this factor.
-  double agree = 0.5;          ///< ZNCC from which on a part of the object agrees with an image (parts.hpp).
-  double good = 0.42;          ///< Share of parts that agree times ZNCC: from it on a pose is good.
-  double unsure = 0.25;        ///< From it on it is a guess at least; below it the object is lost.
-  ViewSearchOptions views;     ///< Where a fit is not good.
-  std::size_t remembered = 5;  ///< Views that differ, to find the object again by.
-  double squeeze = 1.06;  ///< They differ where one is squeezed by more than this: (s + 1 / s) / 2, s in one direction.
-  int parts_level = 3;    ///< From this level on, finer ones included,
-  double least_share = 0.3;   ///< where from this share of parts on agree,
-  double whole = 0.95;        ///< Where fewer parts agree, these alone are fitted.
-  int coarse = 2;             ///< All starts are fitted to this level, and
-  std::size_t finalists = 5;  ///< Starts of that search that are fitted to the finest level.
-
-  PlaneTrackerOptions() {
-    select.levels = 4;
-    select.max_pixels = 1000;
-    solve.max_iterations = 30;
-    search.level = 3;
-    search.radius = 5;
-    search.roll = 0.2;
-    again.level = 1;
-  }
-};
-
-/// How far the pose of a frame can be trusted.
-enum class Confidence {
-  good,    ///< Most parts of the object agree with the image: it is there.
-  unsure,  ///< Some do. The pose is the best guess and may be wrong.
-  lost,    ///< Hardly any does, anywhere in the image. The pose is that of the last good frame.
-};
-
-/// A pose as a fit left it.
-struct Fit {
-  PlaneState state;
-  tp::Status status = tp::Status::too_few;
-  double zncc = -1;     ///< Of the pixels that were fitted.
-  Agreement agreement;  ///< On the finest level that was fitted.
-};
 
 class PlaneTracker {
  public:
@@ -205,7 +156,7 @@ class PlaneTracker {
     const Region whole{0, 0, image_.level(0).width() - 1.0, image_.level(0).height() - 1.0};
     std::vector<PlaneState> views{state_};
     for (const PlaneState& view : remembered_)
-      if (!alike(quad(view), quad(state_))) views.push_back(view);
+      if (!alike(quad(view), quad(state_), options_.views)) views.push_back(view);
     const Fit fit = find(whole, views, 0);
     if (good(fit)) return fit;
     const double sector = (2 * options_.views.turns + 1) * options_.views.turn;
@@ -233,28 +184,15 @@ class PlaneTracker {
   void remember() {
     const tp::Quad<double> now = quad(state_);
     for (const PlaneState& view : remembered_)
-      if (alike(quad(view), now)) return;
+      if (alike(quad(view), now, options_.views)) return;
     if (remembered_.size() >= options_.remembered) remembered_.erase(remembered_.begin() + 1);
     remembered_.push_back(state_);
   }
 
-  // Whether one view is found by the other: they differ by little but place, turn and zoom within the steps of a search.
-  bool alike(const tp::Quad<double>& a, const tp::Quad<double>& b) const {
-    tp::Matrix2d A, B;
-    A << a.corner[2] - a.corner[0], a.corner[3] - a.corner[1];
-    B << b.corner[2] - b.corner[0], b.corner[3] - b.corner[1];
-    const tp::Matrix2d M = B * A.inverse();
-    const double det = M.determinant(), trace = M.squaredNorm();
-    if (!(det > 0)) return false;
-    const double turn = std::atan2(M(1, 0) - M(0, 1), M(0, 0) + M(1, 1));
-    const double squeeze = trace / (2 * det);  // (s + 1 / s) / 2 of the ratio s of the singular values
-    return squeeze < options_.squeeze && std::abs(turn) < options_.views.turns * options_.views.turn &&
-           std::abs(std::log(det)) < 2 * options_.views.zooms * std::log(options_.views.zoom);
-  }
-
   // A fit that bent the object far from its start holds on to something else.
   Fit plausible(const PlaneState& start, Fit fit) const {
-    if (tp::is_ok(fit.status) && !alike(quad(start), quad(fit.state))) fit.status = tp::Status::diverged;
+    if (tp::is_ok(fit.status) && !alike(quad(start), quad(fit.state), options_.views))
+      fit.status = tp::Status::diverged;
     return fit;
   }
 

@@ -33,11 +33,11 @@ std::string text(const char* format, double a, double b = 0) {
   return out;
 }
 
-using Track = std::function<bool(const textslam::Image<std::uint8_t>&, tp::Quad<double>*)>;
+using Track = std::function<bool(const tp::Image<std::uint8_t>&, tp::Quad<double>*)>;
 
 /// One row of the tracking table: annotated frames within 5 px, and the time of a frame.
 std::string track(const PlaneVideo& video, const std::string& name,
-                  const std::function<Track(const textslam::Image<std::uint8_t>&)>& make) {
+                  const std::function<Track(const tp::Image<std::uint8_t>&)>& make) {
   const Track tracker = make(video.load(1));
   tp::Quad<double> quad = video.truth.at(1);
   int good = 0, all = 0;
@@ -57,9 +57,9 @@ std::string track(const PlaneVideo& video, const std::string& name,
          text(" | %.1f %% | %.2f |", 100.0 * good / all, times[times.size() / 2]) + text(" %.1f |\n", times.back());
 }
 
-Track ours(const textslam::Image<std::uint8_t>& first, const tp::Quad<double>& start) {
+Track ours(const tp::Image<std::uint8_t>& first, const tp::Quad<double>& start) {
   const auto tracker = std::make_shared<PlaneTracker>(first.view(), start);
-  return [tracker](const textslam::Image<std::uint8_t>& image, tp::Quad<double>* quad) {
+  return [tracker](const tp::Image<std::uint8_t>& image, tp::Quad<double>* quad) {
     const bool found = tp::is_ok(tracker->track(image.view()));
     *quad = tracker->quad();
     return found;
@@ -67,7 +67,7 @@ Track ours(const textslam::Image<std::uint8_t>& first, const tp::Quad<double>& s
 }
 
 std::string tracking_table(const PlaneVideo& video, const std::string& label) {
-  using textslam::Image;
+  using tp::Image;
   const tp::Quad<double> start = video.truth.at(1);
   std::string out =
       "\n" + label +

@@ -21,18 +21,33 @@ namespace planar {
 namespace tp = textplane;
 
 struct ViewSearchOptions {
-  double side = 18;                    ///< px: least square root of a view's area on the level that is searched.
-  int pixels = 150;                    ///< Of the object that are compared.
-  int levels = 6;                      ///< Pyramid levels that it may choose from.
-  double step = 1.5;                   ///< px of the level, between places.
-  double turn = 0.2;                   ///< rad, between turns.
-  double zoom = 1.19;                  ///< Between zooms.
-  int turns = 2;                       ///< To either side.
-  int zooms = 2;                       ///< To either side.
-  double least = 0.3;                  ///< Places of a lower ZNCC are no start.
+  double side = 18;       ///< px: least square root of a view's area on the level that is searched.
+  int pixels = 150;       ///< Of the object that are compared.
+  int levels = 6;         ///< Pyramid levels that it may choose from.
+  double step = 1.5;      ///< px of the level, between places.
+  double turn = 0.2;      ///< rad, between turns.
+  double zoom = 1.19;     ///< Between zooms.
+  int turns = 2;          ///< To either side.
+  int zooms = 2;          ///< To either side.
+  double squeeze = 1.06;  ///< Views differ that are squeezed by more: (s + 1 / s) / 2 of the ratio s of both axes.
+  double least = 0.3;     ///< Places of a lower ZNCC are no start.
   tp::PhotometricOptions photometric;  ///< Of every pixel.
   std::size_t keep = 24;               ///< Starts at most.
 };
+
+/// Whether one view is found by the other: they differ by little but place, turn and zoom within the steps of a search.
+inline bool alike(const tp::Quad<double>& a, const tp::Quad<double>& b, const ViewSearchOptions& options) noexcept {
+  tp::Matrix2d A, B;
+  A << a.corner[2] - a.corner[0], a.corner[3] - a.corner[1];
+  B << b.corner[2] - b.corner[0], b.corner[3] - b.corner[1];
+  const tp::Matrix2d M = B * A.inverse();
+  const double det = M.determinant(), trace = M.squaredNorm();
+  if (!(det > 0)) return false;
+  const double turn = std::atan2(M(1, 0) - M(0, 1), M(0, 0) + M(1, 1));
+  const double squeeze = trace / (2 * det);  // (s + 1 / s) / 2 of the ratio s of the singular values
+  return squeeze < options.squeeze && std::abs(turn) < options.turns * options.turn &&
+         std::abs(std::log(det)) < 2 * options.zooms * std::log(options.zoom);
+}
 
 /// The part of an image that the object's centre is searched in, px.
 struct Region {
