@@ -58,7 +58,7 @@ class PlaneTracker {
   tp::Status track(tp::ImageView8 image) {
     image_.build(image, std::max(options_.select.levels, options_.views.levels));
     Fit best = follow();
-    if (!good(best) && confidence_ != Confidence::lost) best = better(best, find(near(), {state_}, 0));
+    if (!good(best) && confidence_ != Confidence::lost) best = better(best, find(near(quad(state_)), {state_}, 0));
     if (!good(best)) {
       const Fit far = find_anywhere();
       if (good(far) || !guess(best)) best = better(best, far);
@@ -94,16 +94,9 @@ class PlaneTracker {
  private:
   static constexpr int kAllLevels = tp::kMaxPyramidLevels, kRounds = 3;
 
-  // Few parts must agree well, many need not.
-  static double trust(const Fit& fit) noexcept { return fit.agreement.share * fit.zncc; }
   bool good(const Fit& fit) const noexcept { return tp::is_ok(fit.status) && trust(fit) >= options_.good; }
   bool guess(const Fit& fit) const noexcept { return tp::is_ok(fit.status) && trust(fit) >= options_.unsure; }
   bool sure(const Fit& fit) const noexcept { return good(fit) && fit.zncc >= options_.sure; }
-  static const Fit& better(const Fit& a, const Fit& b) noexcept {
-    if (!tp::is_ok(b.status)) return a;
-    return !tp::is_ok(a.status) || b.agreement.score > a.agreement.score ? b : a;
-  }
-
   // From the last pose and the one of constant velocity.
   Fit follow() {
     Fit best;
@@ -120,13 +113,6 @@ class PlaneTracker {
       if (sure(best)) break;
     }
     return again(image_, from, best);
-  }
-
-  Region near() const noexcept {
-    const tp::Quad<double> last = quad(state_);
-    const tp::Vector2<double> c = tp::centroid(last);
-    const double reach = std::sqrt(std::abs(tp::area(last)));
-    return {c[0] - reach, c[1] - reach, c[0] + reach, c[1] + reach};
   }
 
   // The best fit from the places that a search finds.

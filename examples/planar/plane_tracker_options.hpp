@@ -68,6 +68,22 @@ struct Fit {
   Agreement agreement;  ///< On the finest level that was fitted.
 };
 
+/// Few parts must agree well, many need not.
+inline double trust(const Fit& fit) noexcept { return fit.agreement.share * fit.zncc; }
+
+/// The one whose parts agree better.
+inline const Fit& better(const Fit& a, const Fit& b) noexcept {
+  if (!tp::is_ok(b.status)) return a;
+  return !tp::is_ok(a.status) || b.agreement.score > a.agreement.score ? b : a;
+}
+
+/// Round a quad, px.
+inline Region near(const tp::Quad<double>& last) noexcept {
+  const tp::Vector2<double> c = tp::centroid(last);
+  const double reach = std::sqrt(std::abs(tp::area(last)));
+  return {c[0] - reach, c[1] - reach, c[0] + reach, c[1] + reach};
+}
+
 }  // namespace planar
 
 #endif  // TEXTPLANE_EXAMPLES_PLANE_TRACKER_OPTIONS_HPP

@@ -23,8 +23,8 @@ struct PlaneVideo {
   tp::Quad<double> corners(int frame) const;
 };
 
-/// `sequence` of a folder: its images, and its file SEQUENCE_gt_corners.csv with lines `frame,flag,x1,y1,...,x4,y4`; flag
-/// 0 is usable. Throws InputError.
+/// `sequence` of a folder: its images, and its file SEQUENCE_gt_corners.csv with lines `frame,flag,x1,y1,...,x4,y4`;
+/// flag 0 is usable. Throws InputError.
 PlaneVideo read_plane_video(const std::string& folder, const std::string& sequence);
 
 /// Mean distance of the corners, px.
