@@ -231,7 +231,8 @@ class PlaneTracker {
       minimise(input, from, plane, fit->zncc, fit);
       input.patch.mask = nullptr;
       compare();
-      if (fit->agreement.score > before.score) continue;
+      // Hidden parts agree by chance, more or less: how much is no reason.
+      if (fit->agreement.share >= before.share) continue;
       *fit = all;
       return;
     }
