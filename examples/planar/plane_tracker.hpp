@@ -145,7 +145,7 @@ class PlaneTracker {
       if (!alike(quad(view), quad(state_), options_.views)) views.push_back(view);
     const Fit fit = find(whole, views, 0);
     if (good(fit)) return fit;
-    const double sector = (2 * options_.views.turns + 1) * options_.views.turn;
+    const double sector = 2 * options_.views.turn;
     const int sectors = static_cast<int>(std::ceil(6.283185307179586 / sector)) - 1;
     return better(fit, find(whole, {state_}, sector * (1 + searches_++ % std::max(sectors, 1))));
   }

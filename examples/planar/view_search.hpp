@@ -1,7 +1,8 @@
 // ViewSearch: finds an object anywhere in an image, by ZNCC with the views of it that a tracker remembers.
 //
-// Every view, turned and zoomed by a few steps, is compared at every place of one coarse level, on local contrast. The
-// level is that where the view is still a few letters large. What is found is a start for a fit, not a pose.
+// Every view, turned and zoomed in steps, is compared at every place of one coarse level, on local contrast. The level
+// is that where the view is still a few letters large. The steps follow from its size there: what lies between two of
+// them must still overlap its strokes. What is found is a start for a fit, not a pose.
 #ifndef TEXTPLANE_EXAMPLES_VIEW_SEARCH_HPP
 #define TEXTPLANE_EXAMPLES_VIEW_SEARCH_HPP
 
@@ -21,14 +22,13 @@ namespace planar {
 namespace tp = textplane;
 
 struct ViewSearchOptions {
-  double side = 18;       ///< px: least square root of a view's area on the level that is searched.
+  double side = 18;       ///< px: about the square root of a view's area on the level that is searched.
   int pixels = 150;       ///< Of the object that are compared.
   int levels = 6;         ///< Pyramid levels that it may choose from.
   double step = 1.5;      ///< px of the level, between places.
-  double turn = 0.2;      ///< rad, between turns.
-  double zoom = 1.19;     ///< Between zooms.
-  int turns = 2;          ///< To either side.
-  int zooms = 2;          ///< To either side.
+  double move = 2;        ///< px of the level that a view's ends move by, between turns and between zooms.
+  double turn = 0.4;      ///< rad, to either side.
+  double zoom = 1.4;      ///< To either side.
   double squeeze = 1.06;  ///< Views differ that are squeezed by more: (s + 1 / s) / 2 of the ratio s of both axes.
   double least = 0.3;     ///< Places of a lower ZNCC are no start.
   tp::PhotometricOptions photometric;  ///< Of every pixel.
@@ -45,8 +45,8 @@ inline bool alike(const tp::Quad<double>& a, const tp::Quad<double>& b, const Vi
   if (!(det > 0)) return false;
   const double turn = std::atan2(M(1, 0) - M(0, 1), M(0, 0) + M(1, 1));
   const double squeeze = trace / (2 * det);  // (s + 1 / s) / 2 of the ratio s of the singular values
-  return squeeze < options.squeeze && std::abs(turn) < options.turns * options.turn &&
-         std::abs(std::log(det)) < 2 * options.zooms * std::log(options.zoom);
+  return squeeze < options.squeeze && std::abs(turn) < options.turn &&
+         std::abs(std::log(det)) < 2 * std::log(options.zoom);
 }
 
 /// The part of an image that the object's centre is searched in, px.
@@ -83,7 +83,7 @@ class ViewSearch {
   }
 
   /// Starts with their centre in a region, best first, at most one of nearly equal ones. The views are turned about
-  /// `turn` and options.turns steps to both sides of it.
+  /// `turn` and options.turn to both sides of it.
   std::vector<Place> operator()(const tp::PyramidView& image, const std::vector<PlaneState>& views,
                                 const Region& region, double turn) {
     std::vector<Place> found;
@@ -109,10 +109,13 @@ class ViewSearch {
       const double right = std::ldexp(target_.width(), level), bottom = std::ldexp(target_.height(), level);
       const Region inner{std::max(region.x0, mx), std::max(region.y0, my), std::min(region.x1, right - mx),
                          std::min(region.y1, bottom - my)};
-      for (int t = -options_.turns; t <= options_.turns; ++t)
-        for (int z = -options_.zooms; z <= options_.zooms; ++z)
-          scan(in, prepared_[static_cast<std::size_t>(host)], view, inner, level, turn + t * options_.turn,
-               std::pow(options_.zoom, z), found);
+      const double reach = std::ldexp(std::max(b.max[0] - b.min[0], b.max[1] - b.min[1]) / 2, -level) / options_.move;
+      const int turns = static_cast<int>(std::ceil(options_.turn * reach));
+      const int zooms = static_cast<int>(std::ceil(std::log(options_.zoom) * reach));
+      for (int t = -turns; t <= turns; ++t)
+        for (int z = -zooms; z <= zooms; ++z)
+          scan(in, prepared_[static_cast<std::size_t>(host)], view, inner, level, turn + t * options_.turn / turns,
+               std::pow(options_.zoom, static_cast<double>(z) / zooms), found);
     }
     return best_of(found);
   }
@@ -120,7 +123,7 @@ class ViewSearch {
  private:
   int level_of(double area, int levels) const noexcept {
     if (!(area > 0)) return -1;
-    const double octaves = std::floor(std::log2(std::sqrt(area) / options_.side));
+    const double octaves = std::round(std::log2(std::sqrt(area) / options_.side));
     return static_cast<int>(std::min(std::max(octaves, 0.0), levels - 1.0));
   }
 
@@ -173,11 +176,11 @@ class ViewSearch {
   std::vector<Place> best_of(std::vector<Place>& found) const {
     std::stable_sort(found.begin(), found.end(), [](const Place& a, const Place& b) { return a.zncc > b.zncc; });
     std::vector<Place> out;
-    const double apart = 0.15 * std::sqrt(tp::area(patch_.quad));
+    const double apart = 0.15 * std::sqrt(tp::area(patch_.quad)), turned = 0.75 * options_.turn;
     for (const Place& f : found) {
       if (out.size() >= options_.keep) break;
       if (std::none_of(out.begin(), out.end(), [&](const Place& o) {
-            return std::hypot(f.x - o.x, f.y - o.y) < apart && std::abs(f.turn - o.turn) < 1.5 * options_.turn;
+            return std::hypot(f.x - o.x, f.y - o.y) < apart && std::abs(f.turn - o.turn) < turned;
           }))
         out.push_back(f);
     }
