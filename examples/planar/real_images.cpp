@@ -208,7 +208,7 @@ each of three seeds.
 
 **Patches.** On HOPE they are quads of at least 60 x 20 px that the built-in text detector finds. Five of 42 were left
 out by eye, because they hold tablecloth and no text; PP-OCRv4 finds no text in them either. With all 42, ours reaches
-96.7 % and ECC 44.3 %. Oxford's photographs hold little text, so patches there are 120 x 40 px at random places with
+98.3 % and ECC 44.3 %. Oxford's photographs hold little text, so patches there are 120 x 40 px at random places with
 at least 60 FAST corners.
 
 **Truth** does not come from textplane. HOPE's camera moved by up to a pixel between photographs. There the truth is a
