@@ -24,9 +24,9 @@
 
 namespace textslam {
 
-constexpr std::array<const char*, 9> kOutputs = {"trajectory.txt", "trajectory_live.txt", "keyframes.txt",
-                                                 "text_map.json",  "text_map.ply",        "timing.json",
-                                                 "metrics.json",   "text_index.json",     "report.html"};
+constexpr std::array<const char*, 10> kOutputs = {
+    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "covariances.txt", "text_map.json",
+    "text_map.ply",   "timing.json",         "metrics.json",  "text_index.json", "report.html"};
 
 inline std::string quoted(const std::string& word) {
   std::string out = "'";
