@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 120 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 2bbcbde18604444f
+// Hash of these files: 71512e3b3bdc83c2
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 2bbcbde18604444f"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 71512e3b3bdc83c2"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -1183,7 +1183,7 @@ Matrix3<S> pixel_homography(const Matrix3<S>& H, const Pinhole<S>& host, const P
 /// overflow; *out is then untouched. The host side is not checked: see warp_point().
 template <class S>
 Status warp(const Matrix3<S>& H, const Vector3<S>& m, Vector2<S>* out) noexcept {
-  const Vector3<S> q = H * m;
+  const Vector3<S> q = product(H, m);
   if (!all_finite(q)) return Status::non_finite;
   if (!(q[2] > S(0))) return Status::behind_camera;
   const Vector2<S> warped(q[0] / q[2], q[1] / q[2]);
@@ -1208,7 +1208,7 @@ template <class S>
 Status warp_point(const Vector3<S>& theta, const SE3<S>& T_t_h, const Vector3<S>& m, Vector2<S>* out,
                   WarpJacobians<S>* J = nullptr) noexcept {
   const S rho = theta.dot(m);
-  const Vector3<S> q = T_t_h.R * m + rho * T_t_h.t;
+  const Vector3<S> q = product(T_t_h.R, m) + rho * T_t_h.t;
   if (!is_finite(rho) || !all_finite(q)) return Status::non_finite;
   if (!(rho > S(0)) || !(q[2] > S(0))) return Status::behind_camera;
   const S iz = S(1) / q[2];

@@ -68,7 +68,7 @@ class TextslamInput : public testing::Test {
         textslam_program({sequence(), "--output", folder_.path("shorter"), "--last", std::to_string(broken - 1)});
     EXPECT_EQ(shorter.code, 0) << shorter.err;
     for (const char* name :
-         {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "covariances.txt", "text_map.json", "text_map.ply"})
+         {"trajectory.txt", "trajectory_live.txt", "keyframes.txt", "covariances.csv", "text_map.json", "text_map.ply"})
       EXPECT_EQ(bytes_of(output(name)), bytes_of(folder_.path("shorter") + "/" + name)) << name;
     EXPECT_EQ(read_tum(output("trajectory.txt")).size(), static_cast<std::size_t>(broken));
     EXPECT_EQ(metrics().at("frames"), kFrames) << "coverage counts the frames asked for";

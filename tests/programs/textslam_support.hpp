@@ -25,7 +25,7 @@
 namespace textslam {
 
 constexpr std::array<const char*, 10> kOutputs = {
-    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "covariances.txt", "text_map.json",
+    "trajectory.txt", "trajectory_live.txt", "keyframes.txt", "covariances.csv", "text_map.json",
     "text_map.ply",   "timing.json",         "metrics.json",  "text_index.json", "report.html"};
 
 inline std::string quoted(const std::string& word) {

@@ -1,6 +1,7 @@
 #include "textslam/report/outputs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <vector>
@@ -22,20 +23,23 @@ std::vector<StampedPose> keyframe_trajectory(const Map& map) {
   return poses;
 }
 
-// Of all frames between key frames. Lengths are those of the trajectory.
-std::string covariance_lines(const System& system) {
-  std::string out =
-      "# timestamp, live or filled, covariance of (v, omega) upper triangle row by row: T_c_w -> exp(v, omega) T_c_w\n";
+// Of the poses between key frames: the upper triangle of the covariance of (v, omega), row by row.
+std::string covariance_table(const System& system) {
+  constexpr std::array<const char*, 6> kNames = {"vx", "vy", "vz", "wx", "wy", "wz"};
+  std::string out = "timestamp,kind";
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = i; j < 6; ++j) out += std::string(",") + kNames[i] + "_" + kNames[j];
+  out += '\n';
+  char number[32];
   for (const FrameRecord& record : system.records()) {
     const textplane::Ldlt<double, 6> ldlt(record.information);
     if (record.state != FrameState::tracked || !ldlt.ok()) continue;
     const Matrix6 covariance = ldlt.inverse();
-    char number[32];
     std::snprintf(number, sizeof number, "%.6f", record.timestamp);
-    out += std::string(number) + (record.live ? " live" : " filled");
+    out += std::string(number) + (record.live ? ",live" : ",filled");
     for (int i = 0; i < 6; ++i)
       for (int j = i; j < 6; ++j) {
-        std::snprintf(number, sizeof number, " %.6e", covariance(i, j));
+        std::snprintf(number, sizeof number, ",%.6e", covariance(i, j));
         out += number;
       }
     out += '\n';
@@ -52,7 +56,7 @@ void write_outputs(const std::string& folder, const System& system, const RunSum
       [&] { write_tum(at("trajectory.txt"), final_trajectory(system)); },
       [&] { write_tum(at("trajectory_live.txt"), live_trajectory(system)); },
       [&] { write_tum(at("keyframes.txt"), keyframe_trajectory(system.map())); },
-      [&] { write_file(at("covariances.txt"), covariance_lines(system)); },
+      [&] { write_file(at("covariances.csv"), covariance_table(system)); },
       [&] { write_file(at("text_map.json"), text_map_json(system.map())); },
       [&] { write_file(at("text_map.ply"), text_map_ply(system.map())); },
       [&] { write_file(at("text_index.json"), text_index_json(index_texts(system.map(), image))); },

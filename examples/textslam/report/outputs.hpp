@@ -3,7 +3,7 @@
 //   trajectory.txt       TUM, camera to world, final poses
 //   trajectory_live.txt  each pose as known when its frame was processed, in a world that stays (System::live_world())
 //   keyframes.txt        TUM, final poses of the key frames
-//   covariances.txt      of the poses between key frames: what is known of them
+//   covariances.csv      of the poses between key frames: what is known of them
 //   text_map.json        the mapped texts, see text_map.hpp
 //   text_map.ply         the same with points and key frames, for viewers of point clouds
 //   text_index.json      the texts by their words, for textslam-map, see text_index.hpp

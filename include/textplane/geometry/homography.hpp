@@ -53,7 +53,7 @@ Matrix3<S> pixel_homography(const Matrix3<S>& H, const Pinhole<S>& host, const P
 /// overflow; *out is then untouched. The host side is not checked: see warp_point().
 template <class S>
 Status warp(const Matrix3<S>& H, const Vector3<S>& m, Vector2<S>* out) noexcept {
-  const Vector3<S> q = H * m;
+  const Vector3<S> q = product(H, m);
   if (!all_finite(q)) return Status::non_finite;
   if (!(q[2] > S(0))) return Status::behind_camera;
   const Vector2<S> warped(q[0] / q[2], q[1] / q[2]);
@@ -78,7 +78,7 @@ template <class S>
 Status warp_point(const Vector3<S>& theta, const SE3<S>& T_t_h, const Vector3<S>& m, Vector2<S>* out,
                   WarpJacobians<S>* J = nullptr) noexcept {
   const S rho = theta.dot(m);
-  const Vector3<S> q = T_t_h.R * m + rho * T_t_h.t;
+  const Vector3<S> q = product(T_t_h.R, m) + rho * T_t_h.t;
   if (!is_finite(rho) || !all_finite(q)) return Status::non_finite;
   if (!(rho > S(0)) || !(q[2] > S(0))) return Status::behind_camera;
   const S iz = S(1) / q[2];
