@@ -41,8 +41,9 @@ void add_texts(Fields& fields, const RunSummary& s) {
   else if (s.detector != "files")
     fields.row("text objects", "0: the detector %s found no text", s.detector.c_str());
   else
-    fields.row("text objects", s.has_detections ? "0: the sequence's detections hold none"
-                                                : "0: the sequence has no detections, see --detector");
+    fields.row("text objects", "%s",
+               s.has_detections ? "0: the sequence's detections hold none"
+                                : "0: the sequence has no detections, see --detector");
 }
 
 void add_counts(Fields& fields, const RunSummary& s) {
