@@ -2,6 +2,7 @@
 #ifndef TESTS_IO_IMAGE_SUPPORT_HPP
 #define TESTS_IO_IMAGE_SUPPORT_HPP
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -119,7 +120,7 @@ inline std::string cmyk_jpeg(int width, int height, int c, int m, int y, int k, 
 // EXIF data that holds an orientation and nothing else, as it stands after the first two bytes of a JPEG.
 inline std::string exif_segment(int orientation, bool high_first) {
   std::string tiff(high_first ? "MM" : "II");
-  const auto add = [&](int value, int size) {
+  const auto add = [&](std::int64_t value, int size) {
     for (int i = 0; i < size; ++i) tiff += static_cast<char>(value >> 8 * (high_first ? size - 1 - i : i) & 0xFF);
   };
   add(42, 2);

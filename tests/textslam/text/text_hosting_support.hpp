@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -22,9 +23,12 @@ constexpr double kHalfWidth = 0.3, kHalfHeight = 0.12;
 
 // Random spots of 3 cm, linear between them.
 inline double ink(double x, double y) {
-  const auto spot = [](double i, double j) {
-    auto h = static_cast<std::uint32_t>(static_cast<std::int32_t>(i) + 1000) * 2654435761U ^
-             static_cast<std::uint32_t>(static_cast<std::int32_t>(j) + 1000) * 2246822519U;
+  // A ray along a bent wall meets it far outside.
+  const auto index = [](double i) {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::min(std::max(i, -1e9), 1e9)) + 1000);
+  };
+  const auto spot = [&](double i, double j) {
+    auto h = index(i) * 2654435761U ^ index(j) * 2246822519U;
     h = (h ^ (h >> 15)) * 739982445U;
     h = (h ^ (h >> 12)) * 695872825U;
     return (h ^ (h >> 15)) % 2 == 0 ? 30.0 : 220.0;
