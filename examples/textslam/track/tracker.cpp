@@ -7,6 +7,7 @@
 
 #include "io/clock.hpp"
 #include "textplane/solver/pose.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/track/feature_tracks.hpp"
