@@ -207,10 +207,10 @@ TrajectoryEvaluation evaluate_trajectory(const std::vector<StampedPose>& estimat
   for (std::size_t i = 1; i < truth.size(); ++i) {
     walked[i] = walked[i - 1] + (truth[i].T_w_c.t - truth[i - 1].T_w_c.t).norm();
   }
-  if (!walked.empty()) result.path_length = walked.back();
 
   const std::vector<PosePair> pairs = associate(estimate, truth, options.tolerance);
   result.pairs = pairs.size();
+  if (!pairs.empty()) result.path_length = walked[pairs.back().truth] - walked[pairs.front().truth];
   std::vector<Vector> from, to;
   for (const PosePair& pair : pairs) {
     from.push_back(estimate[pair.estimate].T_w_c.t);

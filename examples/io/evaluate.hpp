@@ -85,7 +85,7 @@ struct TrajectoryEvaluation {
   RelativeError rpe_frame;
   double frame_interval = 0;   ///< s, the median interval of neighbouring pairs: 1/fps where every frame has truth
   RelativeError rpe_distance;  ///< from each pair to the first one at least options.distance of true path later
-  double path_length = 0;      ///< m, of the whole ground truth
+  double path_length = 0;      ///< m of true path from the first associated pose to the last
   double coverage = 0;         ///< poses of the estimate over all frames of the sequence
 };
 

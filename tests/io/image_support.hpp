@@ -55,8 +55,9 @@ inline std::string packed_png(std::vector<std::vector<unsigned char>> rows, int 
   return bytes;
 }
 
-// A JPEG of one colour.
-inline std::string colour_jpeg(int width, int height, int r, int g, int b, bool progressive) {
+// A JPEG of one colour: a byte of each of its channels. `set` changes what libjpeg's defaults are.
+template <typename Set>
+std::string jpeg_of(int width, int height, J_COLOR_SPACE space, const std::vector<int>& colour, const Set& set) {
   jpeg_compress_struct codec{};
   jpeg_error_mgr errors;
   codec.err = jpeg_std_error(&errors);
@@ -66,15 +67,15 @@ inline std::string colour_jpeg(int width, int height, int r, int g, int b, bool 
   jpeg_mem_dest(&codec, &buffer, &size);
   codec.image_width = static_cast<JDIMENSION>(width);
   codec.image_height = static_cast<JDIMENSION>(height);
-  codec.input_components = 3;
-  codec.in_color_space = JCS_RGB;
+  codec.input_components = static_cast<int>(colour.size());
+  codec.in_color_space = space;
   jpeg_set_defaults(&codec);
   jpeg_set_quality(&codec, 95, TRUE);
-  if (progressive) jpeg_simple_progression(&codec);
+  set(codec);
   jpeg_start_compress(&codec, TRUE);
   std::vector<unsigned char> row;
   for (int x = 0; x < width; ++x)
-    for (const int v : {r, g, b}) row.push_back(static_cast<unsigned char>(v));
+    for (const int v : colour) row.push_back(static_cast<unsigned char>(v));
   for (int y = 0; y < height; ++y) {
     JSAMPROW pointer = row.data();
     jpeg_write_scanlines(&codec, &pointer, 1);
@@ -86,35 +87,17 @@ inline std::string colour_jpeg(int width, int height, int r, int g, int b, bool 
   return bytes;
 }
 
-// A JPEG of four inks, 0 to 255 each. With Adobe's marker, what they leave of the light is stored.
+inline std::string colour_jpeg(int width, int height, int r, int g, int b, bool progressive) {
+  return jpeg_of(width, height, JCS_RGB, {r, g, b}, [&](jpeg_compress_struct& codec) {
+    if (progressive) jpeg_simple_progression(&codec);
+  });
+}
+
+// Four inks, 0 to 255 each. With Adobe's marker, what they leave of the light is stored.
 inline std::string cmyk_jpeg(int width, int height, int c, int m, int y, int k, bool adobe) {
-  jpeg_compress_struct codec{};
-  jpeg_error_mgr errors;
-  codec.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&codec);
-  unsigned char* buffer = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&codec, &buffer, &size);
-  codec.image_width = static_cast<JDIMENSION>(width);
-  codec.image_height = static_cast<JDIMENSION>(height);
-  codec.input_components = 4;
-  codec.in_color_space = JCS_CMYK;
-  jpeg_set_defaults(&codec);
-  jpeg_set_quality(&codec, 95, TRUE);
-  codec.write_Adobe_marker = adobe ? TRUE : FALSE;
-  jpeg_start_compress(&codec, TRUE);
-  std::vector<unsigned char> row;
-  for (int x = 0; x < width; ++x)
-    for (const int ink : {c, m, y, k}) row.push_back(static_cast<unsigned char>(adobe ? 255 - ink : ink));
-  for (int line = 0; line < height; ++line) {
-    JSAMPROW pointer = row.data();
-    jpeg_write_scanlines(&codec, &pointer, 1);
-  }
-  jpeg_finish_compress(&codec);
-  jpeg_destroy_compress(&codec);
-  std::string bytes(reinterpret_cast<const char*>(buffer), size);
-  std::free(buffer);
-  return bytes;
+  const std::vector<int> inks = {c, m, y, k}, light = {255 - c, 255 - m, 255 - y, 255 - k};
+  return jpeg_of(width, height, JCS_CMYK, adobe ? light : inks,
+                 [&](jpeg_compress_struct& codec) { codec.write_Adobe_marker = adobe ? TRUE : FALSE; });
 }
 
 // EXIF data that holds an orientation and nothing else, as it stands after the first two bytes of a JPEG.

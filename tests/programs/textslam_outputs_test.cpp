@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "io/evaluate.hpp"
 #include "io/text_file.hpp"
@@ -47,6 +48,23 @@ TEST_F(TextslamRun, TrajectoriesAndMetricsAgree) {
   EXPECT_NEAR(metrics.at("trajectory").at("scale").get<double>(), errors.alignment.scale,
               1e-6 * errors.alignment.scale);
   EXPECT_NEAR(metrics.at("coverage").get<double>(), errors.coverage, 1e-12);
+}
+
+// Poses between the key frames have a covariance, the key frames' own have none.
+TEST_F(TextslamRun, CovariancesAreThoseOfThePosesBetween) {
+  const auto keyframes = read_tum(output("keyframes.txt")), poses = read_tum(output("trajectory.txt"));
+  std::istringstream table(read_file(output("covariances.csv")));
+  std::string line;
+  ASSERT_TRUE(std::getline(table, line));
+  EXPECT_EQ(std::count(line.begin(), line.end(), ','), 1 + 21);
+  std::size_t rows = 0;
+  for (; std::getline(table, line); ++rows) {
+    const double time = std::stod(line);
+    const auto same = [&](const StampedPose& pose) { return std::abs(pose.timestamp - time) < 1e-5; };
+    EXPECT_TRUE(std::any_of(poses.begin(), poses.end(), same)) << line;
+    EXPECT_TRUE(std::none_of(keyframes.begin(), keyframes.end(), same)) << line;
+  }
+  EXPECT_EQ(rows, poses.size() - keyframes.size());
 }
 
 // The map begins when two views have parallax; the frames before that get their poses afterwards.

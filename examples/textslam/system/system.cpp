@@ -174,6 +174,7 @@ bool System::keyframe_needed(const Frame& frame) const {
 void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   std::vector<Track>& tracks = tracker_->tracks();
   last_keyframe_ = insert_keyframe(map_, frame, tracker_->pose().inverse(), tracks);
+  record.information.setZero();  // from here on the pose is the key frame's
   triangulate_tracks(map_, parameters_, parameters_.min_parallax, tracks);
 
   const double start = now_ms();

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kDamping = 1.0001;    // of the diagonal: keeps the system regular
 constexpr double kSettledTurn = 1e-5;  // radians
+// With t = 0 any plane in front of the camera is the plane at infinity.
+const Vec3 kFarPlane = Vec3(0, 0, 1e-9);
 
 // Two frames, compared on their coarsest common level as if all were infinitely far away.
 class FrameAlignment {
@@ -77,8 +79,6 @@ class FrameAlignment {
  private:
   textplane::PhotometricInput input() const { return {patch_.view(), camera_, camera_, to_}; }
 
-  // With t = 0 any plane in front of the camera is the plane at infinity.
-  const Vec3 kFarPlane = Vec3(0, 0, 1e-9);
   const Parameters& parameters_;
   int level_;
   Pinhole<double> camera_;

@@ -5,10 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "io/image_file.hpp"
-#include "io/io_support.hpp"
-#include "renderer/render_sequence.hpp"
-#include "textslam/system/system.hpp"
+#include "textslam/system/short_room_support.hpp"
 
 namespace textslam {
 namespace frame_rate_test {
@@ -17,45 +14,28 @@ class FrameRate : public testing::TestWithParam<double> {
  protected:
   static constexpr int kFrames = 60;
 
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    RenderOptions options;
-    options.output = folder_->path("room");
-    options.frames = kFrames;
-    options.width = 320;
-    options.height = 240;
-    render_sequence(options);
-    sequence_ = new Sequence(read_sequence(options.output));
-  }
-  static void TearDownTestSuite() {
-    delete sequence_;
-    delete folder_;
-  }
+  static void SetUpTestSuite() { room_ = new ShortRoom(kFrames); }
+  static void TearDownTestSuite() { delete room_; }
 
-  Frame frame(int index, const Image<std::uint8_t>& image) const {
-    Frame out;
-    out.index = index;
-    out.timestamp = 1e9 + index / GetParam();
-    out.image = std::make_shared<const Pyramid>(image.view(), Parameters().pyramid_levels);
-    return out;
+  Frame at_rate(int index, Frame frame) const {
+    frame.index = index;
+    frame.timestamp = 1e9 + index / GetParam();
+    return frame;
   }
-  Frame load(int index) const { return frame(index, load_frame(*sequence_, static_cast<std::size_t>(index))); }
-  std::unique_ptr<System> system(const Parameters& parameters = {}) const {
-    return std::make_unique<System>(sequence_->camera.pinhole(), sequence_->camera.width, sequence_->camera.height,
-                                    parameters);
-  }
+  Frame load(int index) const { return at_rate(index, room_->load(index)); }
 
   // Tracks until the map has this many key frames, then in the dark. The number of lost frames after which the map was
   // left.
   int lost_frames(std::size_t keyframes) const {
-    const std::unique_ptr<System> out = system();
+    const std::unique_ptr<System> out = room_->system();
     int index = 0;
     while (index < kFrames && out->map().keyframes.size() < keyframes) out->process(load(index++));
     EXPECT_GE(out->map().keyframes.size(), keyframes);
-    const Image<std::uint8_t> dark(320, 240, 0);
+    const Frame dark = ShortRoom::dark({});
     int lost = 0;
     while (lost < 100 && !out->map().keyframes.empty()) {
-      out->process(frame(index++, dark));
+      out->process(at_rate(index, dark));
+      ++index;
       ++lost;
     }
     return lost;
@@ -63,7 +43,7 @@ class FrameRate : public testing::TestWithParam<double> {
 
   // Frames between the two key frames that follow each other soonest, those that begin the map aside.
   int closest_keyframes(const Parameters& parameters) {
-    const std::unique_ptr<System> out = system(parameters);
+    const std::unique_ptr<System> out = room_->system(parameters);
     for (int index = 0; index < kFrames; ++index) out->process(load(index));
     const auto& keyframes = out->map().keyframes;
     EXPECT_GE(keyframes.size(), 10u);
@@ -73,11 +53,9 @@ class FrameRate : public testing::TestWithParam<double> {
     return closest;
   }
 
-  static TemporaryFolder* folder_;
-  static Sequence* sequence_;
+  static ShortRoom* room_;
 };
-TemporaryFolder* FrameRate::folder_ = nullptr;
-Sequence* FrameRate::sequence_ = nullptr;
+ShortRoom* FrameRate::room_ = nullptr;
 
 // The first number of frames whose first and last are so far apart.
 int frames_of(double seconds, double rate) { return 1 + static_cast<int>(std::ceil(seconds * rate)); }

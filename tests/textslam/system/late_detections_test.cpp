@@ -4,12 +4,9 @@
 #include <deque>
 #include <memory>
 
-#include "io/image_file.hpp"
-#include "io/io_support.hpp"
-#include "renderer/render_sequence.hpp"
 #include "textslam/report/evaluate_text.hpp"
 #include "textslam/report/outputs.hpp"
-#include "textslam/system/system.hpp"
+#include "textslam/system/short_room_support.hpp"
 
 namespace textslam {
 namespace late_detections_test {
@@ -18,62 +15,37 @@ class LateDetections : public testing::Test {
  protected:
   static constexpr int kFrames = 90;
 
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    RenderOptions options;
-    options.output = folder_->path("room");
-    options.frames = kFrames;
-    options.width = 320;
-    options.height = 240;
-    render_sequence(options);
-    sequence_ = new Sequence(read_sequence(options.output));
-  }
-  static void TearDownTestSuite() {
-    delete sequence_;
-    delete folder_;
-  }
+  static void SetUpTestSuite() { room_ = new ShortRoom(kFrames); }
+  static void TearDownTestSuite() { delete room_; }
 
-  static Frame load(int index) {
-    const auto at = static_cast<std::size_t>(index);
-    Frame frame;
-    frame.index = index;
-    frame.timestamp = sequence_->frames[at].timestamp;
-    frame.image = std::make_shared<const Pyramid>(load_frame(*sequence_, at).view(), Parameters().pyramid_levels);
-    return frame;
-  }
   static std::vector<Detection> detect(int index) {
-    return read_detections(*sequence_, sequence_->frames[static_cast<std::size_t>(index)]);
-  }
-  static std::unique_ptr<System> system(const Parameters& parameters) {
-    return std::make_unique<System>(sequence_->camera.pinhole(), sequence_->camera.width, sequence_->camera.height,
-                                    parameters);
+    return read_detections(room_->sequence(), room_->sequence().frames[static_cast<std::size_t>(index)]);
   }
 
   // Every detection comes `late` frames late: those of frame i after frame i + late was tracked.
   static std::unique_ptr<System> run(int late, const Parameters& parameters = {}) {
-    auto out = system(parameters);
+    auto out = room_->system(parameters);
     for (int i = 0; i < kFrames; ++i) {
-      out->process(load(i));
+      out->process(room_->load(i));
       if (i >= late) out->add_detections(i - late, detect(i - late), 7);
     }
     out->finish();
     return out;
   }
 
-  static TemporaryFolder* folder_;
-  static Sequence* sequence_;
+  static ShortRoom* room_;
 };
-TemporaryFolder* LateDetections::folder_ = nullptr;
-Sequence* LateDetections::sequence_ = nullptr;
+ShortRoom* LateDetections::room_ = nullptr;
 
 TEST_F(LateDetections, SignsAreMappedWhereTheyAreHoweverLate) {
   for (const int late : {0, 5, 20}) {
     SCOPED_TRACE(std::to_string(late) + " frames late");
     const std::unique_ptr<System> out = run(late);
-    const RunSummary summary = summarise(*out, *sequence_, kFrames);
+    const RunSummary summary = summarise(*out, room_->sequence(), kFrames);
     EXPECT_GE(summary.tracked_live, static_cast<std::size_t>(kFrames - 40));
     ASSERT_TRUE(textplane::is_ok(summary.trajectory.status));
-    const TextEvaluation text = evaluate_text(out->map(), read_true_signs(*sequence_), summary.trajectory.alignment);
+    const TextEvaluation text =
+        evaluate_text(out->map(), read_true_signs(room_->sequence()), summary.trajectory.alignment);
     EXPECT_GE(text.mapped, 1);
     EXPECT_EQ(text.false_texts, 0);
     EXPECT_LT(text.angle.median, 5);
@@ -105,16 +77,11 @@ TEST_F(LateDetections, ModePointsDoesNotLookAtThem) {
 TEST_F(LateDetections, FramesOfAnotherMapAndLostOnesArePast) {
   Parameters parameters;
   parameters.lost_patience = parameters.young_map_patience = 0.05;
-  auto out = system(parameters);
+  auto out = room_->system(parameters);
   int index = 0;
-  for (; index < 50; ++index) out->process(load(index));
+  for (; index < 50; ++index) out->process(room_->load(index));
   ASSERT_EQ(out->records().back().state, FrameState::tracked);
-  const Image<std::uint8_t> dark(320, 240, 0);
-  for (; index < 55; ++index) {
-    Frame frame = load(index);
-    frame.image = std::make_shared<const Pyramid>(dark.view(), parameters.pyramid_levels);
-    out->process(frame);
-  }
+  for (; index < 55; ++index) out->process(ShortRoom::dark(room_->load(index)));
   ASSERT_TRUE(out->map().keyframes.empty()) << "stored";
   for (int late = 0; late < 55; ++late) out->add_detections(late, detect(late), 1);
   EXPECT_TRUE(out->map().texts.empty());

@@ -5,10 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "io/image_file.hpp"
-#include "io/io_support.hpp"
-#include "renderer/render_sequence.hpp"
-#include "textslam/system/system.hpp"
+#include "textslam/system/short_room_support.hpp"
 
 namespace textslam {
 namespace live_world_test {
@@ -35,25 +32,16 @@ double squares(const Similarity& S, const Poses& poses) {
 }
 
 TEST(LiveWorld, FitsThePosesGivenBefore) {
-  TemporaryFolder folder;
-  RenderOptions options;
-  options.output = folder.path("room");
-  options.frames = 80;
-  options.width = 320;
-  options.height = 240;
-  render_sequence(options);
-  const Sequence sequence = read_sequence(options.output);
-  System system(sequence.camera.pinhole(), sequence.camera.width, sequence.camera.height, Parameters());
+  const ShortRoom room(80);
+  const Sequence& sequence = room.sequence();
+  const std::unique_ptr<System> made = room.system();
+  System& system = *made;
 
   int keyframes = 0, better = 0;
   double most = 0;
-  for (int i = 0; i < options.frames; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    Frame frame;
-    frame.index = i;
-    frame.timestamp = sequence.frames[at].timestamp;
-    frame.image = std::make_shared<const Pyramid>(load_frame(sequence, at).view(), Parameters().pyramid_levels);
-    frame.detections = read_detections(sequence, sequence.frames[at]);
+  for (int i = 0; i < static_cast<int>(sequence.frames.size()); ++i) {
+    Frame frame = room.load(i);
+    frame.detections = read_detections(sequence, sequence.frames[static_cast<std::size_t>(i)]);
     const FrameRecord& record = system.process(frame);
     if (!record.live) continue;
     // The pose given is today's, in the live world.
