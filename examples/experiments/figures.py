@@ -20,6 +20,10 @@ def mean(values):
     return sum(values) / len(values) if values else None
 
 
+def median(values):
+    return quantile(values, 0.5)
+
+
 def has_truth(result):
     return bool(result["metrics"]) and "trajectory" in result["metrics"]
 

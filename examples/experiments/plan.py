@@ -28,9 +28,9 @@ SWEEP_SEED = 1
 
 
 class Case:
-    """name: the folder in the output. group: `kinds`, `every`, `sequence` or the sweep's name. value: of the sweep, or
-    the frames of which one is used. rendering: its arguments; empty for a real sequence. arguments: of every run. first:
-    frame of a real sequence."""
+    """name: the folder in the output. group: `kinds`, `every`, `sequence`, `excerpt` (of a real sequence) or the sweep's
+    name. value: of the sweep, or the frames of which one is used. rendering: its arguments; empty for a real sequence.
+    arguments: of every run. first: frame of a real sequence."""
 
     def __init__(self, name, group, kind, rendering=(), arguments=(), seed=None, value=None, sequence=None, first=None):
         self.name, self.group, self.kind = name, group, kind
@@ -58,7 +58,8 @@ class RealSequence:
             arguments = ["--first", str(first)] if first else []
             arguments += ["--last", str(last)] if last is not None else []
             name = f"sequence-{kind}-{first}" + (f"-{last}" if last is not None else "")
-            out.append(Case(name, "sequence", kind, (), arguments + detector, sequence=self.folder, first=first))
+            group = "sequence" if last is None else "excerpt"
+            out.append(Case(name, group, kind, (), arguments + detector, sequence=self.folder, first=first))
         return out
 
 

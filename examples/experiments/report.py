@@ -56,7 +56,7 @@ class Report:
         return mapped, visible or None, strays
 
     def text(self):
-        real = [(kind, cases) for kind, cases in by_kind(self.cases) if cases[0].group == "sequence"]
+        real = [case for case in self.cases if case.group in ("sequence", "excerpt")]
         parts = [self.head(), self.accuracy(), real_sequences(real, self.runs), slow_sequences(self.cases, self.runs),
                  self.live(), self.planes(), self.angle_histogram(), self.time()]
         parts += [self.sweep(name) for name in SWEEPS if self.sweep_cases(name)]

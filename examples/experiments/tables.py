@@ -1,5 +1,8 @@
 """Tables of the report beside those of the rendered kinds: real sequences, and lower frame rates."""
-from figures import aligned, failure, mean, millimetres, trajectory_value, written
+import json
+from pathlib import Path
+
+from figures import aligned, failure, mean, median, millimetres, trajectory_value, written
 from plan import MODES
 
 
@@ -15,41 +18,51 @@ def shares(metrics):
     return metrics["coverage"], metrics.get("tracked_live", 0) / max(1, metrics["frames"])
 
 
-def error_cells(runs, name):
-    """ATE in mm and in % of the true path, means of the runs that have it."""
-    found = [aligned(run, name) for run in runs]
-    errors = [errors["ate_rmse"] for errors in found if errors]
-    paths = [aligned(run, "trajectory") for run, errors in zip(runs, found) if errors]
-    percent = [100 * e / path["path_length"] for e, path in zip(errors, paths) if path and path["path_length"] > 0]
-    return [millimetres(mean(errors)), written(mean(percent), 3)]
+def errors_of(runs, name):
+    """ATE in m and in % of the true path, of the runs that have it."""
+    found = [(aligned(run, name), aligned(run, "trajectory")) for run in runs]
+    found = [(errors["ate_rmse"], whole["path_length"]) for errors, whole in found if errors and whole]
+    return [error for error, _ in found], [100 * error / path for error, path in found if path > 0]
 
 
-def real_row(kind, mode, runs):
+def real_row(name, mode, runs, middle, peer):
+    """middle: of several runs, the mean or the median."""
     measured = [run for run in runs if run["metrics"]]
     if not measured:
-        return [[f"`{kind}`", mode, f"0 of {len(runs)}", *["-"] * 9]]
+        return [name, mode, f"0 of {len(runs)}", *["-"] * 9, peer]
     covered, live = zip(*[shares(run["metrics"]) for run in measured])
     maps = [run["metrics"].get("maps", 0) for run in measured]
-    return [[
-        f"`{kind}`", mode, f"{len(measured)} of {len(runs)}", f"{100 * mean(covered):.1f} %", f"{100 * mean(live):.1f} %",
-        written(mean(maps), 1), *error_cells(measured, "trajectory"), *error_cells(measured, "trajectory_live"),
-        *error_cells(measured, "filled_in"),
-    ]]
+    began = [run["metrics"].get("map_began_at_frame", -1) for run in measured]
+    errors, percent = errors_of(measured, "trajectory")
+    return [
+        name, mode, f"{len(measured)} of {len(runs)}", f"{100 * mean(covered):.1f} %", f"{100 * mean(live):.1f} %",
+        written(mean(maps), 1), str(max(began) if min(began) >= 0 else "never"), millimetres(middle(errors), 1),
+        written(middle(percent), 2), written(max(percent, default=None), 2),
+        millimetres(middle(errors_of(measured, "trajectory_live")[0]), 1),
+        millimetres(middle(errors_of(measured, "filled_in")[0]), 1), peer,
+    ]
 
 
-def real_sequences(groups, runs):
-    """groups: [(name, cases)]; runs(cases, mode): their results."""
-    rows = [row for kind, cases in groups for mode in MODES if runs(cases, mode)
-            for row in real_row(kind, mode, runs(cases, mode))]
+def real_sequences(cases, runs):
+    """cases: of real sequences and their excerpts; runs(cases, mode): their results."""
+    peers = json.loads((Path(__file__).parent / "peers.json").read_text(encoding="utf-8"))
+    rows = []
+    for kind, group in dict.fromkeys((case.kind, case.group) for case in cases):
+        some = [case for case in cases if (case.kind, case.group) == (kind, group)]
+        excerpts = group == "excerpt"
+        rows += [real_row(f"`{kind}`" + (", excerpts" if excerpts else ""), mode, runs(some, mode),
+                          median if excerpts else mean, "" if excerpts or mode != "text" else peers.get(kind, ""))
+                 for mode in MODES if runs(some, mode)]
     if not rows:
         return ""
-    head = ["sequence", "mode", "runs", "frames with a pose", "with a live one", "maps", "ATE, mm", "% of path", "live, mm",
-            "%", "filled in, mm", "%"]
+    head = ["sequence", "mode", "runs", "frames with a pose", "with a live one", "maps", "map begun by frame", "ATE, mm",
+            "% of path", "worst", "live, mm", "filled in, mm", "ORB-SLAM3, whole sequence"]
     return """## Real sequences
 
-Means over the starting frames. `live`: the poses as known when their frames were processed. `filled in`: the final
-poses of the other frames, compared by the alignment of all. Errors are those of the frames that have a pose, also where
-few have one: the first columns say how many.
+Means over the starting frames; of excerpts, medians. `live`: the poses as known when their frames were processed.
+`filled in`: the final poses of the other frames, compared by the alignment of all. Errors are those of the frames that
+have a pose, also where few have one. A sequence without detections runs with the built-in detector. ORB-SLAM3's figures
+were measured once, on whole sequences of which only parts are open to the developers, and are no output of this command.
 
 """ + table(head, rows, 2)
 

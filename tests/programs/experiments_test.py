@@ -38,6 +38,7 @@ ate *= int(value("--every") or 1)
 errors["ate_rmse"] = ate
 metrics = {"frames": 10, "tracked": 10, "coverage": 0.3 if frames["blur"] > 9 else 1.0, "trajectory": errors,
            "trajectory_live": {**errors, "ate_rmse": 2 * ate}, "tracked_live": 6, "maps": 1 + int(value("--first") or 0),
+           "map_began_at_frame": 5 + int(value("--first") or 0),
            "filled_in": {"poses": 4, "ate_rmse": 3 * ate}}
 if mode == "text" and frames["blur"] > 29:
     errors["status"] = "too_few"
@@ -150,16 +151,18 @@ class Experiments(unittest.TestCase):
             (self.folder / name).mkdir(parents=True)
             (self.folder / name / "frames").write_text(json.dumps({"seed": 1, "blur": blur}))
         (self.folder / "c/detections").mkdir()
-        report = self.run_part("--kinds", "--sweeps", "--sequence", f"{self.folder}/a/real@0,3-8", "--sequence",
+        report = self.run_part("--kinds", "--sweeps", "--sequence", f"{self.folder}/a/real@0,3-8,6-9", "--sequence",
                                f"{self.folder}/b/real@1", "--sequence", f"{self.folder}/c@0", "--jobs", "2")
-        self.assertEqual(len(self.called), 3 * 4)
+        self.assertEqual(len(self.called), 3 * 5)
         self.assertEqual(sum("a/real --first 3 --last 8 --detector classical --mode" in call for call in self.called), 3)
         self.assertEqual(sum(f"{self.folder}/c --mode" in call for call in self.called), 3, "it has detections")
         # ATE 1 mm (points 2) final, twice that live, three times filled in, of a path of 5 m; a map more with each first frame
-        self.assertIn("| `a-real` | text | 2 of 2 | 100.0 % | 60.0 % | 2.5 | 1.00 | 0.020 | 2.00 | 0.040 | 3.00 | 0.060 |", report)
-        self.assertIn("| `a-real` | points | 2 of 2 | 100.0 % | 60.0 % | 2.5 | 2.00 | 0.040 | 4.00 | 0.080 | 6.00 | 0.120 |", report)
+        self.assertIn("| `a-real` | text | 1 of 1 | 100.0 % | 60.0 % | 1.0 | 5 | 1.0 | 0.02 | 0.02 | 2.0 | 3.0 |  |", report)
+        self.assertIn("| `a-real`, excerpts | text | 2 of 2 | 100.0 % | 60.0 % | 5.5 | 11 | 1.0 | 0.02 | 0.02 | 2.0 | 3.0 |  |", report)
+        self.assertIn("| `a-real`, excerpts | points | 2 of 2 | 100.0 % | 60.0 % | 5.5 | 11 | 2.0 | 0.04 | 0.04 | 4.0 | 6.0 |  |", report)
+        self.assertEqual(report.count("| `a-real`, excerpts | text |"), 1, "excerpts are in one table alone")
         # Too few frames to count above, and here with what they are worth.
-        self.assertIn("| `b-real` | text | 1 of 1 | 30.0 % | 60.0 % | 2.0 | 1.00 | 0.020 | 2.00 | 0.040 | 3.00 | 0.060 |", report)
+        self.assertIn("| `b-real` | text | 1 of 1 | 30.0 % | 60.0 % | 2.0 | 6 | 1.0 | 0.02 | 0.02 | 2.0 | 3.0 |  |", report)
         self.assertIn("- `sequence-b-real-1`, text: 30 % of the frames have a pose", report)
 
     def test_fewer_frames_a_second_share_the_rendering(self):
