@@ -12,6 +12,7 @@
 #include "textslam/text/text_reading.hpp"
 #include "textslam/text/text_refiner.hpp"
 #include "textslam/track/feature_tracks.hpp"
+#include "textslam/track/observe_points.hpp"
 #include "textslam/track/point_mapper.hpp"
 
 namespace textslam {
@@ -274,6 +275,8 @@ void System::finish() {
   if (map_.keyframes.size() < 2) return;
   if (parameters_.mode == Mode::text && parameters_.loop_closure) merge_duplicate_texts(map_, parameters_);
   adjust_all(map_, parameters_, parameters_.final_iterations);
+  // Poses are good to a pixel or two now: points are found where the tracker had lost them.
+  if (observe_points_again(map_, parameters_) > 0) adjust_all(map_, parameters_, parameters_.final_iterations);
   if (parameters_.mode == Mode::loose) refresh_loose_planes(map_, parameters_);
   if (parameters_.mode == Mode::text) {
     // Observations were judged with early, rough planes. The adjusted planes are seen in more key frames, and a wider
