@@ -24,7 +24,7 @@ endif()
 textplane_add_tests(io LIBRARIES textplane_plugins TIERS first_look sanitizers)
 textplane_add_tests(renderer LIBRARIES textplane_renderer TIERS first_look sanitizers EXCEPT
   sanitizers "RendererGeometry\\.EveryPixelShowsTheNearestSurfaceOnItsRay|RendererTruth\\.SignsPosesAndCamera"
-  sanitizers "Kinds/EveryKind\\.RendersFramesThatATrackerCanUse/(lights|notext|rapid|room_still|sparse)")
+  sanitizers "Kinds/EveryKind\\.RendersFramesThatATrackerCanUse/(lights|night|notext|rapid|room_still|sparse)")
 textplane_add_tests(planar LIBRARIES textplane_textslam TIERS first_look sanitizers)
 textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS first_look sanitizers EXCEPT
   sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms")

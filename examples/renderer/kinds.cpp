@@ -39,6 +39,10 @@ const Kind kKinds[] = {
      [](const Context& c) {
        return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, changing_lights(c.seed, c.width, c.height)};
      }},
+    {"night",
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, night(c.seed)};
+     }},
     {"sparse",
      [](const Context& c) {
        RoomStyle style;

@@ -47,6 +47,21 @@ SensorProgram changing_lights(std::uint64_t seed, int width, int height) {
   };
 }
 
+SensorProgram night(std::uint64_t seed) {
+  constexpr double kDim = 0.25, kPeriod = 3.0, kStep = 0.1;  // s, but for the gain
+  const double up = 0.5 + 0.4 * unit(hash(seed, 41)), down = up + 1.1 + 0.6 * unit(hash(seed, 42));
+  return [=](double t) {
+    SensorState state;
+    const double s = std::fmod(t, kPeriod);
+    const double raised = smooth_step(s, up, kStep) - smooth_step(s, down, kStep);  // 0 or 1 between the steps
+    state.gain = kDim * std::exp2(raised);
+    state.vignette = 0.5;
+    state.noise = 20.0;
+    state.shot = 0.0;
+    return state;
+  };
+}
+
 Image<std::uint8_t> develop(const Image<double>& light, const SensorState& state, std::uint64_t noise_seed) {
   const int width = light.width(), height = light.height();
   const double cx = 0.5 * (width - 1), cy = 0.5 * (height - 1);

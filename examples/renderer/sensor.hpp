@@ -35,6 +35,9 @@ SensorProgram steady_sensor();
 /// Light that swings, dims and recovers within a tenth of a second, and flickers as lamps on 50 Hz mains do, with a
 /// strong vignette and a glare that wanders over a picture of this size.
 SensorProgram changing_lights(std::uint64_t seed, int width, int height);
+/// A dark room: noise of 20 grey levels, a vignette that leaves the corners half their light, and auto exposure that
+/// doubles or halves the gain within three frames of 1/30 s, every one to two seconds.
+SensorProgram night(std::uint64_t seed);
 
 /// The 8-bit picture. The noise of a pixel depends only on the seed and its position.
 Image<std::uint8_t> develop(const Image<double>& light, const SensorState& state, std::uint64_t noise_seed);

@@ -236,8 +236,8 @@ TEST(RendererSequence, RefusesWhatItCannotRender) {
   tiny.width = 10;
   EXPECT_THROW(render_sequence(tiny), InputError);
   const std::vector<std::string> kinds = render_kinds();
-  for (const char* kind : {"room", "room-still", "corridor", "rapid", "lights", "sparse", "notext", "loop", "standoff",
-                           "cylinders", "glass"}) {
+  for (const char* kind : {"room", "room-still", "corridor", "rapid", "lights", "night", "sparse", "notext", "loop",
+                           "standoff", "cylinders", "glass"}) {
     EXPECT_EQ(std::count(kinds.begin(), kinds.end(), kind), 1) << kind;
   }
 }
