@@ -24,6 +24,7 @@
 #include "textplane/photometry/blur.hpp"
 #include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/local_contrast.hpp"
+#include "textplane/photometry/noise.hpp"
 #include "textplane/photometry/patch.hpp"
 #include "textplane/photometry/photometric_input.hpp"
 #include "textplane/photometry/photometric_workspace.hpp"

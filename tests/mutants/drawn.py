@@ -30,6 +30,7 @@ TESTS = [
     ("features/select", "features/select_test features/options_test"),
     ("features/", "features/align_test features/klt_test features/guard_pages_test features/options_test"),
     ("photometry/blur", "photometry/blur_test"), ("photometry/local_contrast", "photometry/local_contrast_test"),
+    ("photometry/noise", "photometry/noise_test"),
     ("photometry/text_batch", "simd/batch_kernels_test simd/batch_visibility_test"),
     ("photometry/candidates", "simd/zncc_kernels_test solver/policy_test"), ("photometry/zncc", "photometry/zncc_test"),
     ("photometry/sample", "photometry/sample_test photometry/guard_pages_test"), ("photometry/pyramid", "photometry/pyramid_test"),
