@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 121 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 1b1950837b965022
+// Hash of these files: 3e3fbeac0dc51426
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 1b1950837b965022"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 3e3fbeac0dc51426"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -23569,7 +23569,8 @@ inline HighPass high_pass(const ImageView8& image, int x0, int y0, int side) noe
 /// In each block sigma = sqrt(pi / 2) mean |h| / 6 with the high-pass h = [1 -2 1] x [1 -2 1], whose variance is 36
 /// times the noise's (Immerkaer, "Fast noise variance estimation", CVIU 1996); a low quantile over the blocks leaves
 /// texture out. White noise is estimated up to 5 % too low by it. Blocks that are cut off at black or white do not
-/// count; too_few, with sigma 0, where that leaves none. invalid_argument for an invalid view or options. No allocation.
+/// count; too_few, with sigma 0, where that leaves none. invalid_argument for an invalid view or options. No
+/// allocation.
 template <class S = double>  // instantiated where it is called: including the header costs little
 NoiseEstimate estimate_noise(const ImageView8& image, const NoiseOptions& options = {}) noexcept {
   NoiseEstimate out;

@@ -12,9 +12,11 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "io/output_file.hpp"
+#include "textplane/photometry/noise.hpp"
 #include "textslam/common/bounded_sampler.hpp"
 #include "textslam/detect/detection_thread.hpp"
 #include "textslam/detect/text_detector.hpp"
+#include "textslam/input/noise_filter.hpp"
 #include "textslam/input/undistorter.hpp"
 #include "textslam/report/frame_line.hpp"
 #include "textslam/report/outputs.hpp"
@@ -55,7 +57,16 @@ class FrameSource {
     frame.colour = raw.colour;
     return undistort_(detector_->detect(frame, raw.grey.view()));
   }
-  Frame frame(int index, const Image<std::uint8_t>& raw) const { return {index, timestamp(index), pyramid(raw), {}}; }
+  Frame frame(int index, const Image<std::uint8_t>& raw) const {
+    Frame frame;
+    frame.index = index;
+    frame.timestamp = timestamp(index);
+    Image<std::uint8_t> image = undistort_(raw);
+    // Of the raw image: what was interpolated shows less.
+    smooth_noise(textplane::estimate_noise(raw.view()).sigma, parameters_, &image, &frame);
+    frame.image = std::make_shared<const Pyramid>(image.view(), parameters_.pyramid_levels);
+    return frame;
+  }
   Frame frame(int index) const { return frame(index, load_frame(sequence_, at(index))); }
   void read_texts(System& system) const {
     if (reader_) system.read_texts(*reader_);
@@ -65,10 +76,6 @@ class FrameSource {
   std::size_t at(int index) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return taken_[static_cast<std::size_t>(index)];
-  }
-  std::shared_ptr<const Pyramid> pyramid(const Image<std::uint8_t>& raw) const {
-    const Image<std::uint8_t> image = undistort_(raw);
-    return std::make_shared<const Pyramid>(image.view(), parameters_.pyramid_levels);
   }
 
   const Sequence& sequence_;

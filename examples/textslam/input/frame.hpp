@@ -17,6 +17,8 @@ struct Frame {
   double timestamp = 0;
   std::shared_ptr<const Pyramid> image;  ///< Undistorted.
   std::vector<Detection> detections;     ///< Undistorted px.
+  double noise = 0;                      ///< Grey levels: standard deviation of a pixel of level 0.
+  double smoothing = 0;                  ///< px^2: variance of the Gaussian that the image was smoothed with.
 };
 
 }  // namespace textslam

@@ -7,6 +7,7 @@
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/search.hpp"
 #include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_zncc.hpp"
 #include "textslam/relocalise/planar_pose.hpp"
 
 namespace textslam {
@@ -82,7 +83,11 @@ class TextSearch {
     options.coarsest_level = parameters_.text_levels - 1;
     const auto fit = textplane::refine_pose(&term, 1, nullptr, 0, frame_.image->view(), map_.camera, hypothesis->T_c_w,
                                             options, pose_);
-    if (fit.texts != 1 || fit.zncc < parameters_.text_min_zncc) return false;
+    if (fit.texts != 1) return false;
+    const double least =
+        text_zncc_limit(parameters_, parameters_.text_min_zncc, text.patch, 0, text.theta,
+                        map_.keyframe(text.host).frame, frame_, map_.T_c_h(fit.T_t_w, text.host), map_.camera);
+    if (fit.zncc < least) return false;
     hypothesis->T_c_w = textplane::renormalised(fit.T_t_w);
     hypothesis->zncc = fit.zncc;
     return true;

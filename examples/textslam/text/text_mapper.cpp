@@ -12,6 +12,7 @@
 #include "textslam/map/observations.hpp"
 #include "textslam/map/text_geometry.hpp"
 #include "textslam/map/text_words.hpp"
+#include "textslam/map/text_zncc.hpp"
 #include "textslam/text/loose_planes.hpp"
 #include "textslam/text/text_hosting.hpp"
 #include "textslam/text/text_plane.hpp"
@@ -220,10 +221,13 @@ void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
   const auto cost = textplane::reference::evaluate(
       textplane::ResidualRequest{input, text.theta, map_.T_c_h(T_c_w, text.host)}, workspace);
   if (!textplane::is_ok(cost.status)) return;
-  if (cost.zncc >= parameters_.text_min_zncc) {
+  const double least = text_zncc_limit(parameters_, parameters_.text_min_zncc, text.patch, level, text.theta,
+                                       map_.keyframe(text.host).frame, map_.keyframe(keyframe).frame,
+                                       map_.T_c_h(T_c_w, text.host), map_.camera);
+  if (cost.zncc >= least) {
     text.views.push_back(keyframe);
     text.failures = 0;
-  } else if (cost.zncc < parameters_.text_cull_zncc) {
+  } else if (cost.zncc * parameters_.text_min_zncc < least * parameters_.text_cull_zncc) {
     ++text.failures;
   }
 }

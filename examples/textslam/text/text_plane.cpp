@@ -1,13 +1,16 @@
 #include "textslam/text/text_plane.hpp"
 
+#include <utility>
+
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/solver/plane.hpp"
+#include "textslam/common/algorithms.hpp"
 #include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_zncc.hpp"
 
 namespace textslam {
-
 textplane::TextPatch make_text_patch(const Map& map, const Parameters& parameters, int id, const Quad<double>& quad) {
   textplane::SelectOptions options;
   options.min_pixels = parameters.text_min_pixels;
@@ -29,12 +32,16 @@ bool refine_plane(const Map& map, const Parameters& parameters, const std::vecto
     const int shift = project_text(map, guess, T_c_w, &quad) ? scale_shift(text, quad) : 0;
     targets.push_back({map.keyframe(id).frame.image->view(), map.T_c_h(T_c_w, text.host), shift});
   }
+  std::vector<double> limits;
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    limits.push_back(text_zncc_limit(parameters, min_zncc, text.patch, 0, theta, map.keyframe(text.host).frame,
+                                     map.keyframe(keyframes[i]).frame, targets[i].T_t_h, map.camera));
   textplane::PlaneWorkspace workspace;
   workspace.reserve(text.patch, static_cast<int>(targets.size()));
   textplane::PlaneOptions options;
   const auto fit = textplane::refine_plane(text.patch, theta, targets.data(), static_cast<int>(targets.size()),
                                            map.camera, options, workspace);
-  if (!textplane::is_ok(fit.status) || fit.zncc < min_zncc ||
+  if (!textplane::is_ok(fit.status) || fit.zncc < median(std::move(limits)) ||
       !is_plausible_plane(map, parameters, text.patch.quad, fit.theta))
     return false;
   text.theta = fit.theta;

@@ -14,7 +14,7 @@ namespace textslam {
 textplane::TextPatch make_text_patch(const Map& map, const Parameters& parameters, int id, const Quad<double>& quad);
 
 /// Refines theta, covariance and ZNCC photometrically against these key frames, from `theta`. False, and the text as it
-/// was, where the images agree by less than `min_zncc` or the plane is implausible.
+/// was, where the images agree by less than text_zncc_limit() of `min_zncc` or the plane is implausible.
 bool refine_plane(const Map& map, const Parameters& parameters, const std::vector<int>& keyframes, const Vec3& theta,
                   double min_zncc, TextObject& text);
 

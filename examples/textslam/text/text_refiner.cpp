@@ -10,6 +10,7 @@
 #include "textslam/common/algorithms.hpp"
 #include "textslam/map/culling.hpp"
 #include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_zncc.hpp"
 #include "textslam/text/jackknife.hpp"
 #include "textslam/text/text_surface.hpp"
 
@@ -64,10 +65,15 @@ bool TextRefiner::add_target(const textplane::TextPatch& patch, const Vec3& thet
   target.T_t_h = view.T_c_w * map_.keyframe(host.keyframe).T_w_c;
   textplane::Matrix2d A;
   textplane::BlurMatch match;
+  // The spread is for what is not known: the camera's blur, and not that of smoothing.
+  const double camera_blur = parameters_.blur_variance, host_smoothing = map_.keyframe(host.keyframe).frame.smoothing,
+               view_smoothing = map_.keyframe(view.keyframe).frame.smoothing,
+               spread = 1 + (parameters_.blur_spread - 1) * camera_blur /
+                                (camera_blur + std::max(host_smoothing, view_smoothing));
   if (host.area > parameters_.refine_scale * parameters_.refine_scale * view.area ||
       !affine_at(map_.camera, theta, target.T_t_h, textplane::centroid(patch.quad), &A) ||
-      !textplane::is_ok(textplane::match_blur(A, parameters_.blur_variance, parameters_.blur_variance + kSampling,
-                                              parameters_.blur_spread, &match)))
+      !textplane::is_ok(textplane::match_blur(A, camera_blur + host_smoothing, camera_blur + view_smoothing + kSampling,
+                                              spread, &match)))
     return false;
   const std::size_t slot = targets_.size();
   if (filtered_.size() <= slot) filtered_.emplace_back(map_.width, map_.height);
@@ -129,10 +135,14 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
   targets_.clear();
   patches_.clear();
   std::vector<int> others;
+  std::vector<double> limits;
   for (std::size_t i = 0; i < views.size(); ++i)
     if (views[i].keyframe != host.keyframe) others.push_back(static_cast<int>(i));
   for (const int i : evenly_spaced(others, static_cast<std::size_t>(parameters_.refine_views)))
-    add_target(patch, theta, host, views[static_cast<std::size_t>(i)]);
+    if (add_target(patch, theta, host, views[static_cast<std::size_t>(i)]))
+      limits.push_back(text_zncc_limit(
+          parameters_, parameters_.text_min_zncc, patch, 0, theta, map_.keyframe(host.keyframe).frame,
+          map_.keyframe(views[static_cast<std::size_t>(i)].keyframe).frame, targets_.back().T_t_h, map_.camera));
   if (targets_.empty()) return false;
   for (std::size_t i = 0; i < targets_.size(); ++i) targets_[i].patch = &patches_[i];
 
@@ -147,7 +157,7 @@ bool TextRefiner::estimate(const TextObject& text, const View& host, const std::
   auto fit = fit_to_targets(theta);
   if (!textplane::is_ok(fit.status)) return false;
   if (drop_dissimilar(fit.theta)) fit = fit_to_targets(fit.theta);
-  if (!textplane::is_ok(fit.status) || fit.zncc < parameters_.text_min_zncc) return false;
+  if (!textplane::is_ok(fit.status) || fit.zncc < median(std::move(limits))) return false;
   textplane::Matrix3<double> J;
   out->theta = textplane::reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
   if (!bend_of(patch, fit.theta, targets_, map_.camera, parameters_.refine_bend_sigmas, photometric_, &out->bend))

@@ -6,6 +6,7 @@
 #include "textplane/features/klt.hpp"
 #include "textplane/features/select.hpp"
 #include "textslam/common/algorithms.hpp"
+#include "textslam/input/noise_filter.hpp"
 
 namespace textslam {
 namespace {
@@ -19,24 +20,47 @@ textplane::KltOptions klt_options(const Parameters& parameters, const Frame& fro
   return options;
 }
 
+// Of the corner's patch, where it is wholly in the image.
+double contrast_at(const Frame& frame, const Vec2f& px, int radius) {
+  textplane::PointPatch patch;
+  const auto status =
+      textplane::extract_point_patch(frame.image->level(0), px, Eigen::Matrix2f::Identity(), radius, &patch);
+  return textplane::is_ok(status) ? static_cast<double>(patch.contrast()) : 0;
+}
+
+// With a limit of the ZNCC for each corner where the frames are noisy. The contrast of the second frame is not known
+// yet: it is taken to be that of the first.
+void track_klt(const Frame& from, const Frame& to, const Vec2f* start, const Vec2f* guesses, int n,
+               textplane::KltOptions options, const Parameters& parameters, textplane::KltResult* results) {
+  const textplane::PyramidView from_view = from.image->view(), to_view = to.image->view();
+  if (!is_noisy(parameters, from, to)) {
+    textplane::track_klt(from_view, to_view, start, guesses, n, options, results);
+    return;
+  }
+  for (int i = 0; i < n; ++i) {
+    const double contrast = contrast_at(from, start[i], options.radius);
+    options.min_zncc = static_cast<float>(
+        zncc_limit(parameters, static_cast<double>(parameters.min_track_zncc), 0, from, contrast, to, contrast));
+    textplane::track_klt(from_view, to_view, start + i, guesses ? guesses + i : nullptr, 1, options, results + i);
+  }
+}
+
 // Good guesses need the fine levels alone; what fails there is searched for from the coarsest on.
 std::vector<textplane::KltResult> follow(const Frame& from, const Frame& to, const std::vector<Vec2f>& start,
-                                         const std::vector<Vec2f>& guesses, const textplane::KltOptions& options,
-                                         int fine_levels) {
-  const textplane::PyramidView from_view = from.image->view(), to_view = to.image->view();
+                                         const std::vector<Vec2f>& guesses, const Parameters& parameters) {
+  const textplane::KltOptions options = klt_options(parameters, from, to);
+  const auto n = static_cast<int>(start.size());
   std::vector<textplane::KltResult> results(start.size());
   if (guesses.empty()) {
-    textplane::track_klt(from_view, to_view, start.data(), nullptr, static_cast<int>(start.size()), options,
-                         results.data());
+    track_klt(from, to, start.data(), nullptr, n, options, parameters, results.data());
     return results;
   }
   textplane::KltOptions fine = options;
-  fine.levels = std::min(fine_levels, options.levels);
-  textplane::track_klt(from_view, to_view, start.data(), guesses.data(), static_cast<int>(start.size()), fine,
-                       results.data());
+  fine.levels = std::min(parameters.klt_fine_levels, options.levels);
+  track_klt(from, to, start.data(), guesses.data(), n, fine, parameters, results.data());
   for (std::size_t i = 0; i < start.size(); ++i)
     if (!textplane::is_ok(results[i].status))
-      textplane::track_klt(from_view, to_view, &start[i], &guesses[i], 1, options, &results[i]);
+      track_klt(from, to, &start[i], &guesses[i], 1, options, parameters, &results[i]);
   return results;
 }
 
@@ -47,8 +71,7 @@ void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>
   if (tracks.empty()) return;
   std::vector<Vec2f> start;
   for (const Track& track : tracks) start.push_back(track.px);
-  const std::vector<textplane::KltResult> results =
-      follow(from, to, start, guesses, klt_options(parameters, from, to), parameters.klt_fine_levels);
+  const std::vector<textplane::KltResult> results = follow(from, to, start, guesses, parameters);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (!textplane::is_ok(results[i].status)) continue;

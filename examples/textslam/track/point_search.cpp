@@ -5,6 +5,7 @@
 
 #include "textplane/features/klt.hpp"
 #include "textplane/geometry/homography.hpp"
+#include "textslam/input/noise_filter.hpp"
 
 namespace textslam {
 namespace {
@@ -62,7 +63,8 @@ bool predict_point(const Map& map, const Parameters& parameters, const MapPoint&
 
 bool find_point(const Map& map, const Parameters& parameters, const PointPrediction& prediction, const Frame& frame,
                 int coarsest, Vec2f* px) {
-  const Pyramid& host = *map.keyframe(prediction.host->keyframe).frame.image;
+  const Frame& host_frame = map.keyframe(prediction.host->keyframe).frame;
+  const Pyramid& host = *host_frame.image;
   const Vec2f host_px = prediction.host->px.cast<float>();
   // Where the host shows the patch larger than the frame, its next coarser level is the sharpest that does not alias.
   const int shift = std::sqrt(std::abs(prediction.A.determinant())) > parameters.point_patch_coarser ? 1 : 0;
@@ -78,7 +80,10 @@ bool find_point(const Map& map, const Parameters& parameters, const PointPredict
       if (level > 0) continue;
       return false;
     }
-    options.min_zncc = level > 0 ? parameters.min_coarse_point_zncc : parameters.min_point_zncc;
+    const float limit = level > 0 ? parameters.min_coarse_point_zncc : parameters.min_point_zncc;
+    const auto contrast = static_cast<double>(patch.contrast());
+    options.min_zncc = static_cast<float>(
+        zncc_limit(parameters, static_cast<double>(limit), level, host_frame, contrast, frame, contrast));
     const auto result =
         textplane::align_point_patch(patch, frame.image->level(level), textplane::point_to_level(*px, level), options);
     if (textplane::is_ok(result.status)) {

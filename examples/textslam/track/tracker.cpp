@@ -10,6 +10,7 @@
 #include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_zncc.hpp"
 #include "textslam/track/feature_tracks.hpp"
 #include "textslam/track/pose_refit.hpp"
 #include "textslam/track/rotation_prior.hpp"
@@ -196,6 +197,21 @@ void Tracker::add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTe
   }
 }
 
+// How many of the texts look as their patches do.
+int Tracker::agreeing(const Frame& frame, const std::vector<const TextObject*>& texts, const SE3d& T_c_w,
+                      const std::vector<float>& zncc) const {
+  int count = 0;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const TextObject& text = *texts[i];
+    count +=
+        zncc[i] >= text_zncc_limit(parameters_, parameters_.text_min_zncc, text.patch, 0, text.theta,
+                                   map_.keyframe(text.host).frame, frame, map_.T_c_h(T_c_w, text.host), map_.camera)
+            ? 1
+            : 0;
+  }
+  return count;
+}
+
 // False where the pose does not hold. The report gets what it rests on.
 bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report) {
   std::vector<textplane::PosePointTerm> points;
@@ -208,12 +224,14 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
   const int map_points = static_cast<int>(points.size());
   if (map_points < parameters_.hold_points) add_unmapped(*T_c_w, points);
   std::vector<textplane::PoseTextTerm> texts;
+  std::vector<const TextObject*> seen;
   if (with_text)
     for (const TextObject& text : map_.texts) {
       Quad<double> quad;
       if (text.state != TextState::mapped || (local_ && !local_->has_text(text.id))) continue;
       if (!text_in_view(map_, parameters_, text, *T_c_w, &quad)) continue;
       texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)});
+      seen.push_back(&text);
     }
 
   const int text_count = static_cast<int>(texts.size()), point_count = static_cast<int>(points.size());
@@ -238,7 +256,7 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
     track.inlier = is_pose_inlier(parameters_, chi2[k]);
     report->inliers += track.inlier ? 1 : 0;
   }
-  for (const float z : zncc) report->texts += z >= parameters_.text_min_zncc ? 1 : 0;
+  report->texts = agreeing(frame, seen, *T_c_w, zncc);
   judge_position(*T_c_w, points, map_points, texts, report);
   if (!(report->position_sigma <= parameters_.max_position_sigma)) return false;
   const int inliers = report->inliers;

@@ -63,6 +63,8 @@ class Tracker {
   void add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const;
   void judge_position(const SE3d& T_c_w, const std::vector<textplane::PosePointTerm>& points, int map_points,
                       const std::vector<textplane::PoseTextTerm>& texts, TrackReport* report) const;
+  int agreeing(const Frame& frame, const std::vector<const TextObject*>& texts, const SE3d& T_c_w,
+               const std::vector<float>& zncc) const;
   bool fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report);
   bool looks_for_point(int id) const { return !map_.point(id).bad && (!local_ || local_->has_point(id)); }
 

@@ -66,7 +66,8 @@ inline HighPass high_pass(const ImageView8& image, int x0, int y0, int side) noe
 /// In each block sigma = sqrt(pi / 2) mean |h| / 6 with the high-pass h = [1 -2 1] x [1 -2 1], whose variance is 36
 /// times the noise's (Immerkaer, "Fast noise variance estimation", CVIU 1996); a low quantile over the blocks leaves
 /// texture out. White noise is estimated up to 5 % too low by it. Blocks that are cut off at black or white do not
-/// count; too_few, with sigma 0, where that leaves none. invalid_argument for an invalid view or options. No allocation.
+/// count; too_few, with sigma 0, where that leaves none. invalid_argument for an invalid view or options. No
+/// allocation.
 template <class S = double>  // instantiated where it is called: including the header costs little
 NoiseEstimate estimate_noise(const ImageView8& image, const NoiseOptions& options = {}) noexcept {
   NoiseEstimate out;
