@@ -13,26 +13,77 @@ namespace {
 
 constexpr int kMinVisibleFrames = 10;  // a sign counts if so many frames show it whole
 constexpr double kWhole = 0.99;
+constexpr double kClearSide = 9, kClearSlant = 72;  // px, degrees
 constexpr double kToDegrees = 57.295779513082320877;
 
 using Corners = std::array<Vector3<double>, 4>;
 
 Vector3<double> centre_of(const Corners& corners) { return (corners[0] + corners[1] + corners[2] + corners[3]) / 4; }
 
-// Counts the frames of truth/quads that show each sign whole.
-void count_visible(const std::string& folder, const std::vector<std::string>& stems, std::vector<TrueSign>& signs) {
-  for (const std::string& stem : stems) {
-    const std::string path = folder + "/truth/quads/" + stem + ".txt";
+// A line of truth/quads.
+struct SignView {
+  std::array<Vector2<double>, 4> corners;
+  double id = -1, visible = 0;
+};
+
+SignView parse_view(const TextLine& line, const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : line.text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  if (parts.size() < 11)  // a text may have commas
+    throw InputError(path, line.number, "eight coordinates, a text, a sign and a share expected");
+  SignView view;
+  for (std::size_t i = 0; i < 8; ++i)
+    view.corners[i / 2][static_cast<int>(i % 2)] = require_number(parts[i], path, line.number, "a coordinate");
+  view.id = require_number(parts[parts.size() - 2], path, line.number, "a sign");
+  view.visible = require_number(parts.back(), path, line.number, "a visible share");
+  return view;
+}
+
+// Large and square enough for a detector?
+bool is_clear(const SignView& view, const TrueSign& sign, const Vector3<double>& to_camera) {
+  for (std::size_t i = 0; i < 4; ++i)
+    if ((view.corners[i] - view.corners[(i + 1) % 4]).norm() < kClearSide) return false;
+  return to_camera.dot(sign.normal) >= std::cos(kClearSlant / kToDegrees);
+}
+
+double largest_angle(const std::vector<Vector3<double>>& directions) {
+  double cosine = 1;
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) cosine = std::min(cosine, directions[i].dot(directions[k]));
+  return kToDegrees * std::acos(std::max(-1.0, cosine));
+}
+
+// Counts the frames of truth/quads that show each sign whole, and those that show it clearly.
+void count_views(const std::string& folder, const std::vector<FrameRef>& frames, const std::vector<StampedPose>& truth,
+                 std::vector<TrueSign>& signs) {
+  std::vector<StampedPose> times;
+  for (const FrameRef& frame : frames) times.push_back({frame.timestamp, {}});
+  std::vector<const StampedPose*> poses(frames.size(), nullptr);
+  for (const PosePair& pair : associate(times, truth, EvaluationOptions{}.tolerance))
+    poses[pair.estimate] = &truth[pair.truth];
+  std::vector<std::vector<Vector3<double>>> directions(signs.size());
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const std::string path = folder + "/truth/quads/" + frames[f].stem + ".txt";
     if (!std::filesystem::exists(path)) continue;
     for (const TextLine& line : read_lines(path)) {
-      const std::size_t last = line.text.rfind(','), before = line.text.rfind(',', last - 1);
-      if (last == std::string::npos || before == std::string::npos)
-        throw InputError(path, line.number, "eight coordinates, a text, a sign and a share expected");
-      const double id = require_number(line.text.substr(before + 1, last - before - 1), path, line.number, "a sign");
-      const double visible = require_number(line.text.substr(last + 1), path, line.number, "a visible share");
-      for (TrueSign& sign : signs)
-        if (sign.id == id && visible > kWhole) ++sign.visible_frames;
+      const SignView view = parse_view(line, path);
+      for (std::size_t s = 0; s < signs.size(); ++s) {
+        if (signs[s].id != view.id || !(view.visible > kWhole)) continue;
+        ++signs[s].visible_frames;
+        if (!poses[f]) continue;
+        const Vector3<double> to_camera = (poses[f]->T_w_c.t - centre_of(signs[s].corners)).normalized();
+        if (is_clear(view, signs[s], to_camera)) directions[s].push_back(to_camera);
+      }
     }
+  }
+  for (std::size_t s = 0; s < signs.size(); ++s) {
+    signs[s].clear_frames = static_cast<int>(directions[s].size());
+    signs[s].parallax = largest_angle(directions[s]);
   }
 }
 
@@ -49,7 +100,8 @@ Sign read_sign(const nlohmann::json& json) {
 
 }  // namespace
 
-std::vector<TrueSign> read_true_signs(const std::string& folder, const std::vector<std::string>& stems) {
+std::vector<TrueSign> read_true_signs(const std::string& folder, const std::vector<FrameRef>& frames,
+                                      const std::vector<StampedPose>& truth) {
   const std::string path = folder + "/truth/signs.json";
   std::vector<TrueSign> signs;
   if (!std::filesystem::exists(path)) return signs;
@@ -57,14 +109,16 @@ std::vector<TrueSign> read_true_signs(const std::string& folder, const std::vect
     signs.push_back(read_sign<TrueSign>(entry));
     if (entry.contains("radius")) signs.back().radius = entry.at("radius").get<double>();
   });
-  count_visible(folder, stems, signs);
+  count_views(folder, frames, truth, signs);
   return signs;
 }
 
 std::vector<MappedText> read_text_map(const std::string& path) {
   std::vector<MappedText> texts;
-  for_each_entry(read_json(path), "texts", path,
-                 [&](const nlohmann::json& entry) { texts.push_back(read_sign<MappedText>(entry)); });
+  for_each_entry(read_json(path), "texts", path, [&](const nlohmann::json& entry) {
+    texts.push_back(read_sign<MappedText>(entry));
+    if (entry.contains("normal_sigma_deg")) texts.back().sigma = entry.at("normal_sigma_deg").get<double>();
+  });
   return texts;
 }
 
@@ -73,12 +127,13 @@ TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::v
   TextEvaluation out;
   out.available = !signs.empty();
   if (!out.available) return out;
-  std::vector<double> angles, centres;
+  std::vector<double> angles, centres, in_sigmas;
   std::vector<int> mapped;
   for (const MappedText& text : texts) {
     const Vector3<double> centre = alignment * centre_of(text.corners), normal = alignment.R * text.normal;
     SignMatch match;
     match.text = text.id;
+    match.sigma = text.sigma;
     bool flat = true;
     for (const TrueSign& sign : signs) {
       const double distance = (centre - centre_of(sign.corners)).norm();
@@ -95,6 +150,7 @@ TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::v
       ++out.false_texts;
     } else {
       angles.push_back(match.angle);
+      if (match.sigma > 0) in_sigmas.push_back(match.angle / match.sigma);
       centres.push_back(match.centre);
       mapped.push_back(match.sign);
     }
@@ -102,11 +158,16 @@ TextEvaluation evaluate_texts(const std::vector<MappedText>& texts, const std::v
   }
   for (const TrueSign& sign : signs) {
     if (sign.visible_frames < kMinVisibleFrames || sign.radius > 0) continue;
+    const int has_text = std::find(mapped.begin(), mapped.end(), sign.id) != mapped.end() ? 1 : 0;
     ++out.signs;
-    out.mapped += std::find(mapped.begin(), mapped.end(), sign.id) != mapped.end() ? 1 : 0;
+    out.mapped += has_text;
+    if (!sign.is_clear()) continue;
+    ++out.clear;
+    out.clear_mapped += has_text;
   }
   out.angle = error_statistics(std::move(angles));
   out.centre = error_statistics(std::move(centres));
+  out.angle_over_sigma = error_statistics(std::move(in_sigmas));
   return out;
 }
 

@@ -14,17 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The stems of the frames, which name their files in truth/quads, from the list of any layout. The images may be gone.
-std::vector<std::string> frame_stems(const std::string& truth) {
+// The frames, whose stems name their files in truth/quads, from the list of any layout. The images may be gone.
+std::vector<FrameRef> listed_frames(const std::string& truth) {
   EurocFiles euroc;
-  std::vector<FrameRef> frames;
-  if (const std::string list = find_list(truth); !list.empty())
-    frames = read_frame_list(truth, list);
-  else if (find_euroc(truth, &euroc))
-    frames = read_euroc_frames(euroc.list, euroc.images);
-  std::vector<std::string> stems;
-  for (const FrameRef& frame : frames) stems.push_back(frame.stem);
-  return stems;
+  if (const std::string list = find_list(truth); !list.empty()) return read_frame_list(truth, list);
+  if (find_euroc(truth, &euroc)) return read_euroc_frames(euroc.list, euroc.images);
+  return {};
 }
 
 // A run on a part of the sequence says how many frames it was to process.
@@ -51,8 +46,8 @@ RunEvaluation evaluate_run(const std::string& run, const std::string& truth, boo
 
   RunEvaluation out;
   out.run = run;
-  const std::vector<std::string> stems = frame_stems(folder);
-  out.frames = frame_count(run, stems.size());
+  const std::vector<FrameRef> frames = listed_frames(folder);
+  out.frames = frame_count(run, frames.size());
   EvaluationOptions options;
   options.with_scale = with_scale;
   std::vector<StampedPose> reference = read_groundtruth(folder);
@@ -67,7 +62,7 @@ RunEvaluation evaluate_run(const std::string& run, const std::string& truth, boo
   const std::string map = run + "/text_map.json";
   if (!fs::exists(map)) return out;
   const std::vector<MappedText> texts = read_text_map(map);
-  const std::vector<TrueSign> signs = read_true_signs(folder, stems);
+  const std::vector<TrueSign> signs = read_true_signs(folder, frames, reference);
   if (!textplane::is_ok(out.trajectory.status)) return out;
   out.text = evaluate_texts(texts, signs, out.trajectory.alignment);
   for (const SignMatch& match : out.text.matches) out.words_right += match.word ? 1 : 0;

@@ -78,10 +78,13 @@ std::vector<Field> fields_of(const RunEvaluation& run) {
   };
   count("signs_visible", text.signs);
   count("signs_mapped", text.mapped);
+  count("signs_clear", text.clear);
+  count("signs_clear_mapped", text.clear_mapped);
   count("texts_matched", static_cast<int>(text.angle.n));
   count("texts_false", text.false_texts);
   count("words_right", run.words_right);
   out.add_distribution("angle_deg", text.angle, text.available);
+  out.add_distribution("angle_over_sigma", text.angle_over_sigma, text.available);
   out.add_distribution("centre", text.centre, text.available);
   const auto histogram = angle_histogram(text);
   const std::vector<std::string> names = bin_names();

@@ -1,6 +1,7 @@
 #include "textslam/report/evaluate_text.hpp"
 
 #include "textplane/geometry/plane.hpp"
+#include "textslam/map/text_geometry.hpp"
 
 namespace textslam {
 
@@ -13,9 +14,7 @@ std::array<Vec3, 4> world_corners(const Map& map, const TextObject& text) {
 }
 
 std::vector<TrueSign> read_true_signs(const Sequence& sequence) {
-  std::vector<std::string> stems;
-  for (const FrameRef& frame : sequence.frames) stems.push_back(frame.stem);
-  return read_true_signs(sequence.folder, stems);
+  return read_true_signs(sequence.folder, sequence.frames, sequence.groundtruth);
 }
 
 TextEvaluation evaluate_text(const Map& map, const std::vector<TrueSign>& signs, const Similarity& alignment) {
@@ -23,7 +22,7 @@ TextEvaluation evaluate_text(const Map& map, const std::vector<TrueSign>& signs,
   for (const TextObject& text : map.texts) {
     if (text.state != TextState::mapped) continue;
     const Vec3 normal = map.keyframe(text.host).T_w_c.R * textplane::plane_normal(text.theta);
-    texts.push_back({text.id, text.word(), world_corners(map, text), normal});
+    texts.push_back({text.id, text.word(), world_corners(map, text), normal, normal_sigma(text) / radians(1)});
   }
   return evaluate_texts(texts, signs, alignment);
 }

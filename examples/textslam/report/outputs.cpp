@@ -1,6 +1,5 @@
 #include "textslam/report/outputs.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -13,15 +12,6 @@
 
 namespace textslam {
 namespace {
-
-// In order of time, which that of the ids is not where maps were joined.
-std::vector<StampedPose> keyframe_trajectory(const Map& map) {
-  std::vector<StampedPose> poses;
-  for (const int id : map.keyframe_ids()) poses.push_back({map.keyframe(id).frame.timestamp, map.keyframe(id).T_w_c});
-  std::sort(poses.begin(), poses.end(),
-            [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
-  return poses;
-}
 
 // Of the poses between key frames: the upper triangle of the covariance of (v, omega), row by row.
 std::string covariance_table(const System& system) {

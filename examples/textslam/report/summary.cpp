@@ -1,7 +1,6 @@
 #include "textslam/report/summary.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/text_file.hpp"
 #include "textslam/common/algorithms.hpp"
@@ -95,6 +94,16 @@ Fields errors(const TrajectoryEvaluation& e, const TrajectoryEvaluation& live) {
   return fields;
 }
 
+Json stated(const PoseErrors& e) {
+  return {{"poses", e.poses},
+          {"ate_rmse", e.ate_rmse},
+          {"relative_rmse", e.relative_rmse},
+          {"over_sigma_median", e.over_sigma.median},
+          {"over_sigma_p90", e.over_sigma.p90},
+          {"relative_over_sigma_median", e.relative_over_sigma.median},
+          {"relative_over_sigma_p90", e.relative_over_sigma.p90}};
+}
+
 void add_trajectories(Fields& fields, const RunSummary& s) {
   if (!s.has_truth) return;
   const Fields of_final = errors(s.trajectory, s.live);
@@ -103,7 +112,8 @@ void add_trajectories(Fields& fields, const RunSummary& s) {
   if (!is_aligned(s)) return;
   fields.page.update(of_final.page);
   fields.table += of_final.table;
-  fields.add("filled_in", nullptr, Json{{"poses", s.filled_in.poses}, {"ate_rmse", s.filled_in.ate_rmse}});
+  fields.add("final_live", nullptr, stated(s.final_live));
+  fields.add("filled_in", nullptr, stated(s.filled_in));
   if (s.filled_in.poses > 0)
     fields.row("ATE filled in", "%.2f mm rmse, %zu poses", 1000 * s.filled_in.ate_rmse, s.filled_in.poses);
 }
@@ -113,11 +123,15 @@ void add_signs(Fields& fields, const TextEvaluation& text) {
   Fields signs;
   signs.add("signs_visible", "signs_visible", text.signs);
   signs.add("signs_mapped", "signs_mapped", text.mapped);
+  signs.add("signs_clear", nullptr, text.clear);
+  signs.add("signs_clear_mapped", nullptr, text.clear_mapped);
   signs.add("false_texts", "false_texts", text.false_texts);
   fields.row("signs mapped", "%d of %d visible, %d false", text.mapped, text.signs, text.false_texts);
   signs.add("angle_median_deg", "angle_median_deg", text.angle.median);
   signs.add("angle_p90_deg", nullptr, text.angle.p90);
   signs.add("angle_max_deg", nullptr, text.angle.max);
+  signs.add("angle_over_sigma_median", nullptr, text.angle_over_sigma.median);
+  signs.add("angle_over_sigma_p90", nullptr, text.angle_over_sigma.p90);
   if (text.mapped > 0)
     fields.row("angle error", "%.2f deg median, %.2f deg p90, %.2f deg largest", text.angle.median, text.angle.p90,
                text.angle.max);
@@ -126,8 +140,12 @@ void add_signs(Fields& fields, const TextEvaluation& text) {
   signs.add("centre_max", nullptr, text.centre.max);
   Json matches = Json::array();
   for (const SignMatch& m : text.matches)
-    matches.push_back(
-        {{"text", m.text}, {"sign", m.sign}, {"angle_deg", m.angle}, {"centre", m.centre}, {"word_right", m.word}});
+    matches.push_back({{"text", m.text},
+                       {"sign", m.sign},
+                       {"angle_deg", m.angle},
+                       {"sigma_deg", m.sigma},
+                       {"centre", m.centre},
+                       {"word_right", m.word}});
   signs.add("matches", nullptr, matches);
   fields.add("text", nullptr, signs.file);
   fields.page.update(signs.page);
@@ -149,18 +167,6 @@ std::vector<StampedPose> live_trajectory(const System& system) {
   for (const FrameRecord& record : system.records())
     if (record.live) poses.push_back({record.timestamp, record.T_w_c_live});
   return poses;
-}
-
-FilledIn compare_filled_in(const System& system, const Sequence& sequence, const Similarity& alignment) {
-  std::vector<StampedPose> poses;
-  for (const FrameRecord& record : system.records())
-    if (record.state == FrameState::tracked && !record.live)
-      poses.push_back({record.timestamp, system.final_pose(record)});
-  double sum = 0;
-  const std::vector<PosePair> pairs = associate(poses, sequence.groundtruth, EvaluationOptions{}.tolerance);
-  for (const PosePair& pair : pairs)
-    sum += (alignment * poses[pair.estimate].T_w_c.t - sequence.groundtruth[pair.truth].T_w_c.t).squaredNorm();
-  return {poses.size(), pairs.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(pairs.size()))};
 }
 
 RunSummary summarise(const System& system, const Sequence& sequence, std::size_t frames) {
@@ -192,7 +198,11 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
   if (!s.has_truth) return s;
   s.trajectory = evaluate_trajectory(final_trajectory(system), sequence.groundtruth, frames);
   s.live = evaluate_trajectory(live_trajectory(system), sequence.groundtruth, frames);
-  if (is_aligned(s)) s.filled_in = compare_filled_in(system, sequence, s.trajectory.alignment);
+  if (!is_aligned(s)) return s;
+  const std::vector<StampedPose> at_keyframes = keyframe_trajectory(map);
+  for (const bool live : {true, false})
+    (live ? s.final_live : s.filled_in) =
+        compare_poses(stated_poses(system, live), at_keyframes, sequence.groundtruth, s.trajectory.alignment);
   return s;
 }
 

@@ -8,17 +8,12 @@
 
 #include "io/evaluate.hpp"
 #include "io/sequence.hpp"
+#include "textslam/report/evaluate_poses.hpp"
 #include "textslam/report/evaluate_text.hpp"
 #include "textslam/report/fields.hpp"
 #include "textslam/system/system.hpp"
 
 namespace textslam {
-
-/// Final poses that are not live ones.
-struct FilledIn {
-  std::size_t poses = 0;
-  double ate_rmse = 0;  ///< By the alignment of all final poses; NaN without.
-};
 
 struct RunSummary {
   std::size_t frames = 0, tracked = 0, tracked_live = 0;
@@ -34,7 +29,7 @@ struct RunSummary {
   std::vector<std::string> notes;       ///< Of the sequence.
   bool has_truth = false;
   TrajectoryEvaluation trajectory, live;
-  FilledIn filled_in;
+  PoseErrors final_live, filled_in;  ///< Of the final poses of frames that were live ones, and of the others.
   TextEvaluation text;
   double reprojection_px = 0;      ///< See reprojection_error(), of the map.
   double median_ms = 0;            ///< A frame, detection aside.

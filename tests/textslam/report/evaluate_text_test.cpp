@@ -114,6 +114,68 @@ TEST_F(EvaluateTextTest, TextsWithoutSignAreFalseAndUnfinishedOnesDoNotCount) {
   EXPECT_FALSE(evaluate_text(map, {}, to_truth).available) << "nothing to compare with";
 }
 
+// Seen by a camera that walks by at distance 2: whole, 9 px high and wide, and not from the edge.
+TEST_F(EvaluateTextTest, ClearSignsAreThoseThatCouldBeMapped) {
+  const TemporaryFolder folder;
+  Sequence sequence;
+  sequence.folder = folder.path();
+  folder.write("truth/signs.json",
+               R"({"signs":[{"id":3,"text":"A","corners":[[-1,1,0],[1,1,0],[1,-1,0],[-1,-1,0]],"normal":[0,0,1]},
+                            {"id":4,"text":"B","corners":[[-1,1,0],[1,1,0],[1,-1,0],[-1,-1,0]],"normal":[1,0,0]}]})");
+  const auto write = [&](int frame, const std::string& visible, int height) {
+    const std::string quad = "0,0,50,0,50," + std::to_string(height) + ",0," + std::to_string(height);
+    folder.write("truth/quads/" + std::to_string(frame) + ".txt",
+                 quad + ",A,3," + visible + "\n" + quad + ",B,4," + visible + "\n");
+  };
+  for (int i = 0; i < 30; ++i) {
+    FrameRef frame;
+    frame.timestamp = i;
+    frame.stem = std::to_string(i);
+    sequence.frames.push_back(frame);
+    SE3d T_w_c;
+    T_w_c.t = Vec3(0.01 * i, 0, 2);
+    sequence.groundtruth.push_back({frame.timestamp, T_w_c});
+    write(i, i < 5 ? "0.9" : "1", i < 8 ? 8 : 9);
+  }
+  std::vector<TrueSign> signs = read_true_signs(sequence);
+  ASSERT_EQ(signs.size(), 2U);
+  EXPECT_EQ(signs[0].visible_frames, 25);
+  EXPECT_EQ(signs[0].clear_frames, 22);
+  const double first = std::atan2(0.08, 2), last = std::atan2(0.29, 2);
+  EXPECT_NEAR(signs[0].parallax, (last - first) / kDegree, 1e-6);
+  EXPECT_TRUE(signs[0].is_clear());
+  EXPECT_EQ(signs[1].clear_frames, 0) << "slanted by 82 degrees and more";
+  EXPECT_FALSE(signs[1].is_clear());
+  write(29, "1", 8);
+  write(28, "1", 8);
+  write(27, "1", 8);
+  EXPECT_FALSE(read_true_signs(sequence)[0].is_clear()) << "in 19 frames";
+  sequence.groundtruth.clear();
+  EXPECT_EQ(read_true_signs(sequence)[0].clear_frames, 0) << "nobody knows from where";
+  EXPECT_EQ(read_true_signs(sequence)[0].visible_frames, 25);
+}
+
+TEST_F(EvaluateTextTest, CountsClearSignsAndErrorsInSigmas) {
+  std::vector<TrueSign> signs = {add("EXIT", 100, {0.2, 0, -1}), add("OPEN", 300, {0, 0, -1}),
+                                 add("TAXI", 450, {0, 0.3, -1}, TextState::dropped)};
+  for (TrueSign& sign : signs) {
+    sign.clear_frames = 20;
+    sign.parallax = 3;
+  }
+  signs[1].parallax = 2.9;
+  const TextEvaluation unsure = evaluate_text(map, signs, to_truth);
+  EXPECT_EQ(unsure.clear, 2);
+  EXPECT_EQ(unsure.clear_mapped, 1);
+  EXPECT_EQ(unsure.angle_over_sigma.n, 0U) << "no sigma is stated";
+  // A plane across the ray whose normal is known to half a degree, and a truth that is turned by one.
+  map.texts[1].covariance = std::pow(0.5 * kDegree * map.texts[1].theta.norm(), 2) * Eigen::Matrix3d::Identity();
+  signs[1].normal = textplane::so3_exp<double>(kDegree * signs[1].normal.unitOrthogonal()) * signs[1].normal;
+  const TextEvaluation stated = evaluate_text(map, signs, to_truth);
+  EXPECT_NEAR(stated.matches[1].sigma, 0.5, 1e-9);
+  ASSERT_EQ(stated.angle_over_sigma.n, 1U);
+  EXPECT_NEAR(stated.angle_over_sigma.median, 2, 1e-6);
+}
+
 TEST_F(EvaluateTextTest, BrokenTruthNamesFileAndLine) {
   const TemporaryFolder folder;
   Sequence sequence;
