@@ -18,6 +18,7 @@ void System::add_detections(int frame, std::vector<Detection> detections, double
   if (newest_first == map_.keyframes.rend()) {
     Frame seen;
     seen.index = frame;
+    seen.timestamp = record.timestamp;
     seen.detections = std::move(detections);
     text_mapper_.associate(seen, final_pose(record).inverse(), {});
     return;

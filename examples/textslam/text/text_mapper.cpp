@@ -29,6 +29,12 @@ double overlap(const Quad<double>& a, const Quad<double>& b) {
 
 }  // namespace
 
+bool TextMapper::meets(const std::vector<Detection>& detections, const Quad<double>& quad) const {
+  return std::any_of(detections.begin(), detections.end(), [&](const Detection& detection) {
+    return textplane::iou(quad, detection.quad) >= parameters_.text_confirm_iou;
+  });
+}
+
 // A text with a plane is where the plane says; a candidate is carried along by the median motion of its corners.
 bool TextMapper::locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks,
                         Quad<double>* quad) const {
@@ -94,10 +100,20 @@ void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vec
     }
     text.shown += shown ? 1 : 0;
   }
+  pending_.add(map_, frame, T_c_w, unknown(frame.detections, T_c_w, tracks));
 }
 
 std::vector<Detection> TextMapper::new_detections(const Frame& frame, const SE3d& T_c_w,
                                                   const std::vector<Track>& tracks) const {
+  std::vector<Detection> detections = frame.detections;
+  for (Detection& carried : pending_.carried_to(map_, T_c_w)) detections.push_back(std::move(carried));
+  return unknown(detections, T_c_w, tracks);
+}
+
+// Of detections on one another, the first counts.
+std::vector<Detection> TextMapper::unknown(const std::vector<Detection>& detections, const SE3d& T_c_w,
+                                           const std::vector<Track>& tracks) const {
+  if (detections.empty()) return {};
   std::vector<Quad<double>> known;
   for (const TextObject& text : map_.texts) {
     Quad<double> quad;
@@ -105,7 +121,7 @@ std::vector<Detection> TextMapper::new_detections(const Frame& frame, const SE3d
       known.push_back(quad);
   }
   std::vector<Detection> accepted;
-  for (const Detection& detection : frame.detections) {
+  for (const Detection& detection : detections) {
     const Quad<double>& quad = detection.quad;
     if (!textplane::is_convex(quad) || std::abs(textplane::area(quad)) < parameters_.text_min_area) continue;
     if (!textplane::inside_image(quad, map_.width, map_.height, parameters_.text_border)) continue;
@@ -126,7 +142,7 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
     text.host = id;
     text.patch = make_text_patch(map_, parameters_, id, detection.quad);
     if (!textplane::is_ok(text.patch.status)) continue;
-    text.detections = text.shown = 1;
+    text.detections = text.shown = std::max(1, pending_.take(map_, map_.keyframe(id).T_w_c.inverse(), detection.quad));
     if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_);
     map_.texts.push_back(std::move(text));
   }
@@ -198,11 +214,12 @@ bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& 
   return true;
 }
 
-// The key frames from the host to `id` that agree with a text's new plane. Failures of the old plane are forgotten.
+// The key frames about the host, up to `id`, that agree with a text's new plane: those before it too, where the
+// detector may have missed it. Failures of the old plane are forgotten.
 void TextMapper::observe_until(TextObject& text, int id) {
   text.views.clear();
-  for (int other = text.host + 1; other <= id; ++other)
-    if (!map_.keyframe(other).culled) observe(text, other, 1);
+  for (int other = std::max(0, text.host - parameters_.text_patience); other <= id; ++other)
+    if (other != text.host && !map_.keyframe(other).culled) observe(text, other, 1);
   text.failures = 0;
 }
 
@@ -227,8 +244,9 @@ void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
   if (cost.zncc >= least) {
     text.views.push_back(keyframe);
     text.failures = 0;
-  } else if (cost.zncc * parameters_.text_min_zncc < least * parameters_.text_cull_zncc) {
-    ++text.failures;
+  } else if (cost.zncc * parameters_.text_min_zncc < least * parameters_.text_cull_zncc &&
+             !meets(map_.keyframe(keyframe).frame.detections, quad)) {
+    ++text.failures;  // where the detector sees it, the image is blurred
   }
 }
 
