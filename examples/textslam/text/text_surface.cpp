@@ -51,7 +51,8 @@ Eigen::Matrix3d guessed(const Vec3& theta, const Vec3& centre, double turn, doub
 }
 
 // Is the surface beside a text the one that it is on? Then the surface, fitted without the text, goes through the
-// text's centre and has its slant. A sign that stands off its wall is likely to be turned, too.
+// text's centre and has its slant, as far as its points tell that. A sign that stands off its wall is likely to be
+// turned, too.
 bool lies_on(std::vector<SurfacePoint> points, const Vec3& centre, double length, const Parameters& parameters,
              const TextObject& text) {
   erase_if(points, [](const SurfacePoint& p) { return !(p.beside > 0); });
@@ -63,7 +64,11 @@ bool lies_on(std::vector<SurfacePoint> points, const Vec3& centre, double length
   const double gap = std::abs(theta.dot(centre) - 1) / theta.norm();
   const double gap_sigma = std::sqrt(centre.dot(text.covariance * centre)) / theta.norm();
   const double turn = degrees_between(textplane::plane_normal(theta), textplane::plane_normal(text.theta));
-  const double turn_sigma = std::hypot(normal_sigma(text) / radians(1), parameters.surface_bend);
+  TextObject surface;
+  surface.theta = theta;
+  surface.covariance = covariance;
+  const double turn_sigma =
+      std::hypot(normal_sigma(text) / radians(1), normal_sigma(surface) / radians(1), parameters.surface_bend);
   return gap <= parameters.surface_gap * length + parameters.surface_sigmas * gap_sigma &&
          turn <= parameters.surface_sigmas * turn_sigma;
 }

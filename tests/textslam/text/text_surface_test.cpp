@@ -170,6 +170,30 @@ TEST_F(TextOnATableTest, ASurfaceThatIsTurnedFromAWellKnownTextIsAnother) {
   EXPECT_EQ(text.theta, before.theta);
 }
 
+// A dozen points beside a text do not tell a slant to two degrees: that theirs differs is no reason to leave them out.
+// Ten dozen do.
+TEST_F(TextOnATableTest, ASurfaceIsAnotherOnlyWhereItsPointsTellItsSlant) {
+  for (const int times : {1, 10}) {
+    map.points.clear();
+    for (KeyFrame& keyframe : map.keyframes) keyframe.points.clear();
+    for (int i = 0; i < 12 * times; ++i) {
+      const double x = 0.025 * (i % 6 - 2.5), y = i % 12 < 6 ? -0.06 : 0.06;
+      add(x, y, std::tan(2.3 * kDegree) * y, {0, 1, 2});
+    }
+    text.theta = turned(0);
+    text.covariance = known_to(0.0002);
+    ASSERT_LT(normal_sigma(text), 0.5 * kDegree);
+    const TextObject before = text;
+    fit_to_surface(map, parameters, text);
+    if (times == 1) {
+      EXPECT_GT(off(text.theta), 0.05);
+      EXPECT_LT(normal_sigma(text), normal_sigma(before));
+    } else {
+      EXPECT_EQ(text.theta, before.theta);
+    }
+  }
+}
+
 // A text of which nothing is known but where its host sees it.
 TEST_F(TextOnATableTest, PointsAloneGiveATextItsPlane) {
   for (int i = 0; i < 49; ++i)
