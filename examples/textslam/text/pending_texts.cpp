@@ -39,6 +39,7 @@ void PendingTexts::add(const Map& map, const Frame& frame, const SE3d& T_c_w,
     return p.map != map.number || !(frame.timestamp - p.seen <= parameters_.text_pending);
   });
   if (map.keyframes.empty()) return;
+  for (Pending& pending : all_) ++pending.count.shown;
   const SE3d T_w_c = T_c_w.inverse();
   for (const Detection& detection : detections) {
     const double depth = depth_about(map, parameters_, T_c_w, detection.quad);
@@ -46,7 +47,9 @@ void PendingTexts::add(const Map& map, const Frame& frame, const SE3d& T_c_w,
     Pending pending;
     pending.map = map.number;
     pending.seen = frame.timestamp;
-    pending.count += take(map, T_c_w, detection.quad);
+    pending.count = take(map, T_c_w, detection.quad);
+    ++pending.count.detections;
+    pending.count.shown = std::max(1, pending.count.shown);
     pending.newest = detection;
     for (std::size_t i = 0; i < 4; ++i)
       pending.corners[i] = T_w_c * Vec3(depth * map.camera.unproject(detection.quad.corner[i]));
@@ -58,18 +61,19 @@ std::vector<Detection> PendingTexts::carried_to(const Map& map, const SE3d& T_c_
   std::vector<Detection> carried;
   for (const Pending& pending : all_) {
     Detection detection = pending.newest;
-    if (pending.count >= 2 && project(map, T_c_w, pending, &detection.quad)) carried.push_back(std::move(detection));
+    if (pending.count.detections >= 2 && project(map, T_c_w, pending, &detection.quad))
+      carried.push_back(std::move(detection));
   }
   return carried;
 }
 
-int PendingTexts::take(const Map& map, const SE3d& T_c_w, const Quad<double>& quad) {
-  int count = 0;
+PendingTexts::Count PendingTexts::take(const Map& map, const SE3d& T_c_w, const Quad<double>& quad) {
+  Count count;
   erase_if(all_, [&](const Pending& pending) {
     Quad<double> there;
     if (!project(map, T_c_w, pending, &there) || textplane::iou(there, quad) < parameters_.text_confirm_iou)
       return false;
-    count = std::max(count, pending.count);
+    if (pending.count.detections > count.detections) count = pending.count;
     return true;
   });
   return count;

@@ -23,14 +23,17 @@ class PendingTexts {
   /// Those seen at least twice, where a frame of this pose shows them.
   std::vector<Detection> carried_to(const Map& map, const SE3d& T_c_w) const;
 
-  /// Forgets what lies on this quad in a frame of this pose. Returns in how many frames it was detected, 0 for none.
-  int take(const Map& map, const SE3d& T_c_w, const Quad<double>& quad);
+  struct Count {
+    int detections = 0, shown = 0;  ///< Frames that detected it, and frames with detections since the first of them.
+  };
+  /// Forgets what lies on this quad in a frame of this pose, and returns how often it was detected.
+  Count take(const Map& map, const SE3d& T_c_w, const Quad<double>& quad);
 
  private:
   struct Pending {
     int map = -1;  // its number: poses of other maps say nothing
     double seen = 0;
-    int count = 1;
+    Count count;
     Detection newest;
     std::array<Vec3, 4> corners;  // in the world
   };

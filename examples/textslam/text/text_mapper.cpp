@@ -142,7 +142,9 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
     text.host = id;
     text.patch = make_text_patch(map_, parameters_, id, detection.quad);
     if (!textplane::is_ok(text.patch.status)) continue;
-    text.detections = text.shown = std::max(1, pending_.take(map_, map_.keyframe(id).T_w_c.inverse(), detection.quad));
+    const PendingTexts::Count count = pending_.take(map_, map_.keyframe(id).T_w_c.inverse(), detection.quad);
+    text.detections = std::max(1, count.detections);
+    text.shown = std::max(1, count.shown);
     if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_);
     map_.texts.push_back(std::move(text));
   }

@@ -74,9 +74,23 @@ TEST_F(PendingTextsTest, WhatIsTakenIsCountedAndForgotten) {
   const SE3d T_c_w = at(-0.1, 0.6).inverse();
   Quad<double> elsewhere = quad_in(at(-0.1, 0.6));
   for (Vec2& corner : elsewhere.corner) corner.y() += 40;
-  EXPECT_EQ(pending.take(map, T_c_w, elsewhere), 0);
-  EXPECT_EQ(pending.take(map, T_c_w, quad_in(at(-0.1, 0.6))), 3);
-  EXPECT_EQ(pending.take(map, T_c_w, quad_in(at(-0.1, 0.6))), 0);
+  EXPECT_EQ(pending.take(map, T_c_w, elsewhere).detections, 0);
+  EXPECT_EQ(pending.take(map, T_c_w, quad_in(at(-0.1, 0.6))).detections, 3);
+  EXPECT_EQ(pending.take(map, T_c_w, quad_in(at(-0.1, 0.6))).detections, 0);
+}
+
+// Frames whose detections are all elsewhere could have shown it.
+TEST_F(PendingTextsTest, MissesCountToo) {
+  see(0, at(-0.2, 0.5));
+  Frame none;
+  for (const double time : {0.1, 0.2, 0.3}) {
+    none.timestamp = time;
+    pending.add(map, none, at(-0.2, 0.5).inverse(), {});
+  }
+  see(0.4, at(-0.2, 0.5));
+  const PendingTexts::Count count = pending.take(map, at(-0.2, 0.5).inverse(), quad_in(at(-0.2, 0.5)));
+  EXPECT_EQ(count.detections, 2);
+  EXPECT_EQ(count.shown, 5);
 }
 
 // A detector that misses every key frame.
