@@ -25,11 +25,14 @@ std::vector<Vector2<double>> displacements(const Scene& scene, const CameraModel
       Vector3<double> m;
       if (!textplane::is_ok(camera.unproject(px, &m))) continue;
       const Vector3<double> direction = T_w_c.R * m;
-      const Hit hit = scene.first_hit(T_w_c.t, direction);
+      const Hit hit = scene.first_hit(T_w_c.t, direction, middle);
       if (hit.surface < 0) continue;
       const Vector3<double> p = T_w_c.t + hit.distance * direction;
+      const Surface& surface = scene.surfaces()[static_cast<std::size_t>(hit.surface)];
+      const Vector3<double> p_before = surface.carried(p, middle, middle - 0.5 * duration);
+      const Vector3<double> p_after = surface.carried(p, middle, middle + 0.5 * duration);
       Vector2<double> a, b;
-      if (project(camera, before, p, &a) && project(camera, after, p, &b)) moves.push_back(b - a);
+      if (project(camera, before, p_before, &a) && project(camera, after, p_after, &b)) moves.push_back(b - a);
     }
   }
   return moves;
@@ -76,7 +79,8 @@ Image<double> expose(const Scene& scene, const RayCaster& caster, const Motion& 
   Image<double> sum(caster.camera().width, caster.camera().height);
   const std::vector<double> times = exposure_times(middle, exposure, instants);
   for (int i = 0; i < instants; ++i) {
-    caster.add(scene, motion(times[static_cast<std::size_t>(i)]), sample_at(i), kFootprint, 1.0 / instants, sum);
+    const double time = times[static_cast<std::size_t>(i)];
+    caster.add(scene, motion(time), sample_at(i), kFootprint, 1.0 / instants, sum, time);
   }
   return sum;
 }

@@ -18,6 +18,24 @@ struct Kind {
   int frames = 240;  // by default
 };
 
+// Interruptions, s; between two frames.
+constexpr double kCut = 100 / 30.0 - 1 / 60.0, kCutLength = 60 / 30.0;
+constexpr double kCovered = 140 / 30.0 - 1 / 60.0, kCoveredLength = 30 / 30.0;
+
+bool within(double t, double start, double length) { return t >= start && t < start + length; }
+
+Motion with_cut(const Motion& motion, const Motion& elsewhere) {
+  return [=](double t) { return within(t, kCut, kCutLength) ? elsewhere(t) : motion(t); };
+}
+
+SensorProgram with_cover(const SensorProgram& sensor) {
+  return [=](double t) {
+    SensorState state = sensor(t);
+    if (within(t, kCovered, kCoveredLength)) state.gain = 0.0;
+    return state;
+  };
+}
+
 const Kind kKinds[] = {
     {"room",
      [](const Context& c) {
@@ -79,6 +97,23 @@ const Kind kKinds[] = {
        RoomStyle style;
        style.carrier = RoomStyle::Carrier::pane;
        return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+     }},
+    {"crowd",
+     [](const Context& c) {
+       Shot shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor()};
+       add_crowd(shot.scene, c.seed);
+       return shot;
+     }},
+    {"cuts",
+     [](const Context& c) {
+       RoomStyle style;
+       style.all_round = true;
+       return Shot{make_room(c.seed, style), with_cut(room_motion(c.seed), loop_motion(c.seed)), 0.008,
+                   steady_sensor()};
+     }},
+    {"covered",
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, with_cover(steady_sensor())};
      }},
 };
 

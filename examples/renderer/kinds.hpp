@@ -39,6 +39,8 @@ struct RoomStyle {
 };
 Scene make_room(std::uint64_t seed, const RoomStyle& style);
 Scene make_corridor(std::uint64_t seed);
+/// Three people who walk to and fro across the room, at .5 to 1.5 m/s, two of them in front of the camera at first.
+void add_crowd(Scene& scene, std::uint64_t seed);
 
 }  // namespace textslam
 

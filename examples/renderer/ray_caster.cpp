@@ -47,11 +47,11 @@ void bound(const std::array<Vector3<double>, 4>& corner, Facet& facet) {
   }
 }
 
-std::vector<Facet> facets_in_view(const Scene& scene, const SE3d& T_w_c) {
+std::vector<Facet> facets_in_view(const Scene& scene, const SE3d& T_w_c, double time) {
   std::vector<Facet> facets;
   const Matrix3<double> R_c_w = T_w_c.R.transpose();
   for (const Surface& surface : scene.surfaces()) {
-    const Rectangle& r = surface.rectangle;
+    const Rectangle r = surface.at(time);
     const Vector3<double> to_eye = T_w_c.t - r.corner;
     const double height = r.normal().dot(to_eye);
     if (height < kDepthFloor) continue;  // seen from behind or edge on
@@ -138,8 +138,8 @@ Vector2<double> RayCaster::ray(int offset, int x, int y) const noexcept {
 }
 
 void RayCaster::add(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight,
-                    Image<double>& sum) const {
-  const std::vector<Facet> facets = facets_in_view(scene, T_w_c);
+                    Image<double>& sum, double time) const {
+  const std::vector<Facet> facets = facets_in_view(scene, T_w_c, time);
   const double step_x = footprint / camera_.pinhole().fx, step_y = footprint / camera_.pinhole().fy;
   std::array<Vector2<double>, kTile * kTile> rays;
   std::vector<const Facet*> candidates;

@@ -22,10 +22,11 @@ class RayCaster {
   /// Normalised point that the sample sees.
   Vector2<double> ray(int offset, int x, int y) const noexcept;
 
-  /// Adds weight * intensity to every pixel of `sum` (of the camera's size), seen from T_w_c at the sample `offset`.
+  /// Adds weight * intensity to every pixel of `sum` (of the camera's size), seen from T_w_c at the sample `offset`,
+  /// with the scene as it is at `time`.
   /// Textures are averaged over `footprint` pixels. A ray that leaves the scene adds nothing.
-  void add(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight,
-           Image<double>& sum) const;
+  void add(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight, Image<double>& sum,
+           double time = 0.0) const;
 
  private:
   CameraModel camera_;

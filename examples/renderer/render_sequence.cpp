@@ -92,7 +92,7 @@ class FrameWriter {
     save_png(options_.output + "/images/" + name + ".png", picture.view());
 
     const std::vector<Sign>& signs = shot_.scene.signs();
-    const std::vector<SignView> views = views_of_signs(shot_.scene, camera_, shot_.motion(time));
+    const std::vector<SignView> views = views_of_signs(shot_.scene, camera_, shot_.motion(time), time);
     write_file(options_.output + "/truth/quads/" + name + ".txt", format_truth_quads(views, signs));
     const Random random(hash(options_.seed, kDetectorStream, number));
     write_detections(options_.output + "/detections/" + name + ".txt",

@@ -50,6 +50,20 @@ Rectangle on(const Rectangle& wall, double s, double t, double width, double hei
   return r;
 }
 
+Rectangle Surface::at(double time) const {
+  if (!carrier) return rectangle;
+  const SE3d T = (*carrier)(time);
+  Rectangle moved = rectangle;
+  moved.corner = T * rectangle.corner;
+  moved.right = T.R * rectangle.right;
+  moved.down = T.R * rectangle.down;
+  return moved;
+}
+
+Vector3<double> Surface::carried(const Vector3<double>& p, double from, double to) const {
+  return carrier ? Vector3<double>((*carrier)(to) * ((*carrier)(from).inverse() * p)) : p;
+}
+
 void Scene::add(const Rectangle& rectangle, Canvas paint, bool corners_darken) {
   const Vector3<double> normal = rectangle.normal();
   const Image<float>& from = paint.pixels();
@@ -113,11 +127,16 @@ Vector3<double> Sign::at(double across, double down) const {
          radius * (std::cos(angle) - std::cos(half)) * normal;
 }
 
-Hit Scene::first_hit(const Vector3<double>& origin, const Vector3<double>& direction) const noexcept {
+void Scene::carry(std::size_t first, Motion motion) {
+  carriers_.push_back(std::move(motion));
+  for (std::size_t i = first; i < surfaces_.size(); ++i) surfaces_[i].carrier = &carriers_.back();
+}
+
+Hit Scene::first_hit(const Vector3<double>& origin, const Vector3<double>& direction, double time) const {
   Hit best;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     if (surfaces_[i].opacity) continue;
-    const Rectangle& r = surfaces_[i].rectangle;
+    const Rectangle r = surfaces_[i].at(time);
     const Vector3<double> normal = r.normal();
     const double approach = normal.dot(direction), height = normal.dot(origin - r.corner);
     if (!(approach < 0.0) || !(height > 0.0)) continue;

@@ -1,5 +1,5 @@
 // Scene: one-sided textured rectangles in the world (metres, z up), and the signs among them. Panes are rectangles that
-// let light through between their letters.
+// let light through between their letters. Some rectangles may move with time; signs stand.
 #ifndef TEXTSLAM_RENDERER_SCENE_HPP
 #define TEXTSLAM_RENDERER_SCENE_HPP
 
@@ -10,6 +10,7 @@
 
 #include "io/names.hpp"
 #include "renderer/canvas.hpp"
+#include "renderer/motion.hpp"
 #include "renderer/texture.hpp"
 
 namespace textslam {
@@ -34,9 +35,15 @@ Rectangle facing(const Vector3<double>& centre, const Vector3<double>& towards, 
 Rectangle on(const Rectangle& wall, double s, double t, double width, double height, double lift);
 
 struct Surface {
-  Rectangle rectangle;
+  Rectangle rectangle;  ///< In the world, or in the frame of what carries it.
   const Texture* texture;
   const Texture* opacity = nullptr;  ///< 255: opaque; null: opaque all over
+  const Motion* carrier = nullptr;   ///< null: it stands
+
+  /// Where it is at a time, in the world.
+  Rectangle at(double time) const;
+  /// Where a place on it in the world at one time is at another.
+  Vector3<double> carried(const Vector3<double>& p, double from, double to) const;
 };
 
 /// A word in the world. The corners are those of the text, not of its plate: clockwise from the text's top left as a
@@ -78,14 +85,18 @@ class Scene {
   /// `radius` of the upright cylinder that the text is written on, with the rectangle between its corners; 0: flat.
   void add_sign(std::string word, const Rectangle& text, double radius = 0.0);
 
+  /// The surfaces from number `first` on are in the moving frame (to the world) from here on.
+  void carry(std::size_t first, Motion motion);
+
   const std::vector<Surface>& surfaces() const noexcept { return surfaces_; }
   const std::vector<Sign>& signs() const noexcept { return signs_; }
 
-  /// The nearest surface that the ray meets beyond the distance 1e-9; panes hide nothing.
-  Hit first_hit(const Vector3<double>& origin, const Vector3<double>& direction) const noexcept;
+  /// The nearest surface that the ray meets at that time beyond the distance 1e-9; panes hide nothing.
+  Hit first_hit(const Vector3<double>& origin, const Vector3<double>& direction, double time = 0.0) const;
 
  private:
   std::deque<Texture> textures_;
+  std::deque<Motion> carriers_;
   std::vector<Surface> surfaces_;
   std::vector<Sign> signs_;
 };

@@ -10,13 +10,13 @@ namespace textslam {
 namespace {
 
 /// Whether the camera sees the place: inside the image, and the first thing on its ray.
-bool sees(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c, const SE3d& T_c_w,
-          const Vector3<double>& p) {
+bool sees(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c, const SE3d& T_c_w, const Vector3<double>& p,
+          double time) {
   Vector2<double> px;
   if (!project(camera, T_c_w, p, &px)) return false;
   if (px[0] < 0.0 || px[1] < 0.0 || px[0] > camera.width - 1 || px[1] > camera.height - 1) return false;
   // The sign itself is hit at distance 1; whatever is nearer hides it.
-  const Hit hit = scene.first_hit(T_w_c.t, p - T_w_c.t);
+  const Hit hit = scene.first_hit(T_w_c.t, p - T_w_c.t, time);
   return hit.surface < 0 || hit.distance > 1.0 - 1e-6;
 }
 
@@ -24,7 +24,7 @@ nlohmann::json as_json(const Vector3<double>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c) {
+std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c, double time) {
   constexpr int kColumns = 16, kRows = 6;
   const SE3d T_c_w = T_w_c.inverse();
   std::vector<SignView> views;
@@ -41,7 +41,8 @@ std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& came
     int seen = 0;
     for (int j = 0; j < kRows; ++j) {
       for (int i = 0; i < kColumns; ++i) {
-        seen += sees(scene, camera, T_w_c, T_c_w, sign.at((i + 0.5) / kColumns, (j + 0.5) / kRows)) ? 1 : 0;
+        const Vector3<double> p = sign.at((i + 0.5) / kColumns, (j + 0.5) / kRows);
+        seen += sees(scene, camera, T_w_c, T_c_w, p, time) ? 1 : 0;
       }
     }
     if (seen == 0) continue;

@@ -18,8 +18,10 @@ struct SignView {
   double cosine = 0.0;   ///< of the angle between the normal and the view to the centre
 };
 
-/// The signs that face the camera at T_w_c, stand in front of it with all corners, and of which something is visible.
-std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c);
+/// The signs that face the camera at T_w_c, stand in front of it with all corners, and of which something is visible at
+/// that time.
+std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c,
+                                     double time = 0.0);
 
 /// truth/quads/<stem>.txt: `x1,y1,x2,y2,x3,y3,x4,y4,text,sign,visible` a line; the numbers survive the round trip.
 std::string format_truth_quads(const std::vector<SignView>& views, const std::vector<Sign>& signs);

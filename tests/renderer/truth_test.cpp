@@ -237,7 +237,7 @@ TEST(RendererSequence, RefusesWhatItCannotRender) {
   EXPECT_THROW(render_sequence(tiny), InputError);
   const std::vector<std::string> kinds = render_kinds();
   for (const char* kind : {"room", "room-still", "corridor", "rapid", "lights", "night", "sparse", "notext", "loop",
-                           "standoff", "cylinders", "glass"}) {
+                           "standoff", "cylinders", "glass", "crowd", "cuts", "covered"}) {
     EXPECT_EQ(std::count(kinds.begin(), kinds.end(), kind), 1) << kind;
   }
 }
