@@ -20,6 +20,7 @@ void Initialiser::restart(const Frame& frame) {
   std::vector<Quad<double>> quads;
   if (parameters_.mode == Mode::text) quads = quads_of(frame.detections);
   add_corners(frame, 0, quads, parameters_, tracks_);
+  corners_ = static_cast<int>(tracks_.size());
   hypotheses_.clear();
 }
 
@@ -61,17 +62,20 @@ bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) 
   return motion && build(frame, *motion, map, tracks);
 }
 
-// Corners on texts are strong ones, and fewer of them do.
+// Corners on texts are strong ones, and fewer of them do. An image that shows few corners cannot lose many of them, and
+// the motion by them must be known as well as by many.
 int Initialiser::matches_needed() const {
-  if (parameters_.mode != Mode::text) return parameters_.init_min_matches;
+  const int share = static_cast<int>(parameters_.init_match_share * corners_);
+  const int fewest = std::min(parameters_.init_min_text_matches, parameters_.init_min_matches);
+  const int needed = std::clamp(share, fewest, parameters_.init_min_matches);
+  if (parameters_.mode != Mode::text) return needed;
   const std::vector<Quad<double>> quads = quads_of(reference_.detections);
   int on_text = 0;
   for (const Track& track : tracks_)
     on_text += std::any_of(quads.begin(), quads.end(), [&](const Quad<double>& quad) {
       return textplane::contains(quad, track.observations[0].px);
     });
-  return on_text >= parameters_.init_min_text_matches ? parameters_.init_min_text_matches
-                                                      : parameters_.init_min_matches;
+  return on_text >= parameters_.init_min_text_matches ? parameters_.init_min_text_matches : needed;
 }
 
 std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const Pinhole<double>& camera) {

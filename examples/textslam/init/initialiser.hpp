@@ -42,6 +42,7 @@ class Initialiser {
   const Parameters& parameters_;
   Frame reference_, last_;
   std::vector<Track> tracks_;    // observations: in the reference frame, then in the views of the hypotheses
+  int corners_ = 0;              // that the reference frame had
   MotionHypotheses hypotheses_;  // empty while two views may decide
   double began_ = 0;             // time of the frame that the hypotheses are from, s
 };

@@ -101,8 +101,23 @@ TEST_F(InitialiserTest, TwoSignsOnAWallStartTheMapAndGiveItsPlane) {
   for (const Track& track : tracks) EXPECT_LE(track.observations.size(), 2U);
 }
 
-TEST_F(InitialiserTest, AsManyCornersWithoutAWordThatTheyAreTextDoNot) {
+// An image that has no more corners than that starts the map where the motion is known well.
+TEST_F(InitialiserTest, FewCornersStartTheMapWithoutAWordThatTheyAreText) {
   parameters.mode = Mode::points;
+  const int frame = begin();
+  ASSERT_GT(frame, 0);
+  EXPECT_LT(map.points.size(), static_cast<std::size_t>(parameters.init_min_matches));
+  const double first = 0.03 * map.keyframe(0).frame.index, way = 0.03 * frame - first;
+  EXPECT_GT(way, 0);
+  const Vec3 t = map.keyframe(1).T_w_c.t;
+  const SE3d T_w_a = moved({first, -0.3 * first, 0.4 * first}, {0.1 * first, -0.15 * first, 0.05 * first});
+  const Vec3 truth = T_w_a.R.transpose() * Vec3(way, -0.3 * way, 0.4 * way);
+  EXPECT_GT(t.normalized().dot(truth.normalized()), std::cos(4 * M_PI / 180));
+}
+
+TEST_F(InitialiserTest, FewThatAreLeftOfManyDoNot) {
+  parameters.mode = Mode::points;
+  parameters.init_match_share = 1.5;  // more than there are
   EXPECT_EQ(begin(), -1);
   EXPECT_TRUE(map.keyframes.empty());
 }
