@@ -1,6 +1,6 @@
 """Mutants drawn at random: an operator, a comparison, a constant or a bound of a random line of include/."""
+import hashlib
 import pathlib
-import random
 import re
 
 # What stands instead of what; a line of code is formatted, so operators have spaces and templates have none.
@@ -93,6 +93,11 @@ def around(lines, number):
     return None
 
 
+def lot(seed, *parts):
+    """A number as if drawn, which no change elsewhere in the sources alters."""
+    return hashlib.sha256("\0".join([str(seed), *parts]).encode()).digest()
+
+
 def draw(include: pathlib.Path, count, seed):
     """`count` mutants as mutants.py has them: (header, text, text instead, tests)."""
     every = []
@@ -101,12 +106,10 @@ def draw(include: pathlib.Path, count, seed):
         if LEFT_OUT.search(header):
             continue
         lines = path.read_text().split("\n")
-        every += [(header, number, new) for number, line in enumerate(lines) for new in changes(line)]
-    drawn = []
-    for header, number, new in random.Random(seed).sample(every, min(count + count // 4, len(every))):
-        lines = (include / header).read_text().split("\n")
-        place = around(lines, number)
-        if place and len(drawn) < count:
-            old = place[1]
-            drawn.append((header, old, "\n".join([*lines[place[0]:number], new]), tests_of(header)))
-    return drawn
+        for number, line in enumerate(lines):
+            for new in changes(line):
+                place = around(lines, number)
+                if place:
+                    old, whole = place[1], "\n".join([*lines[place[0]:number], new])
+                    every.append((header, old, whole, tests_of(header)))
+    return sorted(every, key=lambda mutant: lot(seed, *mutant[:3]))[:count]

@@ -1,20 +1,47 @@
-"""Copies of the sources in which the tests of one mutant after another are built and run."""
+"""Copies of the sources in which tests are built with mutants that are switched on at run time, or with one alone."""
+import concurrent.futures
+import os
 import pathlib
+import re
+import resource
 import shutil
 import subprocess
 
+from switches import put
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+CXX = shutil.which("clang++") or "g++"
 FLAGS = ["-std=c++17", "-w", "-DTEXTPLANE_EXTERN_KERNELS", "-D_GLIBCXX_ASSERTIONS", "-Iinclude", "-Itests", "-isystem", "/usr/include/eigen3"]
-TIMEOUT = 300
+FLAGS += ["-ferror-limit=0", "-Wno-invalid-constexpr"] if "clang" in CXX else []
+SLOW = ("tests/solver/", "tests/support/")  # compiled with -O1, which takes longer: without it they run for seconds
 NO_CODE = "does not compile"
+SWITCH = """extern "C" int textplane_mutant;
+#define TEXTPLANE_MUTANT(number) (textplane_mutant == (number))
+"""
+CHOICE = """#include <cstdlib>
+extern "C" { int textplane_mutant; }
+__attribute__((constructor(101))) static void choose() {
+  const char* number = std::getenv("TEXTPLANE_MUTANT");
+  textplane_mutant = number ? std::atoi(number) : -1;
+}
+"""
+PCH = "#include <gtest/gtest.h>\n#include <Eigen/Dense>\n#include \"switch.hpp\"\n"
+PLACE = re.compile(r"include/textplane/(\S+?):(\d+)")
+
+
+class CompileError(Exception):
+    """What the compiler said."""
+
+
+def text_of(header):
+    return (ROOT / "include/textplane" / header).read_text()
 
 
 class Tree:
-    """A copy of the sources, objects of the whole code, and programs of the broken one."""
+    """A copy of the sources with {number: (header, text, text instead)} in it, its objects and programs."""
 
-    def __init__(self, path, all_targets):
-        self.path = path
-        self.passed = set()
+    def __init__(self, path, all_targets, mutants):
+        self.path, self.mutants, self.lines, self.seconds = path, dict(mutants), {}, {}
         if self.path.exists():
             shutil.rmtree(self.path)
         for folder in ("include", "tests", "cmake"):
@@ -24,30 +51,75 @@ class Tree:
             text = targets.read_text()
             assert text.count("#if defined(__x86_64__)\n") == 1
             targets.write_text(text.replace("#if defined(__x86_64__)\n", "#if 0\n"))
-        (self.path / "all.hpp").write_text("#include <gtest/gtest.h>\n#include <Eigen/Core>\n#include <Eigen/Geometry>\n")
         self.objects = self.path / "objects"
         self.objects.mkdir()
-        self.command(["g++", *FLAGS, "-O0", "-x", "c++-header", "all.hpp"])
+        for name, text in (("switch.hpp", SWITCH), ("choice.cpp", CHOICE)):
+            (self.path / name).write_text(text)
+        for level in "01":
+            (self.path / f"all{level}.hpp").write_text(PCH)
+            self.command([CXX, *FLAGS, "-O" + level, "-x", "c++-header", f"all{level}.hpp", "-o", f"all{level}.hpp.gch"])
+        self.command([CXX, "-O1", "-c", "choice.cpp", "-o", "objects/choice.o"])
+        for header in {mutant[0] for mutant in self.mutants.values()}:
+            self.put(header)
 
     def command(self, words):
-        return subprocess.run(words, cwd=self.path, check=True, capture_output=True, timeout=900)
+        try:
+            subprocess.run(words, cwd=self.path, check=True, capture_output=True, timeout=1800)
+        except subprocess.CalledProcessError as error:
+            raise CompileError((error.stdout + error.stderr).decode(errors="replace")) from None
 
-    def compile(self, source, name):
+    def put(self, header):
+        """Writes a header with its mutants."""
+        text, lines = put(text_of(header), [(n, m[1], m[2]) for n, m in self.mutants.items() if m[0] == header])
+        (self.path / "include/textplane" / header).write_text(text)
+        for number in [n for n, m in self.mutants.items() if m[0] == header]:
+            if number in lines:
+                self.lines[number] = lines[number]
+            else:
+                del self.mutants[number]
+
+    def drop(self, said):
+        """Takes out the mutants that the compiler named; whether there were any."""
+        places = {(header, int(line)) for header, line in PLACE.findall(said)}
+        named = [n for n, (header, *_) in self.mutants.items()
+                 if any((header, line) in places for line in range(self.lines[n][0], self.lines[n][1] + 1))]
+        headers = {self.mutants.pop(n)[0] for n in named}
+        for header in headers:
+            self.put(header)
+        return bool(named)
+
+    def object_of(self, source):
+        return self.objects / (source.replace("/", "_") + ".o")
+
+    def compile(self, source):
         """An object of `source`, and what it depends on."""
         kernels = source == "cmake/kernels.cpp"
-        extra = ["-O1"] if kernels or source.endswith("dense.cpp") else ["-O0", "-include", "all.hpp"]
-        target = self.objects / (name + ".o")
-        self.command(["g++", *FLAGS, *extra, "-MMD", "-MF", str(target) + ".d", "-c", source, "-o", str(target)])
-        return target
+        level = "1" if kernels or source.startswith(SLOW) else "0"
+        extra = ["-O" + level, "-include", "switch.hpp" if kernels else f"all{level}.hpp"]
+        target = str(self.object_of(source))
+        self.command([CXX, *FLAGS, *extra, "-MMD", "-MF", target + ".d", "-c", source, "-o", target + ".new"])
+        os.replace(target + ".new", target)
 
-    def whole(self, source):
-        """The object of the unbroken source; compiled when first asked for."""
-        name = source.replace("/", "_")
-        target = self.objects / (name + ".o")
-        return target if target.exists() else self.compile(source, name)
+    def compile_all(self, sources, jobs):
+        """Compiles what has no object yet, without the mutants that do not compile."""
+        todo = [source for source in sources if not self.object_of(source).exists()]
+        while todo:
+            with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+                errors = dict(zip(todo, pool.map(self.trouble, todo)))
+            todo = [source for source, said in errors.items() if said]
+            dropped = [self.drop(errors[source]) for source in todo]
+            if todo and not any(dropped):
+                raise RuntimeError(errors[todo[0]][:4000])
+
+    def trouble(self, source):
+        try:
+            self.compile(source)
+            return None
+        except CompileError as error:
+            return str(error)
 
     def depends(self, source, header):
-        text = pathlib.Path(str(self.whole(source)) + ".d").read_text().replace("\\\n", " ")
+        text = pathlib.Path(str(self.object_of(source)) + ".d").read_text().replace("\\\n", " ")
         return bool({header, "include/" + header} & set(text.split())) or header == source
 
     def sources(self, test):
@@ -56,25 +128,33 @@ class Tree:
         linked = {"textplane/simd/targets.hpp": "cmake/kernels.cpp", "tests/support/dense.hpp": "tests/support/dense.cpp"}
         return [source, *(other for header, other in linked.items() if self.depends(source, header))]
 
-    def run(self, test, header=None, broken=None):
-        """Which test failed, or None; objects that `header` is part of are compiled anew, once for one dict `broken`."""
-        broken = {} if broken is None else broken
-        sources = self.sources(test)
-        objects = []
+    def build(self, tests, jobs=1):
+        """Builds the programs of tests, and sees that they pass with every mutant off."""
+        self.compile_all([f"tests/{test}.cpp" for test in tests], jobs)
+        self.compile_all({source for test in tests for source in self.sources(test)}, jobs)
+        for test in tests:
+            if test not in self.seconds:
+                self.link(test, self.program(test))
+                before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+                trouble = self.run(test, -1, 600)
+                if trouble:
+                    raise RuntimeError(f"without any mutant: {trouble}")
+                self.seconds[test] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+    def link(self, test, program):
+        objects = [str(self.object_of(source)) for source in self.sources(test)]
+        self.command([CXX, *objects, "objects/choice.o", "-o", program, "-lgtest_main", "-lgtest", "-lpthread"])
+
+    def program(self, test):
+        return "program_" + test.replace("/", "_")
+
+    def run(self, test, number, most=None, program=None):
+        """Which test failed with a mutant on, or None. `most`: seconds of CPU time; five times the usual ones at first."""
+        most = int(most or 5 * self.seconds[test] + 5)
         try:
-            for source in sources:
-                if not header or not self.depends(source, header):
-                    objects.append(self.whole(source))
-                    continue
-                if source not in broken:
-                    try:
-                        broken[source] = self.compile(source, "broken_" + source.replace("/", "_"))
-                    except subprocess.CalledProcessError:
-                        return NO_CODE
-                objects.append(broken[source])
-            self.command(["g++", *map(str, objects), "-o", "program", "-lgtest_main", "-lgtest", "-lpthread"])
-            subprocess.run(["./program", "--gtest_brief=1", "--gtest_fail_fast"], cwd=self.path, check=True, capture_output=True,
-                           timeout=TIMEOUT)
+            limit = ["sh", "-c", f"ulimit -t {most} -c 0 -v 8000000; exec \"$@\"", "sh"]
+            subprocess.run([*limit, "./" + (program or self.program(test)), "--gtest_brief=1", "--gtest_fail_fast"], cwd=self.path, check=True,
+                           capture_output=True, timeout=20 * most, env={**os.environ, "TEXTPLANE_MUTANT": str(number)})
             return None
         except subprocess.TimeoutExpired:
             return f"{test}: hangs"
@@ -82,3 +162,32 @@ class Tree:
             lines = (error.stdout + error.stderr).decode(errors="replace").splitlines()
             failed = [line.split("]")[1].split(",")[0].strip() for line in lines if "[  FAILED  ]" in line and "." in line]
             return f"{test}: {failed[0] if failed else 'ends with ' + str(error.returncode)}"
+
+
+class Alone:
+    """A copy of the sources with one mutant at a time in it, for those that cannot be switched."""
+
+    def __init__(self, path, all_targets):
+        self.tree = Tree(path, all_targets, {})
+
+    def run(self, test, mutant):
+        """Which test failed, or None; what the header is part of is compiled anew."""
+        header, old, new = mutant[:3]
+        tree, path = self.tree, self.tree.path / "include/textplane" / header
+        tree.build([test])
+        whole = path.read_text()
+        stale = [source for source in tree.sources(test) if tree.depends(source, "textplane/" + header)]
+        kept = {source: pathlib.Path(str(tree.object_of(source)) + ".whole") for source in stale}
+        try:
+            for source, other in kept.items():
+                os.replace(tree.object_of(source), other)
+            path.write_text(whole.replace(old, new))
+            for source in stale:
+                if tree.trouble(source):
+                    return NO_CODE
+            tree.link(test, "program_alone")
+            return tree.run(test, -1, program="program_alone")
+        finally:
+            path.write_text(whole)
+            for source, other in kept.items():
+                os.replace(other, tree.object_of(source))
