@@ -147,6 +147,20 @@ TEST(AlignTemplate, ReobservesAWarpedPatchToAFewHundredthsOfAPixel) {
   EXPECT_LT(error.back(), 0.08);
 }
 
+// The smallest contrast that is asked for is enough, in a target that has more.
+TEST(AlignTemplate, TheLeastContrastIsEnough) {
+  const TexturedPlane plane(5);
+  const Image<std::uint8_t> host = plane.render(Matrix3d::Identity(), 320, 240, {0.5, 20, 0, 0, 0}, 1),
+                            target = plane.render(Matrix3d::Identity(), 320, 240, {1, 0, 0, 0, 0}, 2);
+  PointPatch t;
+  ASSERT_EQ(extract_point_patch(host.view(), {100, 100}, Eigen::Matrix2f::Identity(), 7, &t), Status::ok);
+  KltOptions options;
+  options.min_contrast = t.contrast();
+  EXPECT_EQ(align_point_patch(t, target.view(), {100.4F, 99.7F}, options).status, Status::converged);
+  options.min_contrast = std::nextafter(t.contrast(), 100.0F);
+  EXPECT_EQ(align_point_patch(t, target.view(), {100.4F, 99.7F}, options).status, Status::no_contrast);
+}
+
 TEST(AlignTemplate, FailuresAreStatusesWithoutNan) {
   const Image<std::uint8_t> image = textured();
   PointPatch t, bad;

@@ -94,6 +94,57 @@ TEST(SelectPixels, TakesTheBordersToo) {
     }
 }
 
+// A quad that is higher than the image is wide to its right, and the last row of it.
+TEST(SelectPixels, TakesTheLastRowOfAHighQuad) {
+  Image<std::uint8_t> image(60, 100, 50);
+  for (int y = 81; y < 100; ++y)
+    for (int x = 0; x < 60; ++x) image(x, y) = 200;
+  std::vector<Vector2f> pixels;
+  ASSERT_EQ(select_pixels(image.view(), quad_of(5, 20, 55, 20, 55, 80, 5, 80), SelectOptions(), pixels), Status::ok);
+  for (const Vector2f& p : pixels) EXPECT_EQ(p[1], 80);
+}
+
+// Fewer pixels than cells were asked for: each at most once.
+TEST(SelectPixels, HandlesQuadsOfFewPixels) {
+  const Image<std::uint8_t> image = textured();
+  const Quad<double> quad = quad_of(100, 100, 111, 100, 111, 108, 100, 108);
+  std::vector<Vector2f> pixels;
+  ASSERT_EQ(select_pixels(image.view(), quad, SelectOptions(), pixels), Status::ok);
+  EXPECT_LE(pixels.size(), 12U * 9U);
+  expect_distinct_integers_inside(pixels, quad, 320, 240);
+}
+
+// The gradient of a step is half of its height, on both sides of it.
+TEST(SelectPixels, TakesGradientsFromTheLeastOn) {
+  const Quad<double> quad = quad_of(10, 10, 90, 10, 90, 90, 10, 90);
+  SelectOptions options;
+  options.lowest_fast_threshold = options.fast_threshold = 255;  // no corners
+  std::vector<Vector2f> pixels;
+  for (const int step : {9, 10, 11, 39, 40, 41}) {
+    Image<std::uint8_t> image(100, 100, 50);
+    for (int y = 0; y < 100; ++y)
+      for (int x = 50; x < 100; ++x) image(x, y) = static_cast<std::uint8_t>(50 + step);
+    for (const float least : {5.0F, 20.0F}) {
+      options.min_gradient = least;
+      EXPECT_EQ(select_pixels(image.view(), quad, options, pixels),
+                0.5F * static_cast<float>(step) >= least ? Status::ok : Status::too_few)
+          << step << ' ' << least;
+    }
+  }
+}
+
+// The paper takes no object of fewer than 15 pixels.
+TEST(SelectPixels, FifteenPixelsAreEnough) {
+  const Image<std::uint8_t> image = textured();
+  const Quad<double> quad = quad_of(60, 40, 250, 60, 245, 160, 70, 150);
+  SelectOptions options;
+  std::vector<Vector2f> pixels;
+  options.max_pixels = 15;
+  EXPECT_EQ(select_pixels(image.view(), quad, options, pixels), Status::ok);
+  options.max_pixels = 14;
+  EXPECT_EQ(select_pixels(image.view(), quad, options, pixels), Status::too_few);
+}
+
 TEST(SelectPixels, HandlesQuadsAtAndBeyondTheBorder) {
   const Image<std::uint8_t> image = textured();
   std::vector<Vector2f> pixels;
@@ -135,6 +186,16 @@ TEST(SelectSpread, StrongestOfEveryFreeCell) {
   EXPECT_EQ(out[0].score, 40);
   select_spread(corners, 30, 20, 0, 2, {}, out);
   EXPECT_TRUE(out.empty());
+}
+
+// One pixel more than a whole number of cells: the last column and row are cells of their own.
+TEST(SelectSpread, TheLastColumnAndRowAreCells) {
+  const std::vector<Corner> corners = {{5, 5, 10}, {20, 5, 20}, {5, 20, 30}, {20, 20, 40}, {19, 19, 50}, {20, 19, 5}};
+  std::vector<Corner> out;
+  select_spread(corners, 21, 21, 10, 100, {}, out);
+  std::vector<float> scores;
+  for (const Corner& c : out) scores.push_back(c.score);
+  EXPECT_EQ(scores, (std::vector<float>{50, 40, 30, 20, 10, 5}));
 }
 
 TEST(SelectSpread, IgnoresPointsThatAreNotNumbers) {

@@ -34,12 +34,14 @@ TESTS = [
     ("photometry/text_batch", "simd/batch_kernels_test simd/batch_visibility_test"),
     ("photometry/candidates", "simd/zncc_kernels_test solver/policy_test"), ("photometry/zncc", "photometry/zncc_test"),
     ("photometry/sample", "photometry/sample_test photometry/guard_pages_test"), ("photometry/pyramid", "photometry/pyramid_test"),
-    ("photometry/patch", "photometry/patch_test features/select_test"),
+    ("photometry/patch", "photometry/patch_test photometry/local_contrast_test features/select_test"),
     ("photometry/template_patch", "simd/template_kernels_test simd/zncc_kernels_test"),
     ("photometry/warp_patch", "simd/warp_kernels_test simd/warp_edges_test"),
     ("photometry/world_parameters", "simd/residual_kernels_test photometry/residual_jacobian_test"),
-    ("photometry/photometric_input", "solver/align_pose_test solver/policy_test"),
+    ("photometry/photometric_input", "photometry/patch_test solver/align_pose_test solver/policy_test"),
     ("photometry/residual_policy", "photometry/residual_policy_test simd/esm_kernels_test"),
+    ("photometry/residual_reference", "photometry/residual_policy_test photometry/residual_jacobian_test photometry/visible_set_test "
+                                      "photometry/residual_status_test"),
     ("photometry/", "photometry/residual_jacobian_test photometry/residual_status_test photometry/visible_set_test "
                     "simd/residual_visibility_test simd/residual_kernels_test photometry/residual_cost_test"),
     ("simd/kernels/residual/batch|simd/batch", "simd/batch_kernels_test simd/batch_visibility_test simd/stated_bounds_test"),
@@ -48,8 +50,12 @@ TESTS = [
     ("simd/kernels/zncc|simd/zncc", "simd/zncc_kernels_test"), ("simd/(kernels/)?klt", "simd/klt_kernels_test features/klt_test"),
     ("simd/(kernels/)?fast", "simd/fast_kernels_test"), ("simd/(kernels/)?halve", "simd/halve_kernels_test"),
     ("simd/(kernels/)?warp", "simd/warp_kernels_test simd/warp_edges_test"),
+    ("simd/kernels/residual/(collect|frame)", "simd/residual_visibility_test simd/residual_kernels_test simd/esm_kernels_test "
+                                              "simd/batch_kernels_test simd/tiles_test"),
     ("simd/kernels/(sample|points)|simd/sample", "simd/sample_points_test simd/residual_kernels_test simd/residual_visibility_test"),
     ("simd/(kernels/)?robust", "simd/robust_kernels_test"),
+    ("simd/ops/", "simd/ops/bytes_kernels_test simd/ops/vec_test simd/ops/robust_ops_test simd/residual_kernels_test "
+                  "simd/batch_kernels_test simd/klt_kernels_test simd/sample_points_test"),
     ("simd/", "simd/residual_kernels_test simd/residual_visibility_test simd/robust_kernels_test simd/stated_bounds_test "
               "simd/batch_kernels_test simd/warp_kernels_test"),
     ("solver/window", "solver/window_linear_test solver/window_test solver/window_input_test solver/window_gauge_test "

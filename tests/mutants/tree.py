@@ -12,8 +12,13 @@ from switches import put
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 CXX = shutil.which("clang++") or "g++"
 FLAGS = ["-std=c++17", "-w", "-DTEXTPLANE_EXTERN_KERNELS", "-D_GLIBCXX_ASSERTIONS", "-Iinclude", "-Itests", "-isystem", "/usr/include/eigen3"]
-FLAGS += ["-ferror-limit=0", "-Wno-invalid-constexpr"] if "clang" in CXX else []
-SLOW = ("tests/solver/", "tests/support/")  # compiled with -O1, which takes longer: without it they run for seconds
+if "clang" in CXX:
+    FLAGS += ["-ferror-limit=0", "-Wno-invalid-constexpr", "-fsanitize=bounds", "-fsanitize-trap=bounds"]
+# Slow tests are compiled with -O1, which takes longer: they run for half a minute without it.
+SLOW = ("tests/solver/", "tests/support/", "tests/features/", "tests/geometry/plane_fit", "tests/geometry/triangulate")
+# What defines things that these headers declare.
+LINKED = {"textplane/simd/targets.hpp": "cmake/kernels.cpp", "tests/support/dense.hpp": "tests/support/dense.cpp",
+          "textplane/geometry/plane_fit.hpp": "cmake/kernels.cpp"}
 NO_CODE = "does not compile"
 SWITCH = """extern "C" int textplane_mutant;
 #define TEXTPLANE_MUTANT(number) (textplane_mutant == (number))
@@ -40,8 +45,8 @@ def text_of(header):
 class Tree:
     """A copy of the sources with {number: (header, text, text instead)} in it, its objects and programs."""
 
-    def __init__(self, path, all_targets, mutants):
-        self.path, self.mutants, self.lines, self.seconds = path, dict(mutants), {}, {}
+    def __init__(self, path, all_targets, mutants, flags=()):
+        self.path, self.mutants, self.lines, self.seconds, self.flags = path, dict(mutants), {}, {}, [*FLAGS, *flags]
         if self.path.exists():
             shutil.rmtree(self.path)
         for folder in ("include", "tests", "cmake"):
@@ -57,7 +62,7 @@ class Tree:
             (self.path / name).write_text(text)
         for level in "01":
             (self.path / f"all{level}.hpp").write_text(PCH)
-            self.command([CXX, *FLAGS, "-O" + level, "-x", "c++-header", f"all{level}.hpp", "-o", f"all{level}.hpp.gch"])
+            self.command([CXX, *self.flags, "-O" + level, "-x", "c++-header", f"all{level}.hpp", "-o", f"all{level}.hpp.gch"])
         self.command([CXX, "-O1", "-c", "choice.cpp", "-o", "objects/choice.o"])
         for header in {mutant[0] for mutant in self.mutants.values()}:
             self.put(header)
@@ -93,11 +98,12 @@ class Tree:
 
     def compile(self, source):
         """An object of `source`, and what it depends on."""
-        kernels = source == "cmake/kernels.cpp"
-        level = "1" if kernels or source.startswith(SLOW) else "0"
-        extra = ["-O" + level, "-include", "switch.hpp" if kernels else f"all{level}.hpp"]
+        kernels, operations = source == "cmake/kernels.cpp", source.startswith("tests/simd/ops/")
+        level = "1" if kernels or operations or source.startswith(SLOW) else "0"
+        extra = ["-O" + level, "-include", "switch.hpp" if kernels or operations else f"all{level}.hpp"]
+        extra += ["-UTEXTPLANE_EXTERN_KERNELS"] if operations else []  # they have kernels of their own
         target = str(self.object_of(source))
-        self.command([CXX, *FLAGS, *extra, "-MMD", "-MF", target + ".d", "-c", source, "-o", target + ".new"])
+        self.command([CXX, *self.flags, *extra, "-MMD", "-MF", target + ".d", "-c", source, "-o", target + ".new"])
         os.replace(target + ".new", target)
 
     def compile_all(self, sources, jobs):
@@ -123,10 +129,9 @@ class Tree:
         return bool({header, "include/" + header} & set(text.split())) or header == source
 
     def sources(self, test):
-        """The test's file, and what it is linked with: kernels and dense matrices only where it includes their headers."""
+        """The test's file, and what it is linked with, by the headers that it includes."""
         source = f"tests/{test}.cpp"
-        linked = {"textplane/simd/targets.hpp": "cmake/kernels.cpp", "tests/support/dense.hpp": "tests/support/dense.cpp"}
-        return [source, *(other for header, other in linked.items() if self.depends(source, header))]
+        return [source, *sorted({other for header, other in LINKED.items() if self.depends(source, header)})]
 
     def build(self, tests, jobs=1):
         """Builds the programs of tests, and sees that they pass with every mutant off."""
@@ -143,7 +148,7 @@ class Tree:
 
     def link(self, test, program):
         objects = [str(self.object_of(source)) for source in self.sources(test)]
-        self.command([CXX, *objects, "objects/choice.o", "-o", program, "-lgtest_main", "-lgtest", "-lpthread"])
+        self.command([CXX, *self.flags, *objects, "objects/choice.o", "-o", program, "-lgtest_main", "-lgtest", "-lpthread"])
 
     def program(self, test):
         return "program_" + test.replace("/", "_")
@@ -152,9 +157,10 @@ class Tree:
         """Which test failed with a mutant on, or None. `most`: seconds of CPU time; five times the usual ones at first."""
         most = int(most or 5 * self.seconds[test] + 5)
         try:
-            limit = ["sh", "-c", f"ulimit -t {most} -c 0 -v 8000000; exec \"$@\"", "sh"]
+            limit = ["sh", "-c", f"ulimit -t {most} -c 0{'' if self.flags[len(FLAGS):] else ' -v 8000000'}; exec \"$@\"", "sh"]
             subprocess.run([*limit, "./" + (program or self.program(test)), "--gtest_brief=1", "--gtest_fail_fast"], cwd=self.path, check=True,
-                           capture_output=True, timeout=20 * most, env={**os.environ, "TEXTPLANE_MUTANT": str(number)})
+                           capture_output=True, timeout=20 * most,
+                           env={**os.environ, "TEXTPLANE_MUTANT": str(number), "ASAN_OPTIONS": "detect_leaks=0"})
             return None
         except subprocess.TimeoutExpired:
             return f"{test}: hangs"
@@ -165,10 +171,12 @@ class Tree:
 
 
 class Alone:
-    """A copy of the sources with one mutant at a time in it, for those that cannot be switched."""
+    """A copy of the sources with one mutant at a time in it, for those that cannot be switched.
+
+    Most of those are sizes of arrays, so AddressSanitizer looks on."""
 
     def __init__(self, path, all_targets):
-        self.tree = Tree(path, all_targets, {})
+        self.tree = Tree(path, all_targets, {}, ["-fsanitize=address"])
 
     def run(self, test, mutant):
         """Which test failed, or None; what the header is part of is compiled anew."""

@@ -110,6 +110,7 @@ TEST(Blur, AKernelHasTheCovarianceAskedFor) {
   for (const Matrix2d& wanted :
        {covariance(0.4, 0, 0.4), covariance(1, 0.3, 0.7), covariance(4, -1.5, 1.2), covariance(2, 0, 0.3)}) {
     const BlurKernel kernel(wanted);
+    EXPECT_EQ(kernel.width(), 2 * kernel.radius() + 1);
     double sum = 0;
     Vector2<double> mean = Vector2<double>::Zero();
     Matrix2d second = Matrix2d::Zero();

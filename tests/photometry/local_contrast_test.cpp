@@ -44,6 +44,18 @@ TEST(LocalContrast, IsItsDefinitionUpToTheBorder) {
   }
 }
 
+// The memory of one image does for a wider one.
+TEST(LocalContrast, GrowsWithItsImages) {
+  LocalContrast contrast;
+  for (const int width : {20, 31, 45, 70, 400}) {
+    const Image<std::uint8_t> image = noise(width, 15, 7);
+    Image<std::uint8_t> out(width, 15);
+    ASSERT_EQ(contrast(image.view(), 0, 0, out.view()), Status::ok);
+    for (int y = 0; y < 15; ++y)
+      for (int x = 0; x < width; ++x) ASSERT_NEAR(out(x, y), expected(image.view(), {}, x, y), 0.51) << x << ' ' << y;
+  }
+}
+
 TEST(LocalContrast, EvenPlacesAreGreyWhateverTheirBrightness) {
   for (const int grey : {0, 97, 255}) {
     const Image<std::uint8_t> image(30, 20, static_cast<std::uint8_t>(grey));

@@ -30,22 +30,35 @@ struct Object {
   tp::PatchView view() const { return {x.data(), y.data(), intensity.data(), nullptr, kSide * kSide}; }
 };
 
-TEST(BatchVisibility, IsThatOfTheReferenceAtEveryBorder) {
-  const tp::Image<std::uint8_t> image = texture<std::uint8_t>(kWidth, kHeight, 3);
-  const tp::Pinhole<double> camera(80, 80, 31.3, 23.8);
+// Objects that this rotation brings to the borders of the image.
+std::vector<Object> objects_at_borders(const tp::Pinhole<double>& camera, const tp::Matrix3<double>& R) {
   std::vector<Object> objects;
+  const auto put = [&](double x, double y, double spacing) {
+    const tp::Vector2<double> host = camera.project(R.transpose() * camera.unproject({x, y}));
+    objects.emplace_back(host[0], host[1], spacing);
+  };
   for (const double spacing : {0.011, 0.1, 0.31})
     for (double d = -1.0; d <= 1.0; d += 0.1) {
       const double off = d + 0.037;  // no sample on the border itself
-      for (const double x : {off, kWidth - 1 + off}) objects.emplace_back(x, 20.4, spacing);
-      for (const double y : {off, kHeight - 1 + off}) objects.emplace_back(30.4, y, spacing);
+      for (const double x : {off, kWidth - 1 + off}) put(x, 20.4, spacing);
+      for (const double y : {off, kHeight - 1 + off}) put(30.4, y, spacing);
     }
+  return objects;
+}
+
+TEST(BatchVisibility, IsThatOfTheReferenceAtEveryBorder) {
+  const tp::Image<std::uint8_t> image = texture<std::uint8_t>(kWidth, kHeight, 3);
+  const tp::Pinhole<double> camera(80, 80, 31.3, 23.8);
   tp::PhotometricOptions o;
   o.min_visible = 1;
   o.min_contrast = 0;
   const tp::Vector3<double> theta(0, 0, 0.5);
   const tp::SE3d nearly = tp::se3_exp<double>((tp::Vector6<double>() << 0, 0, 0, 1e-4, -2e-4, 0.001).finished());
-  for (const tp::SE3d& T : {tp::SE3d{}, nearly}) {
+  tp::SE3d turned;  // by a right angle, exactly
+  turned.R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  for (const tp::SE3d& T : {tp::SE3d{}, nearly, turned}) {
+    const std::vector<Object> objects =
+        objects_at_borders(camera, T.R(0, 0) > 0 ? tp::Matrix3<double>::Identity() : T.R);
     std::vector<tp::TextBatchItem> items;
     for (const Object& object : objects) items.push_back({object.view(), camera, theta});
     const std::vector<tp::SE3d> poses(items.size(), T);

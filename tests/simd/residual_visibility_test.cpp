@@ -110,6 +110,38 @@ TEST(ResidualVisibility, ExactlyOnTheBorders) {
   EXPECT_EQ(tp::evaluate(tp::ResidualRequest{in, theta, right, any_options()}, workspace).visible, 23 * 36);
 }
 
+// A patch at half its size whose last column or row is a third of a thousandth of a pixel inside the image or outside.
+TEST(ResidualVisibility, CloseToTheBorders) {
+  const auto image = texture<std::uint8_t>(37, 23, 5);
+  std::vector<float> x, y, v;
+  Random random(4);
+  for (int r = 5; r <= 12; ++r)
+    for (int c = 10; c <= 20; ++c) {
+      x.push_back(static_cast<float>(c));
+      y.push_back(static_cast<float>(r));
+      v.push_back(static_cast<float>(random.integer(1, 250)));
+    }
+  tp::PhotometricInput in;
+  in.patch = {x.data(), y.data(), v.data(), nullptr, static_cast<int>(x.size())};
+  in.host_camera = tp::Pinhole<double>(64, 64, 16, 8);
+  in.target = image.view();
+  tp::PhotometricWorkspace workspace(in.patch.n);
+  for (const double out : {-3e-4, 3e-4}) {
+    const double cx[4] = {3 - out, 34 + out, 18, 18}, cy[4] = {11, 11, 1.5 - out, 20 + out};
+    for (int side = 0; side < 4; ++side) {
+      SCOPED_TRACE(side);
+      in.target_camera = tp::Pinhole<double>(32, 32, cx[side], cy[side]);
+      const int seen = out < 0 ? 88 : side < 2 ? 80 : 77;
+      for (const simd::Target target : testable_targets()) {
+        const TargetScope scope(target);
+        const tp::ResidualRequest request{in, tp::Vector3<double>(0, 0, 0.5), tp::SE3d(), any_options()};
+        EXPECT_EQ(tp::evaluate(request, workspace).visible, seen) << simd::to_string(target);
+        EXPECT_EQ(tp::linearise<tp::Parameters::pose>(request, workspace).visible, seen) << simd::to_string(target);
+      }
+    }
+  }
+}
+
 // Planes that cut through the patch's rays and cameras that look away, in general position.
 TEST(ResidualVisibility, BehindTheCameras) {
   Random random(21);

@@ -163,6 +163,26 @@ TEST(GaussNewton, RejectsImpossibleOptions) {
   EXPECT_EQ(status([](SolveOptions& o) { o.initial_lambda = 0; }), Status::invalid_argument);
   EXPECT_EQ(status([](SolveOptions& o) { o.max_lambda = 0; }), Status::invalid_argument);
 }
+
+TEST(GaussNewton, ZeroTurnsATestOff) {
+  for (double SolveOptions::*member :
+       {&SolveOptions::step_tolerance, &SolveOptions::cost_tolerance, &SolveOptions::stall_tolerance,
+        &SolveOptions::diagonal_floor, &SolveOptions::rank_tolerance, &SolveOptions::max_lost_fraction}) {
+    SolveOptions options;
+    options.max_iterations = 100;
+    for (const double value : {0.0, -1e-9}) {
+      options.*member = value;
+      Rosenbrock problem;
+      Eigen::Vector2d x(-1.2, 1);
+      const Status s = minimise(problem, x, options).status;
+      EXPECT_EQ(s == Status::invalid_argument, value < 0);
+      if (value == 0) {
+        EXPECT_LT((x - Eigen::Vector2d(1, 1)).norm(), 1e-3);
+      }
+    }
+  }
+}
+
 // A set that shrinks with the state: residual i is seen while x[0] < i. Losing is charged, and the accepted trials are
 // lower on the set of their linearisation although the costs of different sets are not comparable.
 struct Shrinking {

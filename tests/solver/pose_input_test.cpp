@@ -73,8 +73,10 @@ TEST(RefinePose, UnusableTermsAreSkipped) {
   point = input.points[0];
   point.p_w = input.truth.inverse() * Vec3(0, 0, -3);
   input.points.push_back(point);
-  point.p_w = input.truth.inverse() * Vec3(1, 0, 1e-9);
-  input.points.push_back(point);
+  for (const double z : {1e-9, 0.7e-3}) {  // 89.96 degrees off the optical axis
+    point.p_w = input.truth.inverse() * Vec3(1, 0, z);
+    input.points.push_back(point);
+  }
   point = input.points[0];
   point.sigma = 0;
   input.points.push_back(point);
@@ -146,6 +148,20 @@ TEST(RefinePose, InputThatNoPoseComesFromGetsAStatus) {
   EXPECT_TRUE(is_ok(
       refine_pose(nullptr, 0, input.points.data(), 60, textplane::PyramidView(), camera, T, options, input.workspace)
           .status));
+}
+
+TEST(RefinePose, TermsAreSkippedWhereTheOptionsAreWrong) {
+  Input input;
+  PoseOptions wrong;
+  wrong.sigma_photo = 0;
+  input.workspace.reserve(input.texts.data(), 3, 60);
+  std::vector<float> zncc(3, 7.0F), chi2(60, 7.0F);
+  EXPECT_EQ(refine_pose(input.texts.data(), 3, input.points.data(), 60, input.target.view(), input.scene.camera,
+                        input.truth, wrong, input.workspace, zncc.data(), chi2.data())
+                .status,
+            Status::invalid_argument);
+  EXPECT_EQ(zncc, std::vector<float>(3, -1.0F));
+  EXPECT_EQ(chi2, std::vector<float>(60, -1.0F));
 }
 
 TEST(RefinePose, GarbageNeverGivesANonFinitePose) {

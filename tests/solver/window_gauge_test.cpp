@@ -29,6 +29,18 @@ TEST_F(WindowGauge, OneFixedFrameLacksTheScale) {
   expect_unchanged(before);
 }
 
+// A fixed point leaves the turns about it and the scale, a second one the turn about their line.
+TEST_F(WindowGauge, FixedPointsTakeThreeFreedomsEach) {
+  for (const int left : {4, 1}) {
+    w.points[left == 4 ? 0 : 1].fixed = true;
+    const tp::WindowSummary s = tp::solve_window(w, o);
+    EXPECT_EQ(s.status, tp::Status::rank_deficient);
+    EXPECT_EQ(s.gauge_freedom, left);
+  }
+  w.points[2].fixed = true;
+  EXPECT_EQ(tp::solve_window(w, o).gauge_freedom, 0);
+}
+
 TEST_F(WindowGauge, TwoFixedFramesAtOnePlaceLackTheScale) {
   w.frames[0].fixed = w.frames[1].fixed = true;
   w.frames[1].T_w_c.t = w.frames[0].T_w_c.t;

@@ -50,6 +50,20 @@ TEST_F(WindowInput, NanPosesAndCamerasAreRefused) {
   }
 }
 
+TEST_F(WindowInput, NoIterationsAreTheCostAlone) {
+  w.frames[0].fixed = w.frames[4].fixed = true;
+  perturb(w, noise, 0.01, 0.03, 0);
+  const tp::Window before = w;
+  o.max_iterations = 0;
+  const tp::WindowSummary s = tp::solve_window(w, o);
+  EXPECT_EQ(s.status, tp::Status::iteration_limit);
+  EXPECT_GT(s.initial_cost, 0);
+  EXPECT_EQ(s.final_cost, s.initial_cost);
+  expect_unchanged(before);
+  o.max_iterations = -1;
+  EXPECT_EQ(tp::solve_window(w, o).status, tp::Status::invalid_argument);
+}
+
 // Bad elements are left out, say so, and do not disturb the rest.
 TEST_F(WindowInput, BadElementsAreLeftOut) {
   const tp::Window truth = w;

@@ -25,6 +25,23 @@ TEXTPLANE_SIMD_ENTRY void float_operations(const float* pa, const float* pb, con
   store(out + kLanes * k++, iota());
 }
 
+// As above, of vectors of doubles. Returns the number of their lanes.
+TEXTPLANE_SIMD_ENTRY int double_operations(const double* pa, const double* pb, const double* pc, double* out) noexcept {
+  const vp a = load_p(pa), b = load_p(pb), c = load_p(pc);
+  int k = 0;
+  store_p(out + kDoubles * k++, add_p(a, b));
+  store_p(out + kDoubles * k++, sub_p(a, b));
+  store_p(out + kDoubles * k++, mul_p(a, b));
+  store_p(out + kDoubles * k++, div_p(a, set_p(4.0)));
+  store_p(out + kDoubles * k++, madd_p(a, b, c));
+  store_p(out + kDoubles * k++, min_p(a, b));
+  store_p(out + kDoubles * k++, max_p(a, b));
+  store_p(out + kDoubles * k++, abs_p(a));
+  store_p(out + kDoubles * k++, trunc_p(a));
+  store_p(out + kDoubles * k++, positive_p(a, b, c));
+  return kDoubles;
+}
+
 TEXTPLANE_SIMD_ENTRY void int_operations(const int* pa, const int* pb, int shift, int* out) noexcept {
   const vi a = loadi(pa), b = loadi(pb);
   int k = 0;

@@ -13,6 +13,9 @@ namespace textplane_test {
 inline void float_operations(const float* a, const float* b, const float* c, float* out) {
   TEXTPLANE_SIMD_DISPATCH(float_operations(a, b, c, out))
 }
+inline int double_operations(const double* a, const double* b, const double* c, double* out) {
+  TEXTPLANE_SIMD_DISPATCH(double_operations(a, b, c, out))
+}
 inline void int_operations(const int* a, const int* b, int shift, int* out) {
   TEXTPLANE_SIMD_DISPATCH(int_operations(a, b, shift, out))
 }

@@ -212,6 +212,25 @@ TEST(Vec, InverseRootsWithinTheirBound) {
   });
 }
 
+// Of quarters, on which all of them are exact.
+TEST(Vec, OperationsOfDoubles) {
+  std::mt19937 random(14);
+  on_each_target([&](Target, int) {
+    for (int round = 0; round < 200; ++round) {
+      double a[8], b[8], c[8], out[80];
+      for (double* p : {a, b, c})
+        for (int i = 0; i < 8; ++i) p[i] = 0.25 * (static_cast<int>(random() % 17) - 8);
+      const int n = double_operations(a, b, c, out);
+      for (int i = 0; i < n; ++i) {
+        const double want[10] = {a[i] + b[i],        a[i] - b[i],           a[i] * b[i],          a[i] / 4,
+                                 a[i] * b[i] + c[i], std::min(a[i], b[i]),  std::max(a[i], b[i]), std::abs(a[i]),
+                                 std::trunc(a[i]),   a[i] > 0 ? b[i] : c[i]};
+        for (int k = 0; k < 10; ++k) EXPECT_EQ(out[n * k + i], want[k]) << k;
+      }
+    }
+  });
+}
+
 TEST(Vec, ReductionsHalveTheLanes) {
   std::mt19937 random(11);
   on_each_target([&](Target, int lanes) {
