@@ -104,16 +104,6 @@ TEST(SelectPixels, TakesTheLastRowOfAHighQuad) {
   for (const Vector2f& p : pixels) EXPECT_EQ(p[1], 80);
 }
 
-// Fewer pixels than cells were asked for: each at most once.
-TEST(SelectPixels, HandlesQuadsOfFewPixels) {
-  const Image<std::uint8_t> image = textured();
-  const Quad<double> quad = quad_of(100, 100, 111, 100, 111, 108, 100, 108);
-  std::vector<Vector2f> pixels;
-  ASSERT_EQ(select_pixels(image.view(), quad, SelectOptions(), pixels), Status::ok);
-  EXPECT_LE(pixels.size(), 12U * 9U);
-  expect_distinct_integers_inside(pixels, quad, 320, 240);
-}
-
 // The gradient of a step is half of its height, on both sides of it.
 TEST(SelectPixels, TakesGradientsFromTheLeastOn) {
   const Quad<double> quad = quad_of(10, 10, 90, 10, 90, 90, 10, 90);

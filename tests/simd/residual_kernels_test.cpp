@@ -129,6 +129,9 @@ TEST(ResidualKernels, KnownBounds) {
       tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace);
   in.patch.bounds = tp::simd::point_bounds(in.patch.x, in.patch.y, in.patch.n);
   ASSERT_EQ(in.patch.bounds.n, 333);
+  const tp::ResidualRequest request{in, scene.theta, scene.T_t_h, any_options()};
+  EXPECT_EQ(tp::evaluate(request, workspace).path, tp::Path::kernel);
+  EXPECT_EQ(without.path, tp::Path::kernel);
   const auto with =
       tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, scene.theta, scene.T_t_h, any_options()}, workspace);
   EXPECT_EQ(with.H, without.H);

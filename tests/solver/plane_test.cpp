@@ -95,6 +95,15 @@ TEST(RefinePlane, ManyTargetsOfAnIndependentRendering) {
   }
 }
 
+TEST(RefinePlane, SaysWhatComputedItsTargets) {
+  Input input(false, 1);
+  PlaneOptions options;
+  for (const int iterations : {0, 20}) {
+    options.solve.max_iterations = iterations;
+    EXPECT_EQ(input.solve(input.sign.theta, options).path, textplane::Path::reference) << iterations;
+  }
+}
+
 TEST(RefinePlane, MoreTargetsLowerTheCovariance) {
   Input one(false, 1), four(false, 4);
   EXPECT_LT(four.solve(four.sign.theta).covariance.trace(), one.solve(one.sign.theta).covariance.trace());
