@@ -19,9 +19,15 @@ EQUIVALENT = {
     ("geometry/triangulate.hpp", "damping = damping > W(1e-6) ? W(10) * damping : W(1e-4);",
      "damping = damping > W(2e-06) ? W(10) * damping : W(1e-4);"):
         "the path of the damping, not where it ends",
+    ("photometry/template_patch.hpp", "static constexpr double kRange = 8191;  // of the int16 columns",
+     "static constexpr double kRange = 8190;  // of the int16 columns"):
+        "columns are rounded to a step 1.0001 times as large, within the stated bounds",
     ("photometry/world_parameters.hpp", "double W[6][9], *to = out->H.data();",
      "double W[7][9], *to = out->H.data();"):
         "a longer array, whose end nobody reads",
+    ("simd/batch.hpp", "std::ptrdiff_t pose_step = 12, t_offset = 9;",
+     "std::ptrdiff_t pose_step = 12, t_offset = 10;"):
+        "TextBatch, its one user, sets it",
     ("simd/kernels/residual/batch.inl", "const int lanes = members - lane < kLanes ? members - lane : static_cast<int>(kLanes);",
      "const int lanes = members - lane <= kLanes ? members - lane : static_cast<int>(kLanes);"):
         "both are the number of members where they are equal",
@@ -37,6 +43,9 @@ EQUIVALENT = {
     ("simd/kernels/residual/esm.inl", "for (int begin = 0; begin < weighted; begin += kStrip) {",
      "for (int begin = 0; begin <= weighted; begin += kStrip) {"):
         "an empty strip adds nothing",
+    ("simd/kernels/residual/frame.inl", "const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));",
+     "const vf rho = nmadd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));"):
+        "the box is symmetric about its middle: the same four corners in another order",
     ("simd/kernels/residual/frame.inl", "constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};",
      "constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -0, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};"):
         "lanes beyond the fourth repeat a corner of the box; a point between two of them asks for nothing more",
@@ -52,6 +61,12 @@ EQUIVALENT = {
     ("simd/kernels/sample.inl", "const double size = (z < 0 ? -z : z) + 50 * ((h[6] < 0 ? -h[6] : h[6]) + (h[7] < 0 ? -h[7] : h[7]));",
      "const double size = (z < 0 ? -z : z) + 51 * ((h[6] < 0 ? -h[6] : h[6]) + (h[7] < 0 ? -h[7] : h[7]));"):
         "the scale of a homography: what is divided by it is so on both sides, up to rounding within the stated bounds",
+    ("simd/kernels/warp.inl", "const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;",
+     "const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 <= ax1 ? ax0 : ax1;"):
+        "the same number where both are equal",
+    ("simd/kernels/warp.inl", "t->leftwards = nx0 < 0.0;",
+     "t->leftwards = nx0 <= 0.0;"):
+        "a guess about where tiles pay, where both directions are one",
     ("simd/residual.hpp", "double q[3];            // theta^T H^-1",
      "double q[4];            // theta^T H^-1"):
         "a longer array, whose end nobody reads",
