@@ -1,4 +1,5 @@
-// What moves in a rendered scene: picture, rays and truth show it where it is at the time, and interruptions come and go.
+// What moves in a rendered scene: picture, rays and truth show it where it is at the time, and interruptions come and
+// go.
 #include <gtest/gtest.h>
 
 #include <algorithm>
