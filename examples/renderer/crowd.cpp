@@ -8,7 +8,7 @@ namespace textslam {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr double kReach = 1.8;   // m to either side of the middle of the room
 constexpr double kTurned = 0.7;  // rad: how far a walker turns to where he goes
 constexpr double kRound = 0.985;
@@ -17,11 +17,11 @@ constexpr double kRound = 0.985;
 Motion walk(double y, double speed, double phase) {
   return [=](double t) {
     // A triangle wave with rounded turns.
-    const double w = 0.5 * kPi * speed / kReach * t + phase, s = kRound * std::sin(w);
+    const double w = 0.5 * kHalfTurn * speed / kReach * t + phase, s = kRound * std::sin(w);
     const double yaw = kTurned * std::cos(w) / std::sqrt(1.0 - s * s);
     SE3d T_w_b;
     T_w_b.R << std::cos(yaw), -std::sin(yaw), 0.0, std::sin(yaw), std::cos(yaw), 0.0, 0.0, 0.0, 1.0;
-    T_w_b.t = {kReach * std::asin(s) / std::asin(kRound), y, 0.02 * std::sin(2.0 * kPi * 1.8 * t + phase)};
+    T_w_b.t = {kReach * std::asin(s) / std::asin(kRound), y, 0.02 * std::sin(2.0 * kHalfTurn * 1.8 * t + phase)};
     return T_w_b;
   };
 }
@@ -44,8 +44,8 @@ void add_crowd(Scene& scene, std::uint64_t seed) {
     const std::size_t first = scene.surfaces().size();
     const double height = draw(1.65, 1.85), speed = draw(0.5, 1.5), shift = draw(-0.4, 0.4);
     add_box(scene, Vector3<double>::Zero(), {0.42, 0.22, height}, 0.0, front, sides);
-    const double leftwards = draw(0.0, 1.0) < 0.5 ? kPi : 0.0;
-    scene.carry(first, walk(kRows[i], speed, shift + leftwards + (i < 2 ? 0.0 : 0.5 * kPi)));
+    const double leftwards = draw(0.0, 1.0) < 0.5 ? kHalfTurn : 0.0;
+    scene.carry(first, walk(kRows[i], speed, shift + leftwards + (i < 2 ? 0.0 : 0.5 * kHalfTurn)));
   }
 }
 
