@@ -176,7 +176,8 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   std::vector<Track>& tracks = tracker_->tracks();
   last_keyframe_ = insert_keyframe(map_, frame, tracker_->pose().inverse(), tracks);
   record.information.setZero();  // from here on the pose is the key frame's
-  triangulate_tracks(map_, parameters_, parameters_.min_parallax, tracks);
+  const bool scarce = record.points < parameters_.scarce_points;
+  triangulate_tracks(map_, parameters_, scarce ? parameters_.scarce_parallax : parameters_.min_parallax, tracks);
 
   const double start = now_ms();
   adjuster_.keyframe_added(map_);
@@ -275,8 +276,9 @@ void System::finish() {
   if (map_.keyframes.size() < 2) return;
   if (parameters_.mode == Mode::text && parameters_.loop_closure) merge_duplicate_texts(map_, parameters_);
   adjust_all(map_, parameters_, parameters_.final_iterations);
-  // Poses are good to a pixel or two now: points are found where the tracker had lost them.
-  if (observe_points_again(map_, parameters_) > 0) adjust_all(map_, parameters_, parameters_.final_iterations);
+  // Poses are good to a pixel or two now: points are found where the tracker had lost them. That closes loops, too.
+  if (parameters_.loop_closure && observe_points_again(map_, parameters_) > 0)
+    adjust_all(map_, parameters_, parameters_.final_iterations);
   if (parameters_.mode == Mode::loose) refresh_loose_planes(map_, parameters_);
   if (parameters_.mode == Mode::text) {
     // Observations were judged with early, rough planes. The adjusted planes are seen in more key frames, and a wider
