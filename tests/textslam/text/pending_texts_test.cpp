@@ -95,7 +95,7 @@ TEST_F(PendingTextsTest, MissesCountToo) {
 
 // A detector that misses every key frame.
 TEST_F(PendingTextsTest, TheMapperBeginsATextWithThem) {
-  const LocalMap everywhere;
+  const LocalMap everywhere{};
   TextMapper mapper(map, everywhere, parameters);
   for (int i = 0; i < 3; ++i) {
     const SE3d T_w_c = at(-0.2 + 0.02 * i, 0.5);
@@ -127,7 +127,7 @@ class TextMapperViewsTest : public TextHostingTest {
     }
     return tracks;
   }
-  const LocalMap everywhere;
+  const LocalMap everywhere{};
 };
 
 // The key frames before the first detection show the text as well.
