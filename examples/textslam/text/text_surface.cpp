@@ -141,8 +141,16 @@ void fit_to_surface(const Map& map, const Parameters& parameters, TextObject& te
   const Vec3 centre = textplane::plane_point(text.theta, map.camera.unproject(textplane::centroid(text.patch.quad)));
   const double length = std::max((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
   const std::vector<SurfacePoint> points = points_beside(map, parameters, text);
-  if (lies_on(points, centre, length, parameters, text))
-    fit_to_surface(points, centre, parameters, &text.theta, &text.covariance);
+  const double sigma = normal_sigma(text);
+  Vec3 theta = text.theta;
+  Eigen::Matrix3d covariance = text.covariance;
+  if (!(sigma <= radians(parameters.surface_text_sigma)) || !lies_on(points, centre, length, parameters, text) ||
+      !fit_to_surface(points, centre, parameters, &theta, &covariance))
+    return;
+  const double turn = radians(degrees_between(textplane::plane_normal(theta), textplane::plane_normal(text.theta)));
+  if (turn > parameters.surface_sigmas * std::hypot(sigma, radians(parameters.surface_bend))) return;
+  text.theta = theta;
+  text.covariance = covariance;
 }
 
 bool plane_from_surface(const Map& map, const Parameters& parameters, TextObject& text) {

@@ -25,7 +25,8 @@ bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vec3& centre,
                     Vec3* theta, Eigen::Matrix3d* covariance);
 
 /// The same for a text of the map, with the points beside it, if they show a surface that goes through its centre
-/// (surface_gap) and has its slant (surface_sigmas). A sign that stands off its wall may be turned from it.
+/// (surface_gap) and has its slant (surface_sigmas). A sign that stands off its wall may be turned from it. A text that
+/// hardly knows its own slant (surface_text_sigma) could not contradict a wrong surface, and stays as it was.
 void fit_to_surface(const Map& map, const Parameters& parameters, TextObject& text);
 
 /// The same for a text without a plane, by the points alone. False, and nothing changed, where its host sees fewer than

@@ -170,6 +170,42 @@ TEST_F(TextOnATableTest, ASurfaceThatIsTurnedFromAWellKnownTextIsAnother) {
   EXPECT_EQ(text.theta, before.theta);
 }
 
+// It could not contradict a wrong one.
+TEST_F(TextOnATableTest, NoSurfaceSpeaksForATextThatHardlyKnowsItsSlant) {
+  for (int i = 0; i < 121; ++i) add(0.025 * (i % 11 - 5), 0.025 * (i / 11 - 5), 0, {0, 1, 2});
+  for (const double share : {0.75, 1.25}) {
+    text.theta = turned(4);
+    text.covariance = known_to(0.0015);
+    const double ratio = share * parameters.surface_text_sigma * kDegree / normal_sigma(text);
+    text.covariance *= ratio * ratio;
+    const TextObject before = text;
+    fit_to_surface(map, parameters, text);
+    if (share < 1) {
+      EXPECT_LT(off(text.theta), 1);
+      EXPECT_LT(normal_sigma(text), 0.2 * normal_sigma(before));
+    } else {
+      EXPECT_EQ(text.theta, before.theta);
+      EXPECT_EQ(text.covariance, before.covariance);
+    }
+  }
+}
+
+// What lies beside the text has its slant; points in front of it are turned from it by many of its standard deviations.
+TEST_F(TextOnATableTest, NoSurfaceTurnsATextBeyondItsOwnDoubt) {
+  for (int i = 0; i < 8; ++i) add(0.02 * (i % 4 - 1.5), i < 4 ? -0.025 : 0.025, 0, {0, 1, 2});
+  for (int i = 0; i < 400; ++i) {
+    const double y = 0.0014 * (i % 21 - 10);
+    add(0.005 * (i / 21 - 9.5), y, std::tan(24 * kDegree) * y, {0, 1, 2});
+  }
+  text.theta = turned(0);
+  text.covariance = known_to(0.003);
+  ASSERT_LT(normal_sigma(text), 6 * kDegree);
+  const TextObject before = text;
+  fit_to_surface(map, parameters, text);
+  EXPECT_EQ(text.theta, before.theta);
+  EXPECT_EQ(text.covariance, before.covariance);
+}
+
 // A dozen points beside a text do not tell a slant to two degrees: that theirs differs is no reason to leave them out.
 // Ten dozen do.
 TEST_F(TextOnATableTest, ASurfaceIsAnotherOnlyWhereItsPointsTellItsSlant) {
