@@ -165,7 +165,7 @@ Written by `real_images` (examples/planar, built with `-DTEXTPLANE_BUILD_PEER_EX
 thread; times are milliseconds of CPU time. All tables use the same parameters (`PlaneTrackerOptions`).
 
     build/release/bin/real_images --pot POT --hope HOPE --oxford OXFORD \
-        --not-text 1,396,713 1,119,648 1,264,956 2,1378,527 2,1660,705 --trials 60 \
+        --not-text 1,396,713 1,119,648 1,264,956 2,1378,527 2,1660,705 --trials 100 \
         --output docs/real_images.md
 
 The data are published sets and not part of this repository: POT-210 (Liang et al., ICRA 2018), HOPE-Image (Tyree et
