@@ -79,8 +79,7 @@ given, it also runs on that, from the frames {starts} on if no others are given.
 
 ATE is the absolute trajectory error (the paper's APE): rms after Sim(3) alignment. RPE is the relative error over
 0.1 m of path, rms. `live` is the ATE of the poses as known when their frames were processed.
-In `cuts` 60 of 240 frames show another place, and in `covered` 30 of 240 show nothing: a pose in the others, 75 % and
-87.5 %, is all there can be.
+In `cuts` 60 frames show another place, and in `covered` 30 show nothing: these can have no pose.
 
 A run has failed if the program does not end well, if fewer than {coverage} of the frames have a pose, or if ATE is
 above {largest} of the path. A failed run counts in no mean, its signs count as not mapped, and the end of the page

@@ -136,15 +136,17 @@ bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vec3& centre,
 }
 
 void fit_to_surface(const Map& map, const Parameters& parameters, TextObject& text) {
+  const double sigma = normal_sigma(text);
   std::array<Vec3, 4> c;
-  if (!textplane::is_ok(textplane::quad_points(text.patch.quad, map.camera, text.theta, &c))) return;
+  if (!(sigma <= radians(parameters.surface_text_sigma)) ||
+      !textplane::is_ok(textplane::quad_points(text.patch.quad, map.camera, text.theta, &c)))
+    return;
   const Vec3 centre = textplane::plane_point(text.theta, map.camera.unproject(textplane::centroid(text.patch.quad)));
   const double length = std::max((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
   const std::vector<SurfacePoint> points = points_beside(map, parameters, text);
-  const double sigma = normal_sigma(text);
   Vec3 theta = text.theta;
   Eigen::Matrix3d covariance = text.covariance;
-  if (!(sigma <= radians(parameters.surface_text_sigma)) || !lies_on(points, centre, length, parameters, text) ||
+  if (!lies_on(points, centre, length, parameters, text) ||
       !fit_to_surface(points, centre, parameters, &theta, &covariance))
     return;
   const double turn = radians(degrees_between(textplane::plane_normal(theta), textplane::plane_normal(text.theta)));

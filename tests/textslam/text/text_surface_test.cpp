@@ -116,6 +116,10 @@ class TextOnATableTest : public TextSurfaceTest {
       map.keyframes[static_cast<std::size_t>(k)].points.push_back(id);
     }
   }
+  void add_table(double height = 0, double rough = 0) {
+    for (int i = 0; i < 121; ++i)
+      add(0.025 * (i % 11 - 5), 0.025 * (i / 11 - 5), height + rough * (i % 3 - 1), {0, 1, 2});
+  }
   Map map;
   TextObject text;
 };
@@ -143,8 +147,7 @@ TEST_F(TextOnATableTest, OnlyTheSurfaceThatATextLiesOnSpeaksForIt) {
   for (const double height : {0.0, -0.012, -0.03, 0.012}) {
     map.points.clear();
     for (KeyFrame& keyframe : map.keyframes) keyframe.points.clear();
-    for (int i = 0; i < 121; ++i)
-      add(0.025 * (i % 11 - 5), 0.025 * (i / 11 - 5), height + 0.0005 * (i % 3 - 1), {0, 1, 2});
+    add_table(height, 0.0005);
     text.theta = turned(4);
     text.covariance = known_to(0.0015);
     ASSERT_GT(normal_sigma(text), 2 * kDegree);
@@ -161,7 +164,7 @@ TEST_F(TextOnATableTest, OnlyTheSurfaceThatATextLiesOnSpeaksForIt) {
 }
 
 TEST_F(TextOnATableTest, ASurfaceThatIsTurnedFromAWellKnownTextIsAnother) {
-  for (int i = 0; i < 121; ++i) add(0.025 * (i % 11 - 5), 0.025 * (i / 11 - 5), 0, {0, 1, 2});
+  add_table();
   text.theta = turned(4);
   text.covariance = known_to(0.0003);
   ASSERT_LT(normal_sigma(text), 0.7 * kDegree);
@@ -172,7 +175,7 @@ TEST_F(TextOnATableTest, ASurfaceThatIsTurnedFromAWellKnownTextIsAnother) {
 
 // It could not contradict a wrong one.
 TEST_F(TextOnATableTest, NoSurfaceSpeaksForATextThatHardlyKnowsItsSlant) {
-  for (int i = 0; i < 121; ++i) add(0.025 * (i % 11 - 5), 0.025 * (i / 11 - 5), 0, {0, 1, 2});
+  add_table();
   for (const double share : {0.75, 1.25}) {
     text.theta = turned(4);
     text.covariance = known_to(0.0015);
