@@ -26,6 +26,7 @@ struct BasicPlaneTarget {
   /// The host's patch for this target alone (blur.hpp), or null for the patch of refine_plane(). A target whose patch
   /// differs from that one in levels or numbers of pixels is not used.
   const TextPatch* patch = nullptr;
+  const Pinhole<double>* camera = nullptr;  ///< Of level 0, or null for the camera of refine_plane().
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;    ///< Of 8-bit images.
 using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
@@ -152,8 +153,9 @@ class PlaneProblem {
  private:
   ResidualRequest<PixelOf<View>> request(int i, const Vector3<double>& theta) const noexcept {
     const BasicPlaneTarget<View>& target = targets_[i];
-    return {level_input(patch_of(i), level_, target.image, camera_, target.scale_shift), theta, target.T_t_h,
-            options_.photometric};
+    return {
+        level_input(patch_of(i), level_, target.image, target.camera ? *target.camera : camera_, target.scale_shift),
+        theta, target.T_t_h, options_.photometric};
   }
 
   const TextPatch& patch_of(int i) const noexcept { return targets_[i].patch ? *targets_[i].patch : patch_; }

@@ -1,0 +1,47 @@
+// The rules by which a text is believed, waits, or is dropped.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+
+#include <vector>
+
+#include "textplane/landmarks/text_view.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Did the detector see it often enough: min_detections, and detected_share of the frames that could have shown it?
+inline bool is_detected(const TextObject& text, const TextOptions& options) noexcept {
+  return text.detections >= options.min_detections && text.detections >= options.detected_share * text.shown;
+}
+
+/// Ready to be mapped: min_observations key frames show it, and it is_detected().
+inline bool is_proven(const TextObject& text, const TextOptions& options) noexcept {
+  return static_cast<int>(text.views.size()) + 1 >= options.min_observations && is_detected(text, options);
+}
+
+/// Has it waited too long for its plane, or to be mapped, after `age` key frames?
+inline bool is_overdue(const TextObject& text, const TextOptions& options, int age) noexcept {
+  return (text.state == TextState::candidate && age > options.patience) ||
+         (text.state == TextState::tentative && age > options.tentative_patience);
+}
+
+/// Have max_failures key frames in a row, and more than ever showed it, failed to?
+inline bool is_contradicted(const TextObject& text, const TextOptions& options) noexcept {
+  return text.failures >= options.max_failures && text.failures > static_cast<int>(text.views.size());
+}
+
+/// Is its normal less certain than refine_max_sigma?
+inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
+  return !(normal_sigma(text) <= detail::kRadian * options.refine_max_sigma);
+}
+
+/// Takes it out of use and frees its memory; its id stays.
+inline void drop(TextObject& text) noexcept {
+  text.state = TextState::dropped;
+  text.patch = TextPatch();
+  std::vector<int>().swap(text.views);
+  text.votes.clear();
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP

@@ -1,0 +1,96 @@
+// Merging of texts: a sign that came to be mapped twice becomes one object.
+//
+// That happens after drift, and where its detections fell on different parts.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "textplane/landmarks/text_life.hpp"
+#include "textplane/landmarks/text_plane.hpp"
+#include "textplane/landmarks/words.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+
+// b's plane beside a's, in a's host.
+inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
+                         const TextObject& b) noexcept {
+  Vector3<double> theta = b.theta;
+  Matrix3<double> covariance = b.covariance;
+  if (!transport_plane(T_a_b, &theta, &covariance)) return false;
+  const Vector3<double> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
+  const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
+  const double angle_sigma = std::hypot(normal_sigma(a), normal_sigma(theta, covariance));
+  if (!(angle <= options.merge_angle * kRadian + options.merge_sigmas * angle_sigma)) return false;
+
+  const Vector3<double> m = a.patch.camera.unproject(centroid(a.patch.quad));
+  const double rho_a = inverse_depth<double>(a.theta, m), rho_b = inverse_depth<double>(theta, m);
+  const double rho_sigma = std::sqrt((std::max)(0.0, m.dot((a.covariance + covariance) * m)));
+  return std::abs(rho_a - rho_b) <= options.merge_depth * std::abs(rho_a) + options.merge_sigmas * rho_sigma;
+}
+
+inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
+                             const TextObject& b) noexcept {
+  Quad<double> quad;
+  return facing(b, T_a_b) > 0 && project_text(b, T_a_b, a.patch.camera, &quad) &&
+         iou(a.patch.quad, quad) >= options.merge_overlap;
+}
+
+}  // namespace detail
+
+/// What `other` saw counts for `kept`; its key-frame ids are `first_keyframe` higher in kept's map.
+inline void add_observations_of(const TextObject& other, int first_keyframe, const TextOptions& options,
+                                TextObject& kept) {
+  kept.views.push_back(first_keyframe + other.host);
+  for (const int id : other.views) kept.views.push_back(first_keyframe + id);
+  for (const auto& [word, count] : other.votes) vote(&kept.votes, word, count, options);
+  kept.detections += other.detections;
+  kept.shown += other.shown;
+}
+
+/// Do two texts with planes stand for one sign? Words, planes (angle and inverse depth at the centres, within a
+/// tolerance beside merge_sigmas standard deviations) and quads, in the host of either, must agree.
+inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframes, const TextObject& a,
+                      const TextObject& b) {
+  if (!words_agree(consensus(a.votes), consensus(b.votes), options)) return false;
+  const TextKeyframe host_a = keyframes(a.host), host_b = keyframes(b.host);
+  const SE3d T_a_b = host_a.from(host_b), T_b_a = host_b.from(host_a);
+  return detail::overlaps_in_host(options, T_a_b, a, b) && detail::overlaps_in_host(options, T_b_a, b, a) &&
+         detail::planes_agree(options, T_a_b, a, b) && detail::planes_agree(options, T_b_a, b, a);
+}
+
+/// Merges two texts into the one with more views, `a` among equals. Its plane stays; the other text is dropped.
+inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b) {
+  TextObject &to = b.views.size() > a.views.size() ? b : a, &from = &to == &a ? b : a;
+  add_observations_of(from, 0, options, to);
+  std::sort(to.views.begin(), to.views.end());
+  to.views.erase(std::unique(to.views.begin(), to.views.end()), to.views.end());
+  to.views.erase(std::remove(to.views.begin(), to.views.end(), to.host), to.views.end());
+  to.failures = 0;
+  drop(from);
+}
+
+/// Merges the mapped texts that are the same. Returns how many are gone.
+TEXTPLANE_DEFERRED
+int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts) {
+  int merged = 0;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (std::size_t j = i + 1; j < texts.size(); ++j) {
+      TextObject &a = texts[i], &b = texts[j];
+      if (a.state != TextState::mapped || b.state != TextState::mapped || !same_text(options, keyframes, a, b))
+        continue;
+      merge_texts(options, a, b);
+      ++merged;
+    }
+  return merged;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP

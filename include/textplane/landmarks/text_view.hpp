@@ -1,0 +1,97 @@
+// How a text looks from a camera: its quad, slant and scale. T_t_h maps the host's points to that camera.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "textplane/geometry/homography.hpp"
+#include "textplane/geometry/plane.hpp"
+#include "textplane/geometry/quad.hpp"
+#include "textplane/landmarks/keyframe.hpp"
+#include "textplane/landmarks/text_object.hpp"
+#include "textplane/landmarks/text_options.hpp"
+#include "textplane/photometry/photometric_input.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+constexpr double kRadian = 0.017453292519943295;  // a degree
+
+// Between two directions of any length, degrees.
+inline double degrees_between(const Vector3<double>& a, const Vector3<double>& b) noexcept {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / kRadian;
+}
+}  // namespace detail
+
+/// The text's quad as seen by the camera; false where a corner is behind it.
+inline bool project_text(const TextObject& text, const SE3d& T_t_h, const Pinhole<double>& camera,
+                         Quad<double>* quad) noexcept {
+  const Matrix3<double> H = plane_homography(text.theta, T_t_h);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3<double> q = H * text.patch.camera.unproject(text.patch.quad.corner[i]);
+    if (!(q.z() > 1e-6)) return false;
+    quad->corner[i] = camera.pixel(Vector2<double>(q.x() / q.z(), q.y() / q.z()));
+  }
+  return true;
+}
+
+/// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
+inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
+  const Vector3<double> m = text.patch.camera.unproject(centroid(text.patch.quad));
+  const Vector3<double> centre = T_t_h * plane_point(text.theta, m);
+  const Vector3<double> normal = T_t_h.R * plane_normal(text.theta);
+  return -normal.dot(centre.normalized());
+}
+
+/// The slant test, for the cosine that facing() returns.
+inline bool is_too_slanted(const TextOptions& options, double facing) noexcept {
+  return facing < std::cos(options.max_slant * detail::kRadian);
+}
+
+/// As project_text(), and whether the camera sees enough of the text's front to compare it with the host: not too
+/// slanted, at least `min_area` px^2, and `min_share` of it inside the image (1: the whole quad, off the border).
+inline bool is_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
+                       double min_area, double min_share, Quad<double>* quad) noexcept {
+  if (!project_text(text, T_t_h, image.camera, quad) || is_too_slanted(options, facing(text, T_t_h))) return false;
+  const double whole = std::abs(area(*quad));
+  if (whole < min_area) return false;
+  if (min_share >= 1) return inside_image(*quad, image.width(), image.height(), options.seen_border);
+  return area(clip_to_image(*quad, image.width(), image.height())) >= min_share * whole;
+}
+
+/// The same as tracking asks for it: by TextOptions::min_area and min_share.
+inline bool text_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
+                         Quad<double>* quad) noexcept {
+  return is_in_view(options, text, T_t_h, image, options.min_area, options.min_share, quad);
+}
+
+/// Does the plane lie in front of its host, not too slanted, over the whole quad?
+inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>& camera, const Quad<double>& quad,
+                               const Vector3<double>& theta) noexcept {
+  const Vector3<double> ray = camera.unproject(centroid(quad)).normalized();
+  if (is_too_slanted(options, -plane_normal(theta).dot(ray))) return false;
+  return std::all_of(quad.corner.begin(), quad.corner.end(), [&](const Vector2<double>& corner) {
+    return inverse_depth<double>(theta, camera.unproject(corner)) > 0;
+  });
+}
+
+/// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
+inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcept {
+  return scale_shift(std::abs(area(text.patch.quad)), std::abs(area(quad)));
+}
+
+/// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.
+inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& covariance) noexcept {
+  const Vector3<double> n = plane_normal(theta);
+  const Matrix3<double> J = (Matrix3<double>::Identity() - n * n.transpose()) / theta.norm();
+  const Matrix3<double> of_normal = J * covariance * J.transpose();
+  return std::sqrt((std::max)(0.0, symmetric_eigen<double, 3>(of_normal).values[2]));
+}
+/// The same of a text.
+inline double normal_sigma(const TextObject& text) noexcept { return normal_sigma(text.theta, text.covariance); }
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
