@@ -8,12 +8,16 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
+/// What is known of the noise of an image.
+struct ImageNoise {
+  double noise = 0;      ///< Grey levels: standard deviation of a pixel of level 0 (estimate_noise()); 0: clear.
+  double smoothing = 0;  ///< px^2: variance of a Gaussian that the image was smoothed with.
+};
+
 /// An undistorted image and the camera that took it. Not owned.
-struct TextImage {
+struct TextImage : ImageNoise {
   PyramidView pyramid;     ///< Level 0 first.
   Pinhole<double> camera;  ///< Of level 0.
-  double noise = 0;        ///< Grey levels: standard deviation of a pixel of level 0 (estimate_noise()); 0: clear.
-  double smoothing = 0;    ///< px^2: variance of a Gaussian that the image was smoothed with.
 
   int width() const noexcept { return pyramid.level[0].width(); }    ///< px of level 0.
   int height() const noexcept { return pyramid.level[0].height(); }  ///< px of level 0.

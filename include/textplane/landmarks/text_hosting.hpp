@@ -27,7 +27,7 @@ inline bool shown_better(const TextOptions& options, const TextKeyframe& host, c
     return false;
   if (!(area(*quad) >= options.rehost_area * area(text.patch.quad))) return false;
   const auto slant = [&](const SE3d& T) { return std::acos(std::clamp(facing(text, T), -1.0, 1.0)); };
-  return slant(T_k_h) <= slant(host.from(host)) + options.rehost_slant * kRadian;
+  return slant(T_k_h) <= slant(host.from(host)) + radians(options.rehost_slant);
 }
 
 // Mean of 1 - ZNCC between the text's patch and these key frames, on the finest level.

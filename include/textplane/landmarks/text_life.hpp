@@ -31,7 +31,7 @@ inline bool is_contradicted(const TextObject& text, const TextOptions& options) 
 
 /// Is its normal less certain than refine_max_sigma?
 inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
-  return !(normal_sigma(text) <= detail::kRadian * options.refine_max_sigma);
+  return !(normal_sigma(text) <= detail::radians(options.refine_max_sigma));
 }
 
 /// Takes it out of use and frees its memory; its id stays.

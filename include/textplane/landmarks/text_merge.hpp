@@ -27,7 +27,7 @@ inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const Te
   const Vector3<double> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
   const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
   const double angle_sigma = std::hypot(normal_sigma(a), normal_sigma(theta, covariance));
-  if (!(angle <= options.merge_angle * kRadian + options.merge_sigmas * angle_sigma)) return false;
+  if (!(angle <= radians(options.merge_angle) + options.merge_sigmas * angle_sigma)) return false;
 
   const Vector3<double> m = a.patch.camera.unproject(centroid(a.patch.quad));
   const double rho_a = inverse_depth<double>(a.theta, m), rho_b = inverse_depth<double>(theta, m);

@@ -18,27 +18,26 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// The standard deviation of a pixel's noise on a pyramid level: halving takes half of white noise, and less of noise
 /// that was smoothed.
-inline double noise_on_level(double noise, double smoothing, int level) noexcept {
+inline double noise_on_level(const ImageNoise& image, int level) noexcept {
   constexpr double kFourPi = 12.566370614359172;
   // A Gaussian of variance v leaves 1 / (4 pi v) of the variance of white noise, the mean of n pixels 1 / n; one after
   // the other about the inverse of the sum.
-  const double left = (std::max)(1.0, kFourPi * smoothing);
-  return noise * std::sqrt(left / (left + std::ldexp(1.0, 2 * level) - 1));
+  const double left = (std::max)(1.0, kFourPi * image.smoothing);
+  return image.noise * std::sqrt(left / (left + std::ldexp(1.0, 2 * level) - 1));
 }
 
 /// Whether either image has more than clear_noise.
-inline bool is_noisy(const TextOptions& options, const TextImage& a, const TextImage& b) noexcept {
+inline bool is_noisy(const TextOptions& options, const ImageNoise& a, const ImageNoise& b) noexcept {
   return (std::max)(a.noise, b.noise) > options.clear_noise;
 }
 
 /// The limit of the ZNCC for two images of one thing, with the standard deviations of its intensities in both: `limit`
 /// times the ZNCC that noise beyond clear_noise leaves (expected_zncc()), at least least_expected_zncc of it.
-inline double zncc_limit(const TextOptions& options, double limit, int level, const TextImage& a, double contrast_a,
-                         const TextImage& b, double contrast_b) noexcept {
+inline double zncc_limit(const TextOptions& options, double limit, int level, const ImageNoise& a, double contrast_a,
+                         const ImageNoise& b, double contrast_b) noexcept {
   if (!is_noisy(options, a, b)) return limit;
-  const auto excess = [&](const TextImage& image) {
-    const double noise = noise_on_level(image.noise, image.smoothing, level),
-                 clear = std::ldexp(options.clear_noise, -level);
+  const auto excess = [&](const ImageNoise& image) {
+    const double noise = noise_on_level(image, level), clear = std::ldexp(options.clear_noise, -level);
     return std::sqrt((std::max)(0.0, noise * noise - clear * clear));
   };
   const double expected = expected_zncc(contrast_a, excess(a), contrast_b, excess(b));

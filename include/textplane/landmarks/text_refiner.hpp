@@ -50,7 +50,7 @@ inline bool affine_at(const Pinhole<double>& host, const Pinhole<double>& target
 TEXTPLANE_DEFERRED
 class BasicTextRefiner {
  public:
-  /// Both must outlive the refiner.
+  /// `options`, and what `keyframes` looks up, must outlive the refiner.
   BasicTextRefiner(const TextOptions& options, const KeyframeLookup& keyframes)
       : options_(options), keyframes_(keyframes) {}
 
@@ -254,7 +254,7 @@ class BasicTextRefiner {
   }
 
   const TextOptions& options_;
-  const KeyframeLookup& keyframes_;
+  KeyframeLookup keyframes_;
   BlurFilter filter_;
   PlaneWorkspace workspace_;
   PhotometricWorkspace photometric_;

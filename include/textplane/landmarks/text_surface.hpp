@@ -107,7 +107,7 @@ bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vector3<doubl
   const Ldlt<double, 3> prior(*covariance, detail::kMinPivot);
   if (!prior.ok()) return false;
   const Matrix3<double> known = prior.inverse();
-  const Matrix3<double> bend = detail::turned_about(*theta, centre, detail::kRadian * options.surface_bend);
+  const Matrix3<double> bend = detail::turned_about(*theta, centre, detail::radians(options.surface_bend));
   Vector3<double> x = *theta;
   Matrix3<double> C = *covariance;
   const double sigmas = options.surface_sigmas;
@@ -150,7 +150,7 @@ bool lies_on(std::vector<SurfacePoint> points, const Vector3<double>& centre, do
                points.end());
   Vector3<double> theta = text.theta;
   const double distance = 1 / theta.norm();
-  Matrix3<double> covariance = text.covariance + guessed(theta, centre, kRadian * options.surface_most_turn,
+  Matrix3<double> covariance = text.covariance + guessed(theta, centre, radians(options.surface_most_turn),
                                                          options.surface_near * length / distance);
   if (!fit_to_surface(points, centre, options, &theta, &covariance)) return false;
   const double gap = std::abs(theta.dot(centre) - 1) / theta.norm();
@@ -160,7 +160,7 @@ bool lies_on(std::vector<SurfacePoint> points, const Vector3<double>& centre, do
   surface.theta = theta;
   surface.covariance = covariance;
   const double turn_sigma =
-      std::hypot(normal_sigma(text) / kRadian, normal_sigma(surface) / kRadian, options.surface_bend);
+      std::hypot(normal_sigma(text) / radians(1), normal_sigma(surface) / radians(1), options.surface_bend);
   return gap <= options.surface_gap * length + options.surface_sigmas * gap_sigma &&
          turn <= options.surface_sigmas * turn_sigma;
 }
@@ -173,7 +173,7 @@ TEXTPLANE_DEFERRED
 void fit_to_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h, TextObject& text) {
   const double sigma = normal_sigma(text);
   std::array<Vector3<double>, 4> c;
-  if (!(sigma <= detail::kRadian * options.surface_text_sigma) ||
+  if (!(sigma <= detail::radians(options.surface_text_sigma)) ||
       !is_ok(quad_points(text.patch.quad, text.patch.camera, text.theta, &c)))
     return;
   const Vector3<double> centre = plane_point(text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
@@ -184,8 +184,8 @@ void fit_to_surface(const TextOptions& options, const PointLookup& points, const
   if (!detail::lies_on(beside, centre, length, options, text) ||
       !fit_to_surface(beside, centre, options, &theta, &covariance))
     return;
-  const double turn = detail::kRadian * detail::degrees_between(plane_normal(theta), plane_normal(text.theta));
-  if (turn > options.surface_sigmas * std::hypot(sigma, detail::kRadian * options.surface_bend)) return;
+  const double turn = detail::radians(detail::degrees_between(plane_normal(theta), plane_normal(text.theta)));
+  if (turn > options.surface_sigmas * std::hypot(sigma, detail::radians(options.surface_bend))) return;
   text.theta = theta;
   text.covariance = covariance;
 }
@@ -213,7 +213,7 @@ bool plane_from_surface(const TextOptions& options, const PointLookup& points, c
   guess.theta = centre / centre.squaredNorm();
   guess.covariance = detail::guessed(guess.theta, centre, options.surface_guess_turn, options.surface_guess_depth);
   if (!fit_to_surface(points_beside(options, points, T_w_h, guess), centre, options, &guess.theta, &guess.covariance) ||
-      !(normal_sigma(guess) <= detail::kRadian * options.surface_max_sigma))
+      !(normal_sigma(guess) <= detail::radians(options.surface_max_sigma)))
     return false;
   text.theta = guess.theta;
   text.covariance = guess.covariance;

@@ -17,11 +17,13 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-constexpr double kRadian = 0.017453292519943295;  // a degree
+constexpr double kHalfTurn = 3.141592653589793;  // pi
+
+inline double radians(double degrees) noexcept { return degrees * kHalfTurn / 180; }
 
 // Between two directions of any length, degrees.
 inline double degrees_between(const Vector3<double>& a, const Vector3<double>& b) noexcept {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) / kRadian;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kHalfTurn;
 }
 }  // namespace detail
 
@@ -47,7 +49,7 @@ inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
 
 /// The slant test, for the cosine that facing() returns.
 inline bool is_too_slanted(const TextOptions& options, double facing) noexcept {
-  return facing < std::cos(options.max_slant * detail::kRadian);
+  return facing < std::cos(detail::radians(options.max_slant));
 }
 
 /// As project_text(), and whether the camera sees enough of the text's front to compare it with the host: not too
