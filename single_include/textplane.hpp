@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 121 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 3e3fbeac0dc51426
+// textplane 0.1.0 in one header, made of 136 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: e6637a82d86a63ca
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 3e3fbeac0dc51426"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 e6637a82d86a63ca"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -31228,6 +31228,7 @@ struct BasicPlaneTarget {
   /// The host's patch for this target alone (blur.hpp), or null for the patch of refine_plane(). A target whose patch
   /// differs from that one in levels or numbers of pixels is not used.
   const TextPatch* patch = nullptr;
+  const Pinhole<double>* camera = nullptr;  ///< Of level 0, or null for the camera of refine_plane().
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;    ///< Of 8-bit images.
 using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
@@ -31354,8 +31355,9 @@ class PlaneProblem {
  private:
   ResidualRequest<PixelOf<View>> request(int i, const Vector3<double>& theta) const noexcept {
     const BasicPlaneTarget<View>& target = targets_[i];
-    return {level_input(patch_of(i), level_, target.image, camera_, target.scale_shift), theta, target.T_t_h,
-            options_.photometric};
+    return {
+        level_input(patch_of(i), level_, target.image, target.camera ? *target.camera : camera_, target.scale_shift),
+        theta, target.T_t_h, options_.photometric};
   }
 
   const TextPatch& patch_of(int i) const noexcept { return targets_[i].patch ? *targets_[i].patch : patch_; }
@@ -33473,5 +33475,1499 @@ TEXTPLANE_INSTANCE(WindowSummary solve_window<double>(Window&, const WindowOptio
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SOLVER_WINDOW_HPP
+
+// Certainty of an estimate, by how much the groups of its measurements disagree (the jackknife of Quenouille and
+// Tukey).
+//
+// The inverse of the normal equations takes all errors as independent. Those of one image's pixels are not: they share
+// a pose and a light. The images are, so each is left out in turn.
+#ifndef TEXTPLANE_LANDMARKS_JACKKNIFE_HPP
+#define TEXTPLANE_LANDMARKS_JACKKNIFE_HPP
+
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// What one group gives to the normal equations of N unknowns at the estimate: H = J^T W J, b = J^T W r.
+template <int N = 3>
+struct GroupEquations {
+  FixedMatrix<double, N, N> H = FixedMatrix<double, N, N>::Zero();      ///< J^T W J
+  Eigen::Matrix<double, N, 1> b = Eigen::Matrix<double, N, 1>::Zero();  ///< J^T W r
+};
+
+/// Covariance at the estimate where the b sum to zero: (n - 1) / n sum_i d_i d_i^T, with d_i = (sum_j!=i H_j)^-1 b_i
+/// the motion without group i; exact for linear residuals. Groups whose others are singular are skipped; zero for fewer
+/// than two.
+template <int N>
+FixedMatrix<double, N, N> jackknife_covariance(const std::vector<GroupEquations<N>>& groups) {
+  FixedMatrix<double, N, N> H = FixedMatrix<double, N, N>::Zero(), covariance = H;
+  for (const GroupEquations<N>& group : groups) H += group.H;
+  const double n = static_cast<double>(groups.size());
+  for (const GroupEquations<N>& group : groups) {
+    const Ldlt<double, N> others(H - group.H);
+    if (!others.ok()) continue;
+    const Eigen::Matrix<double, N, 1> moved = others.solve(group.b);
+    covariance += (n - 1) / n * moved * moved.transpose();
+  }
+  return covariance;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_JACKKNIFE_HPP
+// What the texts know of a key frame: its image, its camera and its pose. The map that holds it is the host system's.
+#ifndef TEXTPLANE_LANDMARKS_KEYFRAME_HPP
+#define TEXTPLANE_LANDMARKS_KEYFRAME_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// What is known of the noise of an image.
+struct ImageNoise {
+  double noise = 0;      ///< Grey levels: standard deviation of a pixel of level 0 (estimate_noise()); 0: clear.
+  double smoothing = 0;  ///< px^2: variance of a Gaussian that the image was smoothed with.
+};
+
+/// An undistorted image and the camera that took it. Not owned.
+struct TextImage : ImageNoise {
+  PyramidView pyramid;     ///< Level 0 first.
+  Pinhole<double> camera;  ///< Of level 0.
+
+  int width() const noexcept { return pyramid.level[0].width(); }    ///< px of level 0.
+  int height() const noexcept { return pyramid.level[0].height(); }  ///< px of level 0.
+};
+
+/// A key frame: an image and where its camera stood.
+struct TextKeyframe : TextImage {
+  SE3d T_w_c;  ///< Camera to world.
+
+  SE3d T_c_w() const noexcept { return T_w_c.inverse(); }  ///< World to camera.
+  /// Motion of points of key frame `host` to this one.
+  SE3d from(const TextKeyframe& host) const noexcept { return T_c_w() * host.T_w_c; }
+};
+
+/// Key frames by their ids, wherever they are kept: a pointer to the keeper and a function that looks one up. Not
+/// owning, like a view.
+class KeyframeLookup {
+ public:
+  /// `keeper` has `TextKeyframe text_keyframe(int id) const` and outlives the lookup. It is asked for ids that it gave
+  /// to the texts, and for no others.
+  template <class Keeper>
+  explicit KeyframeLookup(const Keeper& keeper) noexcept
+      : keeper_(&keeper),
+        look_up_([](const void* k, int id) { return static_cast<const Keeper*>(k)->text_keyframe(id); }) {}
+
+  TextKeyframe operator()(int id) const { return look_up_(keeper_, id); }  ///< The key frame of this id.
+
+ private:
+  const void* keeper_;
+  TextKeyframe (*look_up_)(const void*, int);
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_KEYFRAME_HPP
+// Order statistics, and an even choice of what is too much.
+#ifndef TEXTPLANE_LANDMARKS_ORDER_HPP
+#define TEXTPLANE_LANDMARKS_ORDER_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// The upper median; 0 of nothing.
+inline double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// At most `count` of the ids, evenly spaced, the first and the last among them.
+inline std::vector<int> evenly_spaced(const std::vector<int>& ids, std::size_t count) {
+  if (ids.size() <= count || count < 2) return ids;
+  std::vector<int> picked;
+  for (std::size_t i = 0; i < count; ++i) picked.push_back(ids[i * (ids.size() - 1) / (count - 1)]);
+  return picked;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_ORDER_HPP
+// Planarity: how far a text is bent, as its images show it. A label round a tin and a carton's edge look like a plane
+// from near the host, and like nothing from elsewhere.
+//
+// The text is cut into parts, each with a plane of its own. What may differ between them is one quadratic form of the
+// inverse depth over the text, solved for together with the plane, from all views.
+#ifndef TEXTPLANE_LANDMARKS_PLANARITY_HPP
+#define TEXTPLANE_LANDMARKS_PLANARITY_HPP
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A bend across a text, as the tangent of the turn of its normal from one end to the other; positive where the middle
+/// is nearest. Along the lines, and across them.
+struct Bend {
+  Vector2<double> value = Vector2<double>::Zero();  ///< Along, across.
+  Vector2<double> sigma = Vector2<double>::Zero();  ///< Their standard deviations.
+  /// Of theta, by bends that are larger than the views make likely. Errors that bend a plane turn it as well.
+  Matrix3<double> doubt = Matrix3<double>::Zero();
+  double explained = 0;  ///< Share of the images' disagreement with the plane that the bend explains.
+};
+
+namespace detail {
+constexpr int kBendColumns = 4, kBendRows = 2, kBendParts = kBendColumns * kBendRows;
+constexpr int kBendIterations = 5;
+constexpr double kBendPriorSigma = 2;  // of a bend: no image tells how a single line is bent across
+constexpr std::size_t kBendMinPixels = 8;
+// An end that is nearer turns a plane by a fourth of what two ends bend it by.
+constexpr double kBendOfTurn = 4;
+
+// A text's own coordinates: (u, v) in [-1, 1] along and across its lines.
+struct TextAxes {
+  Vector2<double> centre;
+  Eigen::Matrix2d to_uv;  // of px about the centre
+  Vector2<double> slope;  // turn of the normal from end to end (tangent), for a relative inverse depth of u^2 or v^2
+};
+
+inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, const Pinhole<double>& camera,
+                    TextAxes* axes) {
+  const auto& c = quad.corner;
+  Eigen::Matrix2d half;
+  half.col(0) = 0.25 * (c[1] - c[0] + c[2] - c[3]);
+  half.col(1) = 0.25 * (c[3] - c[0] + c[2] - c[1]);
+  if (!(std::abs(half.determinant()) > 1)) return false;
+  axes->centre = centroid(quad);
+  axes->to_uv = half.inverse();
+  const Vector3<double> normal = plane_normal(theta);
+  const Vector3<double> p = plane_point(theta, camera.unproject(axes->centre));
+  for (int k = 0; k < 2; ++k) {
+    const Vector3<double> q = plane_point(theta, camera.unproject(Vector2<double>(axes->centre + half.col(k))));
+    // The surface leaves the plane by -p u^2 along the ray.
+    axes->slope[k] = 4 * std::abs(normal.dot(p)) / (q - p).norm();
+  }
+  return axes->slope.allFinite();
+}
+
+// Planes of inverse depth 1, du, dv times that of the text's centre become planes theta.
+inline Vector3<double> plane_of(const TextAxes& axes, const Pinhole<double>& camera, double rho, double at_centre,
+                                const Vector2<double>& by_uv) {
+  const Vector2<double> by_px = axes.to_uv.transpose() * by_uv;
+  const double constant = at_centre - by_px.dot(axes.centre);
+  return rho * Vector3<double>(by_px.x() * camera.fx, by_px.y() * camera.fy,
+                               constant + by_px.x() * camera.cx + by_px.y() * camera.cy);
+}
+
+// d theta of a part / d (theta, bends): in each part the quadratic form is its tangent plane.
+inline FixedMatrix<double, 3, 6> part_jacobian(const TextAxes& axes, const Pinhole<double>& camera, double rho,
+                                               const Vector2<double>& at) {
+  FixedMatrix<double, 3, 6> J;
+  J.leftCols<3>().setIdentity();
+  const double u = at.x(), v = at.y();
+  J.col(3) = plane_of(axes, camera, rho, -u * u, {2 * u, 0}) / axes.slope.x();
+  J.col(4) = plane_of(axes, camera, rho, -v * v, {0, 2 * v}) / axes.slope.y();
+  J.col(5) = plane_of(axes, camera, rho, -u * v, {v, u}) / axes.slope.minCoeff();
+  return -J;
+}
+
+inline void append(const PatchLevel& from, std::size_t i, PatchLevel* to) {
+  to->x.push_back(from.x[i]);
+  to->y.push_back(from.y[i]);
+  to->intensity.push_back(from.intensity[i]);
+  to->gx.push_back(from.gx[i]);
+  to->gy.push_back(from.gy[i]);
+}
+
+inline std::array<TextPatch, kBendParts> parts_of(const TextPatch& patch, const TextAxes& axes) {
+  std::array<TextPatch, kBendParts> parts;
+  for (TextPatch& part : parts) {
+    part.quad = patch.quad;
+    part.camera = patch.camera;
+    part.status = patch.status;
+    part.levels.resize(1);
+  }
+  const PatchLevel& all = patch.levels.front();
+  for (std::size_t i = 0; i < all.x.size(); ++i) {
+    const Vector2<double> px(static_cast<double>(all.x[i]), static_cast<double>(all.y[i]));
+    const Vector2<double> uv = axes.to_uv * (px - axes.centre);
+    const auto cell = [](double at, int n) {
+      return static_cast<std::size_t>(std::clamp(static_cast<int>(0.5 * (at + 1) * n), 0, n - 1));
+    };
+    append(all, i, &parts[cell(uv.y(), kBendRows) * kBendColumns + cell(uv.x(), kBendColumns)].levels.front());
+  }
+  for (TextPatch& part : parts) part.levels.front().find_bounds();
+  return parts;
+}
+
+}  // namespace detail
+
+/// The bend of the text in `patch` about the plane `theta`, by targets that hold its pixels on one level
+/// (target.patch). `camera`: of the host, and of targets without their own. `sigmas` of a bend cause no doubt. False
+/// where they do not tell. `workspace` is reserved for the patch.
+TEXTPLANE_DEFERRED
+bool bend_of(const TextPatch& patch, const Vector3<double>& theta, const std::vector<PlaneTarget>& targets,
+             const Pinhole<double>& camera, double sigmas, PhotometricWorkspace& workspace, Bend* bend) {
+  detail::TextAxes axes;
+  if (patch.levels.empty() || !detail::axes_of(patch.quad, theta, camera, &axes)) return false;
+  const double rho = inverse_depth<double>(theta, camera.unproject(axes.centre));
+  std::vector<std::array<TextPatch, detail::kBendParts>> parts;
+  for (const PlaneTarget& target : targets)
+    parts.push_back(detail::parts_of(target.patch ? *target.patch : patch, axes));
+
+  Vector6<double> x = Vector6<double>::Zero(), information = Vector6<double>::Zero();
+  information.tail<3>().setConstant(1 / (detail::kBendPriorSigma * detail::kBendPriorSigma));
+  std::vector<GroupEquations<6>> views;
+  double flat = 0, error = 0;
+  for (int iteration = 0; iteration <= detail::kBendIterations; ++iteration) {
+    views.assign(targets.size(), {});
+    error = 0;
+    FixedMatrix<double, 6, 6> H = information.asDiagonal();
+    Vector6<double> b = information.cwiseProduct(x);
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      for (int k = 0; k < detail::kBendParts; ++k) {
+        const TextPatch& part = parts[t][static_cast<std::size_t>(k)];
+        if (part.levels.front().x.size() < detail::kBendMinPixels) continue;
+        const Vector2<double> at((2.0 * (k % detail::kBendColumns) + 1) / detail::kBendColumns - 1,
+                                 (2.0 * (k / detail::kBendColumns) + 1) / detail::kBendRows - 1);
+        const FixedMatrix<double, 3, 6> J = detail::part_jacobian(axes, camera, rho, at);
+        const auto input =
+            photometric_input(part, 0, targets[t].image, targets[t].camera ? *targets[t].camera : camera);
+        const auto sums = linearise<Parameters::plane>(
+            ResidualRequest{input, Vector3<double>(theta + J * x), targets[t].T_t_h}, workspace);
+        if (!is_ok(sums.status)) continue;
+        error += sums.visible * sums.error;
+        views[t].H += sums.visible * J.transpose() * sums.H * J;
+        views[t].b += sums.visible * J.transpose() * sums.b;
+      }
+      H += views[t].H;
+      b += views[t].b;
+    }
+    if (iteration == 0) flat = error;
+    const Ldlt<double, 6> system(H, 1e-12);
+    if (!system.ok()) return false;
+    if (iteration < detail::kBendIterations) x -= system.solve(b);
+    if (!all_finite(x)) return false;
+  }
+  views.push_back({FixedMatrix<double, 6, 6>(information.asDiagonal()), information.cwiseProduct(x)});
+  const FixedMatrix<double, 6, 6> covariance = jackknife_covariance(views);
+  bend->explained = flat > 0 ? 1 - error / flat : 0;
+  bend->value = x.segment<2>(3);
+  bend->sigma = covariance.diagonal().segment<2>(3).cwiseMax(0.0).cwiseSqrt();
+  bend->doubt.setZero();
+  for (int k = 0; k < 2; ++k) {
+    const double excess = (std::max)(0.0, std::abs(bend->value[k]) - sigmas * bend->sigma[k]) / detail::kBendOfTurn;
+    const Vector3<double> turned =
+        excess * detail::kBendOfTurn / axes.slope[k] * detail::plane_of(axes, camera, rho, 0, Vector2<double>::Unit(k));
+    bend->doubt += turned * turned.transpose();
+  }
+  return true;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_PLANARITY_HPP
+// A better host for a mapped text: a new key frame that shows it whole, much larger than its host does, and as sharp.
+//
+// A sign is first detected from afar, often aslant, so its first host is its poorest view. The plane and its covariance
+// move to the better view and are refined there; the plane gives the quad in the new image; the old host becomes a
+// view. Each change needs a view that is larger by a pyramid level, so changes are few.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// Patch and plane of a text: making, solving for, refining, moving to another key frame, and comparing with an image.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_PLANE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_PLANE_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// What ZNCC a view has to reach, by the noise of the images: limits are for clear ones.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_NOISE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_NOISE_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+// TextOptions: every number that the life of a text object depends on.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_OPTIONS_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_OPTIONS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Numbers of the paper (Li et al., ICRA 2020) are marked so; the others were chosen on rendered rooms. docs/texts.md
+/// shows what happens when one is halved or doubled.
+struct TextOptions {
+  // Proposal: which quads become candidates.
+  double border = 4;         ///< px that a new quad keeps from the image border.
+  double overlap = 0.1;      ///< Share of a new quad that may lie on a known text (the paper: none).
+  double min_area = 200;     ///< px^2 of a quad.
+  int min_pixels = 15;       ///< The paper's minimum of FAST points on a text.
+  int max_pixels = 250;      ///< On each pyramid level.
+  int levels = 3;            ///< Pyramid levels of a patch.
+  double confirm_iou = 0.4;  ///< IoU of a detection that counts for a text.
+
+  // First plane.
+  int min_corners = 6;           ///< Points or matches in the quad for a plane.
+  double min_parallax = 1.0;     ///< Degrees: median over the matches, before a plane is solved for.
+  int plane_rounds = 4;          ///< Rounds of solving for the plane and removing outliers.
+  double plane_outlier = 2.5;    ///< Times the median error: matches farther off are outliers.
+  double plane_min_error = 1.5;  ///< px: matches closer than this are no outliers.
+  int patience = 25;             ///< Key frames that a candidate may wait for its plane.
+
+  // Observations.
+  int min_observations = 5;      ///< The paper's n_min: key frames that show a text, the host among them.
+  int min_detections = 3;        ///< Frames in which the detector saw it.
+  double detected_share = 0.05;  ///< Of the frames with detections that could have shown it.
+  double min_zncc = 0.65;        ///< Of an observation that counts.
+  double cull_zncc = 0.55;       ///< Below it, an observation counts against the text.
+  double max_slant = 78;         ///< Degrees between viewing ray and normal.
+  double seen_border = 1;        ///< px that a quad keeps from the border if all of it must be seen.
+  double seen_area = 0.5;        ///< Of min_area: a smaller image of a text is no observation.
+  double min_share = 0.5;        ///< Of a quad, inside the image: less of it is no observation.
+  int views = 8;                 ///< Key frames that a plane is refined against as they come.
+  int tentative_patience = 50;   ///< Key frames that a text may wait to be mapped.
+  int max_failures = 5;          ///< A text is dropped if so many key frames in a row should show it and do not.
+
+  // Noise: limits of the ZNCC are for clear images.
+  double clear_noise = 4;            ///< Grey levels: limits of the ZNCC are for images with no more.
+  double least_expected_zncc = 0.6;  ///< With less to expect for the noise, the limits fall no further.
+
+  // A better host.
+  double rehost_area = 4;                 ///< Larger by this factor, a key frame's view may replace the host's.
+  double rehost_slant = 5;                ///< Degrees that the new host may be more slanted.
+  double rehost_max_dissimilarity = 1.5;  ///< Factor by which 1 - ZNCC of the other key frames may grow.
+
+  // The plane from many views.
+  int refine_hosts = 8;                   ///< Key frames that a text is compared from, the largest view among them.
+  double refine_area = 0.4;               ///< Its area in such a key frame, at least, as a share of the largest view.
+  double refine_scale = 2;                ///< A view smaller than the host by this factor is not compared with it.
+  int refine_views = 24;                  ///< Key frames that each host is compared with.
+  double refine_max_dissimilarity = 1.5;  ///< A view whose 1 - ZNCC is this many times the median is left out.
+  int refine_pixels = 1000;               ///< Of the text.
+  double refine_margin = 3;         ///< px around the quad that belong to it: edges of letters with both their sides.
+  int refine_reach = 8;             ///< px around the quad that are blurred.
+  double blur_variance = 0.25;      ///< px^2 of a camera's own blur.
+  double blur_spread = 2.5;         ///< See match_blur().
+  double refine_most_bend = 0.35;   ///< Tangent of the turn of the normal from end to end: less counts as planar.
+  double refine_bend_sigmas = 3;    ///< Standard deviations: a larger bend makes a plane less sure.
+  double refine_bend_share = 0.25;  ///< Of the views' disagreement: a bend that explains less is not believed.
+  double refine_max_sigma = 5;      ///< Degrees: a text is dropped in the end if its normal is less certain.
+
+  // The surface that a text lies on.
+  double surface_reach = 2;         ///< Times the text's longer side: how far beside it map points count.
+  double surface_relief = 0.06;     ///< Sigma of a point off the plane, as a share of its distance from the text.
+  double surface_bend = 0.25;       ///< Degrees: sigma between the normals of the surface and of the text.
+  double surface_gap = 0.02;        ///< Of the longer side: how far the centre may be off the surface that it lies on.
+  double surface_most_turn = 5;     ///< Degrees: sigma of the slant of the surface beside a text, where that is sought.
+  double surface_near = 0.1;        ///< Of the longer side: sigma of its distance from the text, where it is sought.
+  double surface_min_points = 6;    ///< Sum of the weights, each at most 1; with less, the plane stays as it was.
+  double surface_max_sigma = 2;     ///< Degrees: points alone give a plane where its normal is known this well.
+  double surface_text_sigma = 20;   ///< Degrees: no surface speaks for a text whose own normal is less certain.
+  double surface_sigmas = 3;        ///< Points beyond have no weight (Tukey).
+  int surface_rounds = 20;          ///< Of weighting and fitting.
+  double surface_guess_turn = 0.6;  ///< Radians: sigma of the normal of a guessed plane.
+  double surface_guess_depth = 0.1;  ///< Sigma of the depth of a guessed plane, as a share.
+
+  // Words.
+  int max_readings = 32;   ///< Different readings of a text that are kept.
+  double same_word = 0.5;  ///< Similarity of two readings of one word: a quarter of the letters may differ.
+
+  // Duplicates.
+  double merge_angle = 8;      ///< Degrees between the normals, merge_sigmas aside.
+  double merge_depth = 0.05;   ///< Relative difference of the inverse depths, merge_sigmas aside.
+  double merge_sigmas = 3;     ///< Standard deviations by which both may differ further.
+  double merge_overlap = 0.3;  ///< IoU of their quads.
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_OPTIONS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// The standard deviation of a pixel's noise on a pyramid level: halving takes half of white noise, and less of noise
+/// that was smoothed.
+inline double noise_on_level(const ImageNoise& image, int level) noexcept {
+  constexpr double kFourPi = 12.566370614359172;
+  // A Gaussian of variance v leaves 1 / (4 pi v) of the variance of white noise, the mean of n pixels 1 / n; one after
+  // the other about the inverse of the sum.
+  const double left = (std::max)(1.0, kFourPi * image.smoothing);
+  return image.noise * std::sqrt(left / (left + std::ldexp(1.0, 2 * level) - 1));
+}
+
+/// Whether either image has more than clear_noise.
+inline bool is_noisy(const TextOptions& options, const ImageNoise& a, const ImageNoise& b) noexcept {
+  return (std::max)(a.noise, b.noise) > options.clear_noise;
+}
+
+/// The limit of the ZNCC for two images of one thing, with the standard deviations of its intensities in both: `limit`
+/// times the ZNCC that noise beyond clear_noise leaves (expected_zncc()), at least least_expected_zncc of it.
+inline double zncc_limit(const TextOptions& options, double limit, int level, const ImageNoise& a, double contrast_a,
+                         const ImageNoise& b, double contrast_b) noexcept {
+  if (!is_noisy(options, a, b)) return limit;
+  const auto excess = [&](const ImageNoise& image) {
+    const double noise = noise_on_level(image, level), clear = std::ldexp(options.clear_noise, -level);
+    return std::sqrt((std::max)(0.0, noise * noise - clear * clear));
+  };
+  const double expected = expected_zncc(contrast_a, excess(a), contrast_b, excess(b));
+  return limit * (std::max)(options.least_expected_zncc, expected);
+}
+
+/// The same for one level of a text's patch, by the contrasts that its pixels have in host and target.
+TEXTPLANE_DEFERRED
+double text_zncc_limit(const TextOptions& options, double limit, const TextPatch& patch, int level,
+                       const Vector3<double>& theta, const TextImage& host, const TextImage& target,
+                       const SE3d& T_t_h) {
+  if (!is_noisy(options, host, target)) return limit;
+  const auto contrast_of = [](const std::vector<float>& intensities) {
+    const auto stats = intensity_stats(intensities.data(), nullptr, static_cast<int>(intensities.size()));
+    return is_ok(stats.status) ? stats.s / std::sqrt(stats.n) : 0;
+  };
+  const PatchLevel& pixels = patch.levels[static_cast<std::size_t>(level)];
+  const Matrix3<double> H = pixel_homography<double>(plane_homography(theta, T_t_h), patch.camera.at_level(level),
+                                                     target.camera.at_level(level));
+  std::vector<float> seen;
+  for (std::size_t i = 0; i < pixels.x.size(); ++i) {
+    const Vector3<double> q =
+        H * Vector3<double>(static_cast<double>(pixels.x[i]), static_cast<double>(pixels.y[i]), 1);
+    float value = 0;
+    if (q.z() > 1e-6 && sample_bilinear(target.pyramid.level[static_cast<std::size_t>(level)],
+                                        static_cast<float>(q.x() / q.z()), static_cast<float>(q.y() / q.z()), &value))
+      seen.push_back(value);
+  }
+  return zncc_limit(options, limit, level, host, contrast_of(pixels.intensity), target, contrast_of(seen));
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_NOISE_HPP
+// How a text looks from a camera: its quad, slant and scale. T_t_h maps the host's points to that camera.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+// TextObject: one planar text, as it lives in a map.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Where a text object is in its life. It goes from one state to the next, or is dropped; nothing goes back.
+enum class TextState : std::uint8_t {
+  candidate,  ///< Detected; its plane is not known yet.
+  tentative,  ///< Has a plane, waits for the paper's n_min observations.
+  mapped,     ///< Takes part in tracking and adjustment.
+  dropped,    ///< Out of use for good; its id is not used again.
+};
+
+/// A planar text: a quad in its host key frame and the plane theta = -n / d in the host's frame.
+struct TextObject {
+  int id = -1;                                           ///< Never used twice.
+  TextState state = TextState::candidate;                ///< See TextState.
+  int host = -1;                                         ///< Id of the key frame that the patch was cut out of.
+  TextPatch patch;                                       ///< Its pixels there, and its quad.
+  Vector3<double> theta = Vector3<double>::Zero();       ///< The plane, in the host's frame.
+  Matrix3<double> covariance = Matrix3<double>::Zero();  ///< Of theta.
+  std::vector<int> views;               ///< Key frames, without the host, that observe it well; increasing.
+  std::map<std::string, double> votes;  ///< Words read: sums of the scores of their readings (words.hpp).
+  int detections = 0;                   ///< Frames in which the detector saw it.
+  int shown = 0;                        ///< Frames with detections that could have shown it, those included.
+  int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
+  double zncc = 0;                      ///< Mean over its last refinement.
+
+  /// Whether theta is known.
+  bool has_plane() const noexcept { return state == TextState::tentative || state == TextState::mapped; }
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+constexpr double kHalfTurn = 3.141592653589793;  // pi
+
+inline double radians(double degrees) noexcept { return degrees * kHalfTurn / 180; }
+
+// Between two directions of any length, degrees.
+inline double degrees_between(const Vector3<double>& a, const Vector3<double>& b) noexcept {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kHalfTurn;
+}
+}  // namespace detail
+
+/// The text's quad as seen by the camera; false where a corner is behind it.
+inline bool project_text(const TextObject& text, const SE3d& T_t_h, const Pinhole<double>& camera,
+                         Quad<double>* quad) noexcept {
+  const Matrix3<double> H = plane_homography(text.theta, T_t_h);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3<double> q = H * text.patch.camera.unproject(text.patch.quad.corner[i]);
+    if (!(q.z() > 1e-6)) return false;
+    quad->corner[i] = camera.pixel(Vector2<double>(q.x() / q.z(), q.y() / q.z()));
+  }
+  return true;
+}
+
+/// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
+inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
+  const Vector3<double> m = text.patch.camera.unproject(centroid(text.patch.quad));
+  const Vector3<double> centre = T_t_h * plane_point(text.theta, m);
+  const Vector3<double> normal = T_t_h.R * plane_normal(text.theta);
+  return -normal.dot(centre.normalized());
+}
+
+/// The slant test, for the cosine that facing() returns.
+inline bool is_too_slanted(const TextOptions& options, double facing) noexcept {
+  return facing < std::cos(detail::radians(options.max_slant));
+}
+
+/// As project_text(), and whether the camera sees enough of the text's front to compare it with the host: not too
+/// slanted, at least `min_area` px^2, and `min_share` of it inside the image (1: the whole quad, off the border).
+inline bool is_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
+                       double min_area, double min_share, Quad<double>* quad) noexcept {
+  if (!project_text(text, T_t_h, image.camera, quad) || is_too_slanted(options, facing(text, T_t_h))) return false;
+  const double whole = std::abs(area(*quad));
+  if (whole < min_area) return false;
+  if (min_share >= 1) return inside_image(*quad, image.width(), image.height(), options.seen_border);
+  return area(clip_to_image(*quad, image.width(), image.height())) >= min_share * whole;
+}
+
+/// The same as tracking asks for it: by TextOptions::min_area and min_share.
+inline bool text_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
+                         Quad<double>* quad) noexcept {
+  return is_in_view(options, text, T_t_h, image, options.min_area, options.min_share, quad);
+}
+
+/// Does the plane lie in front of its host, not too slanted, over the whole quad?
+inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>& camera, const Quad<double>& quad,
+                               const Vector3<double>& theta) noexcept {
+  const Vector3<double> ray = camera.unproject(centroid(quad)).normalized();
+  if (is_too_slanted(options, -plane_normal(theta).dot(ray))) return false;
+  return std::all_of(quad.corner.begin(), quad.corner.end(), [&](const Vector2<double>& corner) {
+    return inverse_depth<double>(theta, camera.unproject(corner)) > 0;
+  });
+}
+
+/// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
+inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcept {
+  return scale_shift(std::abs(area(text.patch.quad)), std::abs(area(quad)));
+}
+
+/// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.
+inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& covariance) noexcept {
+  const Vector3<double> n = plane_normal(theta);
+  const Matrix3<double> J = (Matrix3<double>::Identity() - n * n.transpose()) / theta.norm();
+  const Matrix3<double> of_normal = J * covariance * J.transpose();
+  return std::sqrt((std::max)(0.0, symmetric_eigen<double, 3>(of_normal).values[2]));
+}
+/// The same of a text.
+inline double normal_sigma(const TextObject& text) noexcept { return normal_sigma(text.theta, text.covariance); }
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// The pixels of a text with this quad.
+TEXTPLANE_DEFERRED
+TextPatch make_text_patch(const TextOptions& options, const TextImage& image, const Quad<double>& quad) {
+  SelectOptions select;
+  select.min_pixels = options.min_pixels;
+  select.max_pixels = options.max_pixels;
+  select.levels = options.levels;
+  return make_patch(image.pyramid, image.camera, quad, select);
+}
+
+/// The linear system of section IV-B of the paper from matched rays (m~ in the host and in the target, third entry 1),
+/// with outliers removed by transfer error. False with fewer than min_corners or too little parallax (min_parallax), or
+/// where the plane is not in front of the host at `centre` (m~); *theta may then hold anything.
+TEXTPLANE_DEFERRED
+bool plane_from_text_matches(const TextOptions& options, std::vector<Vector3<double>> host,
+                             std::vector<Vector3<double>> target, const SE3d& T_t_h, double fx,
+                             const Vector3<double>& centre, Vector3<double>* theta) {
+  const auto too_few = [&](const auto& rays) { return static_cast<int>(rays.size()) < options.min_corners; };
+  std::vector<double> parallax;
+  for (std::size_t i = 0; i < host.size(); ++i) {
+    const Vector3<double> turned = T_t_h.R * host[i];
+    parallax.push_back(detail::degrees_between(turned, target[i]));
+  }
+  if (too_few(host) || median(parallax) < options.min_parallax) return false;
+  for (int round = 0; round < options.plane_rounds; ++round) {
+    const auto fit = plane_from_matches(host.data(), target.data(), static_cast<int>(host.size()), T_t_h);
+    if (!is_ok(fit.status)) return false;
+    *theta = fit.value;
+    const Matrix3<double> H = plane_homography(*theta, T_t_h);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < host.size(); ++i) {
+      const Vector3<double> q = H * host[i];
+      const bool ahead = q.z() > 1e-6;
+      errors.push_back(ahead ? fx * (q.hnormalized() - target[i].hnormalized()).norm() : 1e9);
+    }
+    const double limit = (std::max)(options.plane_min_error, options.plane_outlier * median(errors));
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < host.size(); ++i) {
+      if (errors[i] > limit) continue;
+      host[kept] = host[i];
+      target[kept++] = target[i];
+    }
+    if (kept == host.size()) break;
+    host.resize(kept);
+    target.resize(kept);
+    if (too_few(host)) return false;
+  }
+  return all_finite(*theta) && inverse_depth<double>(*theta, centre) > 0;
+}
+
+/// Refines theta, covariance and ZNCC photometrically against these key frames, from `theta`. False, and the text as it
+/// was, where the images agree by less than text_zncc_limit() of `min_zncc` or the plane is implausible.
+TEXTPLANE_DEFERRED
+bool refine_text_plane(const TextOptions& options, const KeyframeLookup& keyframes, const std::vector<int>& ids,
+                       const Vector3<double>& theta, double min_zncc, TextObject& text) {
+  const TextKeyframe host = keyframes(text.host);
+  TextObject guess;
+  guess.patch.quad = text.patch.quad;
+  guess.patch.camera = text.patch.camera;
+  guess.theta = theta;
+  std::vector<PlaneTarget> targets;
+  std::vector<Pinhole<double>> cameras(ids.size());
+  std::vector<double> limits;
+  for (const int id : ids) {
+    const TextKeyframe keyframe = keyframes(id);
+    const SE3d T_t_h = keyframe.from(host);
+    Quad<double> quad;
+    const int shift = project_text(guess, T_t_h, keyframe.camera, &quad) ? scale_shift(text, quad) : 0;
+    Pinhole<double>& camera = cameras[targets.size()];
+    camera = keyframe.camera;
+    targets.push_back({keyframe.pyramid, T_t_h, shift, nullptr, &camera});
+    limits.push_back(text_zncc_limit(options, min_zncc, text.patch, 0, theta, host, keyframe, T_t_h));
+  }
+  PlaneWorkspace workspace;
+  workspace.reserve(text.patch, static_cast<int>(targets.size()));
+  const auto fit = refine_plane(text.patch, theta, targets.data(), static_cast<int>(targets.size()), host.camera,
+                                PlaneOptions{}, workspace);
+  if (!is_ok(fit.status) || fit.zncc < median(std::move(limits)) ||
+      !is_plausible_plane(options, text.patch.camera, text.patch.quad, fit.theta))
+    return false;
+  text.theta = fit.theta;
+  text.covariance = fit.covariance;
+  text.zncc = fit.zncc;
+  return true;
+}
+
+/// One level of the text's patch against an image; `shift` as scale_shift() says.
+inline PhotometricCost compare_text(const TextObject& text, int level, const TextImage& image, const SE3d& T_t_h,
+                                    int shift, PhotometricWorkspace& workspace) {
+  const auto input = photometric_input(text.patch, level, image.pyramid, image.camera, shift);
+  workspace.reserve(input.patch.n);
+  return evaluate(ResidualRequest{input, text.theta, T_t_h}, workspace);
+}
+
+/// Moves a plane with its covariance to another frame. False, and both as they were, where that sees its back.
+inline bool transport_plane(const SE3d& T_to_from, Vector3<double>* theta, Matrix3<double>* covariance) noexcept {
+  Vector3<double> moved;
+  Matrix3<double> J;
+  if (!is_ok(reanchor_plane<double>(*theta, T_to_from, &moved, &J))) return false;
+  *theta = moved;
+  *covariance = J * *covariance * J.transpose();
+  return true;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_PLANE_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+
+// Its whole quad in a key frame that shows clearly more of it than the host; false where that does not.
+inline bool shown_better(const TextOptions& options, const TextKeyframe& host, const TextKeyframe& keyframe,
+                         const TextObject& text, Quad<double>* quad) noexcept {
+  const SE3d T_k_h = keyframe.from(host);
+  if (!project_text(text, T_k_h, keyframe.camera, quad) || !is_convex(*quad) ||
+      !inside_image(*quad, keyframe.width(), keyframe.height(), options.border))
+    return false;
+  if (!(area(*quad) >= options.rehost_area * area(text.patch.quad))) return false;
+  const auto slant = [&](const SE3d& T) { return std::acos(std::clamp(facing(text, T), -1.0, 1.0)); };
+  return slant(T_k_h) <= slant(host.from(host)) + radians(options.rehost_slant);
+}
+
+// Mean of 1 - ZNCC between the text's patch and these key frames, on the finest level.
+TEXTPLANE_DEFERRED
+double dissimilarity(const KeyframeLookup& keyframes, const TextObject& text, const std::vector<int>& ids) {
+  const TextKeyframe host = keyframes(text.host);
+  PhotometricWorkspace workspace;
+  double sum = 0;
+  for (const int id : ids) {
+    const TextKeyframe keyframe = keyframes(id);
+    const SE3d T_k_h = keyframe.from(host);
+    Quad<double> quad;
+    if (!project_text(text, T_k_h, keyframe.camera, &quad)) return 2;
+    const auto cost = compare_text(text, 0, keyframe, T_k_h, scale_shift(text, quad), workspace);
+    sum += is_ok(cost.status) ? 1 - cost.zncc : 2;
+  }
+  return sum / static_cast<double>(ids.size());
+}
+
+}  // namespace detail
+
+/// Makes key frame `id`, one of the mapped text's views, its host. False, and the text as it was, where it shows the
+/// text less than rehost_area times as large, more slanted by rehost_slant, or not whole; or where the other views
+/// agree with its patch clearly less (rehost_max_dissimilarity), as with a blurred one.
+TEXTPLANE_DEFERRED
+bool rehost(const TextOptions& options, const KeyframeLookup& keyframes, int id, TextObject& text) {
+  const auto at = std::find(text.views.begin(), text.views.end(), id);
+  Quad<double> quad;
+  if (text.state != TextState::mapped || at == text.views.end()) return false;
+  const TextKeyframe host = keyframes(text.host), keyframe = keyframes(id);
+  if (!detail::shown_better(options, host, keyframe, text, &quad)) return false;
+  std::vector<int> others = text.views;
+  others.erase(others.begin() + (at - text.views.begin()));
+  if (others.empty()) return false;
+
+  TextObject moved = text;
+  moved.host = id;
+  moved.patch = make_text_patch(options, keyframe, quad);
+  if (!is_ok(moved.patch.status) || !transport_plane(keyframe.from(host), &moved.theta, &moved.covariance))
+    return false;
+  moved.views = others;
+  moved.views.insert(std::upper_bound(moved.views.begin(), moved.views.end(), text.host), text.host);
+  const auto most = static_cast<std::size_t>(options.views);
+  if (!refine_text_plane(options, keyframes, evenly_spaced(moved.views, most), moved.theta, options.min_zncc, moved))
+    return false;
+  // The same key frames speak for either host.
+  const std::vector<int> both = evenly_spaced(others, most);
+  if (detail::dissimilarity(keyframes, moved, both) >
+      options.rehost_max_dissimilarity * detail::dissimilarity(keyframes, text, both))
+    return false;
+  text = std::move(moved);
+  return true;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
+// The rules by which a text is believed, waits, or is dropped.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Did the detector see it often enough: min_detections, and detected_share of the frames that could have shown it?
+inline bool is_detected(const TextObject& text, const TextOptions& options) noexcept {
+  return text.detections >= options.min_detections && text.detections >= options.detected_share * text.shown;
+}
+
+/// Ready to be mapped: min_observations key frames show it, and it is_detected().
+inline bool is_proven(const TextObject& text, const TextOptions& options) noexcept {
+  return static_cast<int>(text.views.size()) + 1 >= options.min_observations && is_detected(text, options);
+}
+
+/// Has it waited too long for its plane, or to be mapped, after `age` key frames?
+inline bool is_overdue(const TextObject& text, const TextOptions& options, int age) noexcept {
+  return (text.state == TextState::candidate && age > options.patience) ||
+         (text.state == TextState::tentative && age > options.tentative_patience);
+}
+
+/// Have max_failures key frames in a row, and more than ever showed it, failed to?
+inline bool is_contradicted(const TextObject& text, const TextOptions& options) noexcept {
+  return text.failures >= options.max_failures && text.failures > static_cast<int>(text.views.size());
+}
+
+/// Is its normal less certain than refine_max_sigma?
+inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
+  return !(normal_sigma(text) <= detail::radians(options.refine_max_sigma));
+}
+
+/// Takes it out of use and frees its memory; its id stays.
+inline void drop(TextObject& text) noexcept {
+  text.state = TextState::dropped;
+  text.patch = TextPatch();
+  std::vector<int>().swap(text.views);
+  text.votes.clear();
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+// Merging of texts: a sign that came to be mapped twice becomes one object.
+//
+// That happens after drift, and where its detections fell on different parts.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// What a text says, by its readings: each is mostly right, and seldom right in every letter.
+#ifndef TEXTPLANE_LANDMARKS_WORDS_HPP
+#define TEXTPLANE_LANDMARKS_WORDS_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// The word of a text that nobody read, as in ICDAR's files.
+constexpr const char* kUnreadText = "###";
+/// Whether it is a reading.
+inline bool is_read(const std::string& text) { return !text.empty() && text != kUnreadText; }
+
+namespace detail {
+inline std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = (std::min)({changed, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+}  // namespace detail
+
+/// 1 for the same word, less by twice the share of letters to change, add or leave out, at least 0.
+inline double word_similarity(const std::string& a, const std::string& b) {
+  const double longer = static_cast<double>((std::max)(a.size(), b.size()));
+  return longer > 0 ? (std::max)(0.0, 1 - 2 * static_cast<double>(detail::edit_distance(a, b)) / longer) : 1;
+}
+
+/// Are the two readings of one word (same_word)? An unread one may be any word.
+inline bool words_agree(const std::string& a, const std::string& b, const TextOptions& options = {}) {
+  return !is_read(a) || !is_read(b) || word_similarity(a, b) >= options.same_word;
+}
+
+/// Adds a reading's score to its votes. Beyond max_readings, the older reading with the fewest votes is forgotten.
+inline void vote(std::map<std::string, double>* votes, const std::string& word, double score,
+                 const TextOptions& options = {}) {
+  (*votes)[word] += score;
+  if (votes->size() <= static_cast<std::size_t>(options.max_readings)) return;
+  auto fewest = votes->end();
+  for (auto entry = votes->begin(); entry != votes->end(); ++entry)
+    if (entry->first != word && (fewest == votes->end() || entry->second < fewest->second)) fewest = entry;
+  votes->erase(fewest);
+}
+
+/// The reading most similar to all readings, weighed by their votes (a weighted median of strings): letters misread
+/// here and there do not split the votes. The first in order among equals, kUnreadText without readings.
+inline std::string consensus(const std::map<std::string, double>& votes) {
+  std::string best = kUnreadText;
+  double most = 0;
+  for (const auto& [word, own] : votes) {
+    double support = 0;
+    for (const auto& [other, count] : votes) support += count * word_similarity(word, other);
+    if (support <= most) continue;
+    best = word;
+    most = support;
+  }
+  return best;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_WORDS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+
+// b's plane beside a's, in a's host.
+inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
+                         const TextObject& b) noexcept {
+  Vector3<double> theta = b.theta;
+  Matrix3<double> covariance = b.covariance;
+  if (!transport_plane(T_a_b, &theta, &covariance)) return false;
+  const Vector3<double> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
+  const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
+  const double angle_sigma = std::hypot(normal_sigma(a), normal_sigma(theta, covariance));
+  if (!(angle <= radians(options.merge_angle) + options.merge_sigmas * angle_sigma)) return false;
+
+  const Vector3<double> m = a.patch.camera.unproject(centroid(a.patch.quad));
+  const double rho_a = inverse_depth<double>(a.theta, m), rho_b = inverse_depth<double>(theta, m);
+  const double rho_sigma = std::sqrt((std::max)(0.0, m.dot((a.covariance + covariance) * m)));
+  return std::abs(rho_a - rho_b) <= options.merge_depth * std::abs(rho_a) + options.merge_sigmas * rho_sigma;
+}
+
+inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
+                             const TextObject& b) noexcept {
+  Quad<double> quad;
+  return facing(b, T_a_b) > 0 && project_text(b, T_a_b, a.patch.camera, &quad) &&
+         iou(a.patch.quad, quad) >= options.merge_overlap;
+}
+
+}  // namespace detail
+
+/// What `other` saw counts for `kept`; its key-frame ids are `first_keyframe` higher in kept's map.
+inline void add_observations_of(const TextObject& other, int first_keyframe, const TextOptions& options,
+                                TextObject& kept) {
+  kept.views.push_back(first_keyframe + other.host);
+  for (const int id : other.views) kept.views.push_back(first_keyframe + id);
+  for (const auto& [word, count] : other.votes) vote(&kept.votes, word, count, options);
+  kept.detections += other.detections;
+  kept.shown += other.shown;
+}
+
+/// Do two texts with planes stand for one sign? Words, planes (angle and inverse depth at the centres, within a
+/// tolerance beside merge_sigmas standard deviations) and quads, in the host of either, must agree.
+inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframes, const TextObject& a,
+                      const TextObject& b) {
+  if (!words_agree(consensus(a.votes), consensus(b.votes), options)) return false;
+  const TextKeyframe host_a = keyframes(a.host), host_b = keyframes(b.host);
+  const SE3d T_a_b = host_a.from(host_b), T_b_a = host_b.from(host_a);
+  return detail::overlaps_in_host(options, T_a_b, a, b) && detail::overlaps_in_host(options, T_b_a, b, a) &&
+         detail::planes_agree(options, T_a_b, a, b) && detail::planes_agree(options, T_b_a, b, a);
+}
+
+/// Merges two texts into the one with more views, `a` among equals. Its plane stays; the other text is dropped.
+inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b) {
+  TextObject &to = b.views.size() > a.views.size() ? b : a, &from = &to == &a ? b : a;
+  add_observations_of(from, 0, options, to);
+  std::sort(to.views.begin(), to.views.end());
+  to.views.erase(std::unique(to.views.begin(), to.views.end()), to.views.end());
+  to.views.erase(std::remove(to.views.begin(), to.views.end(), to.host), to.views.end());
+  to.failures = 0;
+  drop(from);
+}
+
+/// Merges the mapped texts that are the same. Returns how many are gone.
+TEXTPLANE_DEFERRED
+int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts) {
+  int merged = 0;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (std::size_t j = i + 1; j < texts.size(); ++j) {
+      TextObject &a = texts[i], &b = texts[j];
+      if (a.state != TextState::mapped || b.state != TextState::mapped || !same_text(options, keyframes, a, b))
+        continue;
+      merge_texts(options, a, b);
+      ++merged;
+    }
+  return merged;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+// TextRefiner: the plane of a text from many views, once the poses of the key frames are known.
+//
+// The text is compared between its views, from several hosts, with all its pixels, each pair at the same blur
+// (photometry/blur.hpp). Each host samples narrow strokes differently, so the hosts' planes are averaged; their
+// scatter, and the disagreement of the views (jackknife.hpp), go into the covariance. Last, the map points of the
+// surface count, if there are any and the text lies on it (text_surface.hpp). What is bent (planarity.hpp) or uncertain
+// is no text.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// The surface that a text lies on, as a page or a board. Beside a small text, map points determine the plane best.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_SURFACE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_SURFACE_HPP
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A map point in or beside a text, in the frame of the text's host.
+struct SurfacePoint {
+  Vector3<double> p = Vector3<double>::Zero();  ///< Position.
+  double sigma = 0;   ///< Across the plane: of the point and of the relief of the surface there.
+  double beside = 0;  ///< Distance from the text, along its plane; 0 within it.
+};
+
+/// The points of a map by their index, wherever they are kept. Not owning, like a view.
+class PointLookup {
+ public:
+  /// `keeper` outlives the lookup and has
+  ///   int text_point_count() const
+  ///   bool text_point(int i, Vector3<double>* p_w) const    false: there is none, or a bad one
+  ///   double text_point_variance(int i, const Vector3<double>& direction_w) const    not positive: not known
+  template <class Keeper>
+  explicit PointLookup(const Keeper& keeper) noexcept
+      : keeper_(&keeper),
+        count_([](const void* k) { return static_cast<const Keeper*>(k)->text_point_count(); }),
+        position_(
+            [](const void* k, int i, Vector3<double>* p) { return static_cast<const Keeper*>(k)->text_point(i, p); }),
+        variance_([](const void* k, int i, const Vector3<double>& d) {
+          return static_cast<const Keeper*>(k)->text_point_variance(i, d);
+        }) {}
+
+  int count() const { return count_(keeper_); }                                            ///< Indices are below it.
+  bool position(int i, Vector3<double>* p_w) const { return position_(keeper_, i, p_w); }  ///< In the world.
+  /// Of point i along a unit vector of the world; not positive where it is not known.
+  double variance(int i, const Vector3<double>& direction_w) const { return variance_(keeper_, i, direction_w); }
+
+ private:
+  const void* keeper_;
+  int (*count_)(const void*);
+  bool (*position_)(const void*, int, Vector3<double>*);
+  double (*variance_)(const void*, int, const Vector3<double>&);
+};
+
+/// The points within surface_reach of a text with a plane, of those whose variance is known.
+TEXTPLANE_DEFERRED
+std::vector<SurfacePoint> points_beside(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h,
+                                        const TextObject& text) {
+  std::vector<SurfacePoint> beside_it;
+  std::array<Vector3<double>, 4> c;
+  if (!is_ok(quad_points(text.patch.quad, text.patch.camera, text.theta, &c))) return beside_it;
+  const Vector3<double> normal = plane_normal(text.theta), centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+  const Vector3<double> across = 0.5 * (c[1] - c[0] + c[2] - c[3]), down = 0.5 * (c[3] - c[0] + c[2] - c[1]);
+  const Vector3<double> right = across.normalized(), below = normal.cross(right);
+  const double reach = options.surface_reach * (std::max)(across.norm(), down.norm());
+
+  const SE3d T_h_w = T_w_h.inverse();
+  for (int i = 0; i < points.count(); ++i) {
+    Vector3<double> p_w;
+    if (!points.position(i, &p_w)) continue;
+    const Vector3<double> p = T_h_w * p_w, offset = p - centre;
+    const double beside = std::hypot((std::max)(0.0, std::abs(right.dot(offset)) - 0.5 * across.norm()),
+                                     (std::max)(0.0, std::abs(below.dot(offset)) - 0.5 * down.norm()));
+    if (!(p.z() > 0) || !(beside <= reach) || !(std::abs(normal.dot(offset)) <= reach)) continue;
+    const double variance = points.variance(i, T_w_h.R * normal);
+    if (variance > 0)
+      beside_it.push_back({p, std::hypot(std::sqrt(variance), options.surface_relief * beside), beside});
+  }
+  return beside_it;
+}
+
+namespace detail {
+constexpr double kMinPivot = 1e-12;  // a plane known much better in one direction than in another is still known
+
+// Covariance of theta where the plane goes through a point and its normal is known to sigma, radians.
+inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<double>& point, double sigma) {
+  const Vector3<double> n = plane_normal(theta), side = n.unitOrthogonal(), other = n.cross(side);
+  const double distance = n.dot(point);
+  Matrix3<double> covariance = Matrix3<double>::Zero();
+  for (const Vector3<double>& turn : {side, other}) {
+    const Vector3<double> d = sigma / distance * (turn - turn.dot(point) / distance * n);  // theta = n / (n^T point)
+    covariance += d * d.transpose();
+  }
+  return covariance;
+}
+
+// Where a plane is known by a guess alone: its slant in radians, its distance as a share.
+inline Matrix3<double> guessed(const Vector3<double>& theta, const Vector3<double>& centre, double turn,
+                               double distance) {
+  return turned_about(theta, centre, turn) + distance * distance * theta * theta.transpose();
+}
+}  // namespace detail
+
+/// Theta and covariance from what was known and from the points. The surface may be bent about `centre`, the text's, on
+/// the plane (surface_bend). Points beyond surface_sigmas are down-weighted (Tukey), by the sigmas of the point and of
+/// the plane there. False, and nothing changed, with weights below surface_min_points.
+TEXTPLANE_DEFERRED
+bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vector3<double>& centre, const TextOptions& options,
+                    Vector3<double>* theta, Matrix3<double>* covariance) {
+  const Ldlt<double, 3> prior(*covariance, detail::kMinPivot);
+  if (!prior.ok()) return false;
+  const Matrix3<double> known = prior.inverse();
+  const Matrix3<double> bend = detail::turned_about(*theta, centre, detail::radians(options.surface_bend));
+  Vector3<double> x = *theta;
+  Matrix3<double> C = *covariance;
+  const double sigmas = options.surface_sigmas;
+  double used = 0;
+  for (int round = 0; round < options.surface_rounds; ++round) {
+    Matrix3<double> information = Matrix3<double>::Zero();
+    Vector3<double> gradient = Vector3<double>::Zero();
+    used = 0;
+    for (const SurfacePoint& point : points) {
+      const double error = 1 - x.dot(point.p), variance = x.squaredNorm() * point.sigma * point.sigma;
+      const double squared = error * error / (sigmas * sigmas * (variance + point.p.dot(C * point.p)));
+      if (!(squared < 1)) continue;
+      const double weight = (1 - squared) * (1 - squared);
+      information += weight / variance * point.p * point.p.transpose();
+      gradient += weight / variance * error * point.p;
+      used += weight;
+    }
+    // The bend is common to all points: (information^-1 + bend)^-1, in a form where neither need be regular.
+    const Matrix3<double> together = (Matrix3<double>::Identity() + information * bend).inverse();
+    const Matrix3<double> both = known + together * information;
+    const Ldlt<double, 3> system(0.5 * (both + both.transpose()), detail::kMinPivot);
+    if (!system.ok()) return false;
+    x += system.solve(known * (*theta - x) + together * gradient);
+    C = system.inverse();
+  }
+  if (!(used >= options.surface_min_points) || !all_finite(x) || !all_finite(C)) return false;
+  *theta = x;
+  *covariance = C;
+  return true;
+}
+
+namespace detail {
+// Is the surface beside a text the one that it is on? Then the surface, fitted without the text, goes through the
+// text's centre and has its slant, as far as its points tell that. A sign that stands off its wall is likely to be
+// turned, too.
+TEXTPLANE_DEFERRED
+bool lies_on(std::vector<SurfacePoint> points, const Vector3<double>& centre, double length, const TextOptions& options,
+             const TextObject& text) {
+  points.erase(std::remove_if(points.begin(), points.end(), [](const SurfacePoint& p) { return !(p.beside > 0); }),
+               points.end());
+  Vector3<double> theta = text.theta;
+  const double distance = 1 / theta.norm();
+  Matrix3<double> covariance = text.covariance + guessed(theta, centre, radians(options.surface_most_turn),
+                                                         options.surface_near * length / distance);
+  if (!fit_to_surface(points, centre, options, &theta, &covariance)) return false;
+  const double gap = std::abs(theta.dot(centre) - 1) / theta.norm();
+  const double gap_sigma = std::sqrt(centre.dot(text.covariance * centre)) / theta.norm();
+  const double turn = degrees_between(plane_normal(theta), plane_normal(text.theta));
+  TextObject surface;
+  surface.theta = theta;
+  surface.covariance = covariance;
+  const double turn_sigma =
+      std::hypot(normal_sigma(text) / radians(1), normal_sigma(surface) / radians(1), options.surface_bend);
+  return gap <= options.surface_gap * length + options.surface_sigmas * gap_sigma &&
+         turn <= options.surface_sigmas * turn_sigma;
+}
+}  // namespace detail
+
+/// The same for a text of a map, with the points beside it, if they show a surface that goes through its centre
+/// (surface_gap) and has its slant (surface_sigmas). A sign that stands off its wall may be turned from it. A text that
+/// hardly knows its own slant (surface_text_sigma) could not contradict a wrong surface, and stays as it was.
+TEXTPLANE_DEFERRED
+void fit_to_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h, TextObject& text) {
+  const double sigma = normal_sigma(text);
+  std::array<Vector3<double>, 4> c;
+  if (!(sigma <= detail::radians(options.surface_text_sigma)) ||
+      !is_ok(quad_points(text.patch.quad, text.patch.camera, text.theta, &c)))
+    return;
+  const Vector3<double> centre = plane_point(text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
+  const double length = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
+  const std::vector<SurfacePoint> beside = points_beside(options, points, T_w_h, text);
+  Vector3<double> theta = text.theta;
+  Matrix3<double> covariance = text.covariance;
+  if (!detail::lies_on(beside, centre, length, options, text) ||
+      !fit_to_surface(beside, centre, options, &theta, &covariance))
+    return;
+  const double turn = detail::radians(detail::degrees_between(plane_normal(theta), plane_normal(text.theta)));
+  if (turn > options.surface_sigmas * std::hypot(sigma, detail::radians(options.surface_bend))) return;
+  text.theta = theta;
+  text.covariance = covariance;
+}
+
+/// The same for a text without a plane, by the points alone. `seen`: in the host's frame, those that the host sees.
+/// False, and nothing changed, with fewer than surface_min_points of them about the text, or where the normal stays
+/// less certain than surface_max_sigma.
+TEXTPLANE_DEFERRED
+bool plane_from_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h,
+                        const std::vector<Vector3<double>>& seen, TextObject& text) {
+  const auto& c = text.patch.quad.corner;
+  const Pinhole<double>& camera = text.patch.camera;
+  const Vector2<double> middle = centroid(text.patch.quad);
+  const double reach = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
+  std::vector<double> depths;
+  for (const Vector3<double>& p : seen)
+    if (p.z() > 0 && (camera.project(p) - middle).norm() <= reach) depths.push_back(p.z());
+  if (static_cast<double>(depths.size()) < options.surface_min_points) return false;
+
+  // A guess: across the ray to the text, at the depth of what is seen there.
+  const Vector3<double> ray = camera.unproject(middle), centre = median(depths) * ray;
+  TextObject guess;
+  guess.patch.quad = text.patch.quad;
+  guess.patch.camera = camera;
+  guess.theta = centre / centre.squaredNorm();
+  guess.covariance = detail::guessed(guess.theta, centre, options.surface_guess_turn, options.surface_guess_depth);
+  if (!fit_to_surface(points_beside(options, points, T_w_h, guess), centre, options, &guess.theta, &guess.covariance) ||
+      !(normal_sigma(guess) <= detail::radians(options.surface_max_sigma)))
+    return false;
+  text.theta = guess.theta;
+  text.covariance = guess.covariance;
+  return true;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_SURFACE_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+// Moves the sides of a quad outwards by `margin` px.
+inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
+  const auto& c = quad.corner;
+  const Vector2<double> right = (c[1] - c[0] + c[2] - c[3]).normalized(),
+                        down = (c[3] - c[0] + c[2] - c[1]).normalized();
+  Quad<double> out;
+  out.corner = {c[0] - margin * (right + down), c[1] + margin * (right - down), c[2] + margin * (right + down),
+                c[3] - margin * (right - down)};
+  return out;
+}
+
+// d target px / d host px of the plane, at a host pixel.
+inline bool affine_at(const Pinhole<double>& host, const Pinhole<double>& target, const Vector3<double>& theta,
+                      const SE3d& T_t_h, const Vector2<double>& px, Matrix2d* A) noexcept {
+  const Matrix3<double> H = pixel_homography<double>(plane_homography(theta, T_t_h), host, target);
+  const Vector3<double> q = H * px.homogeneous();
+  if (!(q.z() > 1e-6)) return false;
+  const Vector2<double> p = q.hnormalized();
+  *A = (H.topLeftCorner<2, 2>() - p * H.bottomLeftCorner<1, 2>()) / q.z();
+  return true;
+}
+}  // namespace detail
+
+/// Refines planes, one text after the other. Keeps memory from text to text; for one thread at a time.
+TEXTPLANE_DEFERRED
+class BasicTextRefiner {
+ public:
+  /// `options`, and what `keyframes` looks up, must outlive the refiner.
+  BasicTextRefiner(const TextOptions& options, const KeyframeLookup& keyframes)
+      : options_(options), keyframes_(keyframes) {}
+
+  /// Theta and covariance of a text with a plane. False, and the text as it was, where it is bent or its normal stays
+  /// uncertain (refine_max_sigma), or where no two whole views agree: its plane rests on parts, or on points alone.
+  /// `points`, if given: of the map, for the surface that it lies on.
+  bool refine(TextObject& text, const PointLookup* points = nullptr) {
+    const std::vector<View> views = views_of(text);
+    double largest = 0;
+    for (const View& view : views) largest = (std::max)(largest, view.area);
+    std::vector<int> hosts;
+    for (std::size_t i = 0; i < views.size(); ++i)
+      if (views[i].area >= options_.refine_area * largest) hosts.push_back(static_cast<int>(i));
+    std::vector<Estimate> estimates;
+    for (const int i : evenly_spaced(hosts, static_cast<std::size_t>(options_.refine_hosts))) {
+      Estimate e;
+      if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
+    }
+    if (estimates.empty()) return false;
+    // A host that is blurred itself is similar to none of its targets.
+    double most = 0;
+    for (const Estimate& e : estimates) most = (std::max)(most, e.zncc);
+    const double limit = options_.refine_max_dissimilarity * (1 - most);
+    estimates.erase(
+        std::remove_if(estimates.begin(), estimates.end(), [&](const Estimate& e) { return 1 - e.zncc > limit; }),
+        estimates.end());
+    const double n = static_cast<double>(estimates.size());
+    Vector3<double> mean = Vector3<double>::Zero();
+    Matrix3<double> covariance = Matrix3<double>::Zero();
+    for (const Estimate& e : estimates) mean += e.theta / n;
+    for (const Estimate& e : estimates)
+      covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
+    TextObject refined;
+    refined.patch.quad = text.patch.quad;
+    refined.patch.camera = text.patch.camera;
+    refined.theta = mean;
+    refined.covariance = covariance;
+    if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
+    if (is_uncertain(refined, options_) || is_bent(estimates)) return false;
+    text.theta = refined.theta;
+    text.covariance = refined.covariance;
+    return true;
+  }
+
+ private:
+  struct View {
+    int id = -1;
+    TextKeyframe keyframe;
+    Quad<double> quad;
+    double area = 0;
+  };
+  struct Estimate {
+    Vector3<double> theta;  // in the text's host
+    Matrix3<double> covariance;
+    double zncc = 0;
+    Bend bend;
+  };
+
+  std::vector<View> views_of(const TextObject& text) const {
+    const TextKeyframe host = keyframes_(text.host);
+    std::vector<int> ids = text.views;
+    ids.push_back(text.host);
+    std::vector<View> views;
+    for (const int id : ids) {
+      View view{id, keyframes_(id), {}, 0};
+      const SE3d T_v_h = view.keyframe.from(host);
+      if (!project_text(text, T_v_h, view.keyframe.camera, &view.quad) ||
+          is_too_slanted(options_, facing(text, T_v_h)) ||
+          !inside_image(view.quad, view.keyframe.width(), view.keyframe.height(), options_.refine_margin + 1))
+        continue;
+      view.area = std::abs(area(view.quad));
+      views.push_back(view);
+    }
+    std::sort(views.begin(), views.end(), [](const View& a, const View& b) { return a.id < b.id; });
+    return views;
+  }
+
+  bool add_target(const TextPatch& patch, const Vector3<double>& theta, const View& host, const View& view) {
+    constexpr double kSampling = 1.0 / 6.0;  // px^2: mean variance of bilinear interpolation
+    PlaneTarget target;
+    target.T_t_h = view.keyframe.from(host.keyframe);
+    target.camera = &view.keyframe.camera;
+    Matrix2d A;
+    BlurMatch match;
+    // The spread is for what is not known: the camera's blur, and not that of smoothing.
+    const double camera_blur = options_.blur_variance, host_smoothing = host.keyframe.smoothing,
+                 view_smoothing = view.keyframe.smoothing,
+                 spread = 1 + (options_.blur_spread - 1) * camera_blur /
+                                  (camera_blur + (std::max)(host_smoothing, view_smoothing));
+    if (host.area > options_.refine_scale * options_.refine_scale * view.area ||
+        !detail::affine_at(patch.camera, view.keyframe.camera, theta, target.T_t_h, centroid(patch.quad), &A) ||
+        !is_ok(match_blur(A, camera_blur + host_smoothing, camera_blur + view_smoothing + kSampling, spread, &match)))
+      return false;
+    const std::size_t slot = targets_.size();
+    const ImageView8 image = view.keyframe.pyramid.level[0];
+    if (filtered_.size() <= slot) filtered_.emplace_back();
+    if (filtered_[slot].width() != image.width() || filtered_[slot].height() != image.height())
+      filtered_[slot] = Image<std::uint8_t>(image.width(), image.height());
+    const Bounds<double> box = bounds(view.quad);
+    const int reach = options_.refine_reach;
+    filter_(image, BlurKernel(match.target), static_cast<int>(box.min.x()) - reach,
+            static_cast<int>(box.min.y()) - reach, static_cast<int>(box.max.x()) + reach,
+            static_cast<int>(box.max.y()) + reach, filtered_[slot].view());
+    target.image.levels = 1;
+    target.image.level[0] = filtered_[slot].view();
+    patches_.push_back(patch);
+    filter_(host.keyframe.pyramid.level[0], BlurKernel(match.host), &patches_.back().levels[0]);
+    targets_.push_back(target);
+    return true;
+  }
+
+  // Views that are blurred by motion or half hidden are less similar to the host than the others.
+  bool drop_dissimilar(const Vector3<double>& theta) {
+    std::vector<double> dissimilarity;
+    for (const PlaneTarget& target : targets_) {
+      const auto input = photometric_input(*target.patch, 0, target.image, *target.camera);
+      const auto cost = evaluate(ResidualRequest{input, theta, target.T_t_h}, photometric_);
+      dissimilarity.push_back(is_ok(cost.status) ? 1 - cost.zncc : 2);
+    }
+    const double limit = options_.refine_max_dissimilarity * median(dissimilarity);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+      if (dissimilarity[i] <= limit) targets_[kept++] = targets_[i];
+    const bool dropped = kept < targets_.size();
+    targets_.resize(kept);
+    return dropped;
+  }
+
+  // How far the views disagree: by errors of their poses, by highlights, by neighbouring pixels that err together.
+  Matrix3<double> disagreement(const Vector3<double>& theta) {
+    std::vector<GroupEquations<3>> views;
+    for (const PlaneTarget& target : targets_) {
+      const auto input = photometric_input(*target.patch, 0, target.image, *target.camera);
+      const auto view = linearise<Parameters::plane>(ResidualRequest{input, theta, target.T_t_h}, photometric_);
+      if (is_ok(view.status)) views.push_back({view.visible * view.H, view.visible * view.b});
+    }
+    return jackknife_covariance(views);
+  }
+
+  bool estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out) {
+    const SE3d T_h_o = host.keyframe.from(keyframes_(text.host));
+    const Vector3<double> theta = reanchor_plane<double>(text.theta, T_h_o);
+    SelectOptions select;
+    select.min_pixels = options_.min_pixels;
+    select.max_pixels = options_.refine_pixels;
+    select.levels = 1;
+    const TextPatch patch = make_patch(host.keyframe.pyramid, host.keyframe.camera,
+                                       detail::grown(host.quad, options_.refine_margin), select);
+    if (!is_ok(patch.status) || !(theta.norm() > 0)) return false;
+
+    targets_.clear();
+    patches_.clear();
+    std::vector<int> others;
+    std::vector<double> limits;
+    for (std::size_t i = 0; i < views.size(); ++i)
+      if (views[i].id != host.id) others.push_back(static_cast<int>(i));
+    for (const int i : evenly_spaced(others, static_cast<std::size_t>(options_.refine_views))) {
+      const View& view = views[static_cast<std::size_t>(i)];
+      if (add_target(patch, theta, host, view))
+        limits.push_back(text_zncc_limit(options_, options_.min_zncc, patch, 0, theta, host.keyframe, view.keyframe,
+                                         targets_.back().T_t_h));
+    }
+    if (targets_.empty()) return false;
+    for (std::size_t i = 0; i < targets_.size(); ++i) targets_[i].patch = &patches_[i];
+
+    workspace_.reserve(patch, static_cast<int>(targets_.size()));
+    photometric_.reserve(patch.max_pixels());
+    PlaneOptions plane;
+    plane.coarsest_level = 0;
+    const auto fit_to_targets = [&](const Vector3<double>& start) {
+      return refine_plane(patch, start, targets_.data(), static_cast<int>(targets_.size()), host.keyframe.camera, plane,
+                          workspace_);
+    };
+    auto fit = fit_to_targets(theta);
+    if (!is_ok(fit.status)) return false;
+    if (drop_dissimilar(fit.theta)) fit = fit_to_targets(fit.theta);
+    if (!is_ok(fit.status) || fit.zncc < median(std::move(limits))) return false;
+    Matrix3<double> J;
+    out->theta = reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
+    if (!bend_of(patch, fit.theta, targets_, host.keyframe.camera, options_.refine_bend_sigmas, photometric_,
+                 &out->bend))
+      out->bend = {};
+    // The disagreement shows noise, too; but few views may agree by chance.
+    const Matrix3<double> scatter = disagreement(fit.theta);
+    const Matrix3<double> known = scatter.trace() > fit.covariance.trace() ? scatter : fit.covariance;
+    out->covariance = J * (known + out->bend.doubt) * J.transpose();
+    out->zncc = fit.zncc;
+    return out->theta.norm() > 0;
+  }
+
+  // Not planar: a bend, the mean over the hosts, explains much of why the views disagree.
+  bool is_bent(const std::vector<Estimate>& estimates) const {
+    const double n = static_cast<double>(estimates.size());
+    Vector2<double> bend = Vector2<double>::Zero();
+    double explained = 0;
+    for (const Estimate& e : estimates) {
+      bend += e.bend.value / n;
+      explained += e.bend.explained / n;
+    }
+    return explained >= options_.refine_bend_share && bend.cwiseAbs().maxCoeff() >= options_.refine_most_bend;
+  }
+
+  const TextOptions& options_;
+  KeyframeLookup keyframes_;
+  BlurFilter filter_;
+  PlaneWorkspace workspace_;
+  PhotometricWorkspace photometric_;
+  std::vector<PlaneTarget> targets_;
+  std::vector<TextPatch> patches_;             // as each target's blur shows the host
+  std::vector<Image<std::uint8_t>> filtered_;  // the targets, where the text is
+};
+using TextRefiner = BasicTextRefiner<>;  ///< It is compiled only where it is used.
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
 
 #endif  // TEXTPLANE_TEXTPLANE_HPP

@@ -3,9 +3,8 @@
 # The adjustment and the detector beside tracking, with the files that they need and no more: ThreadSanitizer takes a
 # minute for each.
 if(TEXTPLANE_TEST_TIER STREQUAL "threads")
-  set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread input/noise_filter
-    map/observations map/text_geometry map/text_words map/text_zncc text/text_plane track/feature_tracks track/point_search
-    track/rotation_prior track/track track/tracker)
+  set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread
+    map/observations track/feature_tracks track/point_search track/rotation_prior track/track track/tracker)
   list(TRANSFORM alone REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/examples/textslam/\\1.cpp")
   add_executable(adjuster_alone_test textslam/adjust/adjuster_test.cpp textslam/detect/detection_thread_test.cpp ${alone})
   target_include_directories(adjuster_alone_test PRIVATE ${PROJECT_SOURCE_DIR}/examples)

@@ -18,12 +18,12 @@
 #include <vector>
 
 #include "io/sequence.hpp"
+#include "textplane/landmarks/words.hpp"
 
 namespace textslam {
 
-/// The text of an unread detection.
-constexpr const char* kUnreadText = "###";
-inline bool is_read(const std::string& text) { return !text.empty() && text != kUnreadText; }
+using textplane::is_read;
+using textplane::kUnreadText;  ///< The text of an unread detection.
 
 struct Detection {
   Quad<double> quad;               ///< raw px, clockwise from the text's top left

@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "io/json_file.hpp"
-#include "textslam/map/text_words.hpp"
+#include "textplane/landmarks/words.hpp"
 
 namespace textslam {
 namespace {
@@ -27,7 +27,7 @@ int rank(const IndexedText& text, const std::string& word) {
   for (const auto& [reading, votes] : text.readings)
     if (holds(reading)) return 4;
   for (const auto& [reading, votes] : text.readings)
-    if (word_similarity(lower(reading), word) >= Parameters{}.same_word) return 5;
+    if (textplane::word_similarity(lower(reading), word) >= Parameters{}.text.same_word) return 5;
   return kNoMatch;
 }
 

@@ -68,4 +68,20 @@
 #include "textplane/solver/window_structure.hpp"
 #include "textplane/solver/window_terms.hpp"
 
+#include "textplane/landmarks/jackknife.hpp"
+#include "textplane/landmarks/keyframe.hpp"
+#include "textplane/landmarks/order.hpp"
+#include "textplane/landmarks/planarity.hpp"
+#include "textplane/landmarks/text_hosting.hpp"
+#include "textplane/landmarks/text_life.hpp"
+#include "textplane/landmarks/text_merge.hpp"
+#include "textplane/landmarks/text_noise.hpp"
+#include "textplane/landmarks/text_object.hpp"
+#include "textplane/landmarks/text_options.hpp"
+#include "textplane/landmarks/text_plane.hpp"
+#include "textplane/landmarks/text_refiner.hpp"
+#include "textplane/landmarks/text_surface.hpp"
+#include "textplane/landmarks/text_view.hpp"
+#include "textplane/landmarks/words.hpp"
+
 #endif  // TEXTPLANE_TEXTPLANE_HPP

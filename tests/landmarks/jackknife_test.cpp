@@ -1,16 +1,17 @@
 // The covariance by leaving groups out is what leaving them out gives.
-#include "textslam/text/jackknife.hpp"
+#include "textplane/landmarks/jackknife.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <random>
 
-namespace textslam {
 namespace jackknife_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using textplane::GroupEquations;
+using textplane::jackknife_covariance;
 
 // r = J x - y in groups, each with an error of its own.
 struct Linear {
@@ -78,4 +79,3 @@ TEST(Jackknife, OneGroupOrNoneTellsNothing) {
 }
 
 }  // namespace jackknife_test
-}  // namespace textslam

@@ -1,17 +1,15 @@
 // A text round a cylinder or over an edge is told from a flat one, by how far it is bent.
-#include "textslam/text/text_planarity.hpp"
+#include "textplane/landmarks/planarity.hpp"
 
-#include "textslam/map/text_geometry.hpp"
-#include "textslam/text/text_hosting_support.hpp"
-#include "textslam/text/text_refiner.hpp"
+#include "landmarks/walk_support.hpp"
+#include "textplane/landmarks/text_refiner.hpp"
 
-namespace textslam {
-namespace text_hosting_test {
+namespace landmarks_test {
 
-class TextPlanarityTest : public TextHostingTest {
+class PlanarityTest : public WalkTest {
  protected:
   void walk(const std::function<double(double)>& shape) {
-    relief = shape;
+    wall.relief = shape;
     begin();
     for (int i = 0; i < 6; ++i) add_target(at(0.1 * i - 0.2, 0.3, 0.04 * (i % 3)));
   }
@@ -19,23 +17,18 @@ class TextPlanarityTest : public TextHostingTest {
     return [radius](double x) { return radius - std::sqrt(std::max(0.0, radius * radius - x * x)); };
   }
   Bend bend() {
-    std::vector<textplane::PlaneTarget> targets;
-    for (const int id : text().views)
-      targets.push_back({map.keyframe(id).frame.image->view(), map.T_c_h(map.keyframe(id).T_w_c.inverse(), 0), 0});
-    textplane::PhotometricWorkspace workspace;
-    workspace.reserve(text().patch.max_pixels());
+    std::vector<PlaneTarget> targets;
+    for (const int id : text.views) targets.push_back({frames[id].image->view(), frames.between(id, 0), 0});
+    PhotometricWorkspace workspace;
+    workspace.reserve(text.patch.max_pixels());
     Bend out;
-    EXPECT_TRUE(
-        bend_of(text().patch, text().theta, targets, map.camera, parameters.refine_bend_sigmas, workspace, &out));
+    EXPECT_TRUE(bend_of(text.patch, text.theta, targets, wall.camera, options.refine_bend_sigmas, workspace, &out));
     return out;
   }
-  TextState refined() {
-    TextRefiner(map, parameters).refine();
-    return text().state;
-  }
+  bool refined() { return TextRefiner(options, KeyframeLookup(frames)).refine(text); }
 };
 
-TEST_F(TextPlanarityTest, ABendIsTheTurnOfTheNormalFromEndToEnd) {
+TEST_F(PlanarityTest, ABendIsTheTurnOfTheNormalFromEndToEnd) {
   // Depth x^2 / 2R over the half width h: the slopes at both ends differ by 2 h / R.
   for (const double turn : {0.3, 0.6, -0.6}) {
     const double radius = 2 * kHalfWidth / std::abs(turn);
@@ -48,40 +41,39 @@ TEST_F(TextPlanarityTest, ABendIsTheTurnOfTheNormalFromEndToEnd) {
   }
 }
 
-TEST_F(TextPlanarityTest, AFlatTextHasNone) {
+TEST_F(PlanarityTest, AFlatTextHasNone) {
   walk(nullptr);
   const Bend found = bend();
   EXPECT_NEAR(found.value.x(), 0, 0.02 + 3 * found.sigma.x());
   EXPECT_NEAR(found.value.y(), 0, 0.02 + 3 * found.sigma.y());
   EXPECT_LT(found.explained, 0.05);
-  EXPECT_EQ(refined(), TextState::mapped);
+  EXPECT_TRUE(refined());
 }
 
-TEST_F(TextPlanarityTest, ATextRoundACylinderIsDropped) {
+TEST_F(PlanarityTest, ATextRoundACylinderIsRefused) {
   walk(cylinder(0.6));
-  EXPECT_EQ(refined(), TextState::dropped);
+  EXPECT_FALSE(refined());
 }
 
-TEST_F(TextPlanarityTest, OneOverTheEdgeOfACartonIsDropped) {
+TEST_F(PlanarityTest, OneOverTheEdgeOfACartonIsRefused) {
   walk([](double x) { return 0.4 * std::abs(x); });
-  EXPECT_EQ(refined(), TextState::dropped);
+  EXPECT_FALSE(refined());
 }
 
-TEST_F(TextPlanarityTest, APageThatCurlsALittleStays) {
+TEST_F(PlanarityTest, APageThatCurlsALittleStays) {
   walk(cylinder(8));
-  EXPECT_EQ(refined(), TextState::mapped);
+  EXPECT_TRUE(refined());
 }
 
 // What bends the images of a flat text turns its plane as well: two views whose poses err about the viewing axis.
-TEST_F(TextPlanarityTest, ABendThatIsNoneMakesAPlaneLessSure) {
+TEST_F(PlanarityTest, ABendThatIsNoneMakesAPlaneLessSure) {
   walk(cylinder(2));
   const Bend found = bend();
-  TextObject doubtful = text();
+  TextObject doubtful = text;
   doubtful.covariance = found.doubt;
-  const double excess = std::abs(found.value.x()) - parameters.refine_bend_sigmas * found.sigma.x();
+  const double excess = std::abs(found.value.x()) - options.refine_bend_sigmas * found.sigma.x();
   ASSERT_GT(excess, 0.1);
   EXPECT_NEAR(normal_sigma(doubtful), excess / 4, 0.1 * excess / 4) << "a fourth of it";
 }
 
-}  // namespace text_hosting_test
-}  // namespace textslam
+}  // namespace landmarks_test

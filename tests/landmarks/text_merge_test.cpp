@@ -1,58 +1,55 @@
 // Texts that are one sign, mapped twice, become one object; others stay apart.
+#include "textplane/landmarks/text_merge.hpp"
+
 #include <gtest/gtest.h>
 
-#include "textplane/geometry/plane.hpp"
-#include "textslam/report/evaluate_text.hpp"
-#include "textslam/text/text_merge.hpp"
+#include "landmarks/frames_support.hpp"
 
-namespace textslam {
-namespace text_merge_test {
-
-constexpr double kDegree = M_PI / 180;
+namespace landmarks_test {
 
 // Two key frames that look at a wall three units away; texts are put on it from either.
 class TextMergeTest : public testing::Test {
  protected:
   TextMergeTest() {
-    map.camera = {525, 525, 319.5, 239.5};
-    map.width = 640;
-    map.height = 480;
-    map.keyframes.resize(6);
-    map.keyframes[1].T_w_c = {textplane::so3_exp<double>(Vec3(0.02, -0.15, 0.05)), Vec3(0.6, 0.1, 0.2)};
+    frames.camera = {525, 525, 319.5, 239.5};
+    frames.all.resize(6);
+    frames[1].T_w_c = {so3_exp<double>(Vec3(0.02, -0.15, 0.05)), Vec3(0.6, 0.1, 0.2)};
   }
   // A text with its left end at (x, 0, 3), 0.6 wide, hosted by a key frame; turned about its centre's vertical axis and
   // farther away by a factor.
   int add(int host, double x, const std::string& word, const std::vector<int>& targets, double turn = 0,
           double far = 1) {
     TextObject text;
-    text.id = static_cast<int>(map.texts.size());
+    text.id = static_cast<int>(texts.size());
     text.state = TextState::mapped;
     text.host = host;
     text.views = targets;
+    text.patch.camera = frames.camera;
     if (!word.empty()) text.votes[word] = 2;
     text.detections = 5;
-    const SE3d T_h_w = map.keyframe(host).T_w_c.inverse();
+    const SE3d T_h_w = frames[host].T_w_c.inverse();
     const Vec3 centre(x + 0.3, 0.1, 3);
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3 p(i == 0 || i == 3 ? -0.3 : 0.3, i < 2 ? -0.1 : 0.1, 0);
-      text.patch.quad.corner[i] = map.camera.project(T_h_w * Vec3(centre + p));
+      text.patch.quad.corner[i] = frames.camera.project(T_h_w * Vec3(centre + p));
     }
-    const Vec3 normal = T_h_w.R * textplane::so3_exp<double>(Vec3(0, turn * kDegree, 0)) * Vec3(0, 0, -1);
-    text.theta = textplane::plane_from_normal<double>(normal, -normal.dot(far * (T_h_w * centre)));
+    const Vec3 normal = T_h_w.R * so3_exp<double>(Vec3(0, turn * kDegree, 0)) * Vec3(0, 0, -1);
+    text.theta = plane_from_normal<double>(normal, -normal.dot(far * (T_h_w * centre)));
     text.covariance = 1e-8 * Eigen::Matrix3d::Identity();
-    map.texts.push_back(text);
+    texts.push_back(text);
     return text.id;
   }
   bool same(int a, int b) const {
-    const bool one = same_text(map, parameters, text(a), text(b));
-    EXPECT_EQ(same_text(map, parameters, text(b), text(a)), one);
+    const bool one = same_text(options, KeyframeLookup(frames), text(a), text(b));
+    EXPECT_EQ(same_text(options, KeyframeLookup(frames), text(b), text(a)), one);
     return one;
   }
-  TextObject& text(int id) { return map.texts[static_cast<std::size_t>(id)]; }
-  const TextObject& text(int id) const { return map.texts[static_cast<std::size_t>(id)]; }
+  TextObject& text(int id) { return texts[static_cast<std::size_t>(id)]; }
+  const TextObject& text(int id) const { return texts[static_cast<std::size_t>(id)]; }
 
-  Map map;
-  Parameters parameters;
+  Frames frames;
+  std::vector<TextObject> texts;
+  TextOptions options;
 };
 
 TEST_F(TextMergeTest, OneSignSeenFromTwoPlacesIsOne) {
@@ -77,17 +74,17 @@ TEST_F(TextMergeTest, WhatIsUncertainMayDisagreeMore) {
 TEST_F(TextMergeTest, TheOneObservedMoreIsKeptAndGetsAll) {
   const int few = add(0, -0.4, "EXIT", {2, 3}), many = add(1, -0.4, "", {3, 4, 5, 2}), apart = add(0, 0.5, "EXIT", {2});
   text(few).failures = text(many).failures = 2;
-  EXPECT_EQ(merge_duplicate_texts(map, parameters), 1);
+  EXPECT_EQ(merge_duplicate_texts(options, KeyframeLookup(frames), texts), 1);
   EXPECT_EQ(text(few).state, TextState::dropped);
   EXPECT_TRUE(text(few).views.empty()) << "what was seen of it is given back";
   EXPECT_EQ(text(apart).state, TextState::mapped);
   const TextObject& kept = text(many);
   EXPECT_EQ(kept.state, TextState::mapped);
   EXPECT_EQ(kept.views, (std::vector<int>{0, 2, 3, 4, 5})) << "each once, and not its own host";
-  EXPECT_EQ(kept.word(), "EXIT");
+  EXPECT_EQ(consensus(kept.votes), "EXIT");
   EXPECT_EQ(kept.detections, 10);
   EXPECT_EQ(kept.failures, 0);
-  EXPECT_EQ(merge_duplicate_texts(map, parameters), 0);
+  EXPECT_EQ(merge_duplicate_texts(options, KeyframeLookup(frames), texts), 0);
 }
 
 TEST_F(TextMergeTest, ThreeBecomeOneAndUnfinishedOnesStay) {
@@ -95,12 +92,11 @@ TEST_F(TextMergeTest, ThreeBecomeOneAndUnfinishedOnesStay) {
   add(1, -0.4, "EXIT", {2});
   add(2, -0.4, "EXIT", {3});
   text(add(1, -0.4, "EXIT", {2})).state = TextState::tentative;
-  EXPECT_EQ(merge_duplicate_texts(map, parameters), 2);
+  EXPECT_EQ(merge_duplicate_texts(options, KeyframeLookup(frames), texts), 2);
   EXPECT_EQ(text(a).state, TextState::mapped);
   EXPECT_EQ(text(a).views, (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(text(a).votes.at("EXIT"), 6);
   EXPECT_EQ(text(3).state, TextState::tentative);
 }
 
-}  // namespace text_merge_test
-}  // namespace textslam
+}  // namespace landmarks_test

@@ -1,15 +1,14 @@
 // Readings of one word: how alike they are, and what they say together.
-#include "textslam/map/text_words.hpp"
+#include "textplane/landmarks/words.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <string>
 
-#include "io/detections.hpp"
+namespace words_test {
 
-namespace textslam {
-namespace {
+using namespace textplane;
 
 TEST(TextWords, LikenessFallsWithEveryLetter) {
   EXPECT_EQ(word_similarity("EXIT", "EXIT"), 1);
@@ -34,7 +33,7 @@ TEST(TextWords, ReadingsAreBounded) {
     vote(&votes, "noise" + std::to_string(i), 0.5 + 0.001 * (i % 7));
     if (i % 5 == 0) vote(&votes, "EXIT", 0.4);
     if (i >= 600) vote(&votes, "MARKET", 0.9);
-    ASSERT_LE(votes.size(), static_cast<std::size_t>(Parameters{}.max_readings));
+    ASSERT_LE(votes.size(), static_cast<std::size_t>(TextOptions{}.max_readings));
   }
   EXPECT_NEAR(votes.at("EXIT"), 200 * 0.4, 1e-9) << "the word that is read most is never left out";
   EXPECT_NEAR(votes.at("MARKET"), 400 * 0.9, 1e-9) << "one that comes late is heard";
@@ -48,5 +47,4 @@ TEST(TextWords, AmongWordsThatAreNotAlikeTheVotesDecide) {
   EXPECT_EQ(consensus({}), kUnreadText);
 }
 
-}  // namespace
-}  // namespace textslam
+}  // namespace words_test

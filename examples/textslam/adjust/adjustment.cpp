@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "textplane/landmarks/text_plane.hpp"
 #include "textplane/solver/window.hpp"
 #include "textslam/adjust/adjustment_selection.hpp"
 #include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
-#include "textslam/map/text_geometry.hpp"
-#include "textslam/text/text_plane.hpp"
+#include "textslam/map/text_views.hpp"
 
 namespace textslam {
 namespace {
@@ -48,9 +48,9 @@ class Adjustment {
     for (textplane::WindowTextObservation& o : window_.text_observations) {
       const auto slot = static_cast<std::size_t>(o.text);
       const TextObject& text = map.text(texts_[slot]);
-      const KeyFrame& keyframe = map.keyframe(frames_[static_cast<std::size_t>(o.frame)]);
-      const auto cost =
-          compare_text(map, text, 0, *keyframe.frame.image, keyframe.T_w_c.inverse(), o.scale_shift, workspace);
+      const textplane::TextKeyframe keyframe = map.text_keyframe(frames_[static_cast<std::size_t>(o.frame)]);
+      const SE3d T_t_h = keyframe.from(map.text_keyframe(text.host));
+      const auto cost = compare_text(text, 0, keyframe, T_t_h, o.scale_shift, workspace);
       o.weight = 1 / std::max(parameters_.window_min_variance, 1 - (textplane::is_ok(cost.status) ? cost.zncc : 0));
       sums[slot] += o.weight;
       ++counts[slot];
@@ -76,7 +76,9 @@ class Adjustment {
       Vec3 theta = adjusted.theta;
       Eigen::Matrix3d covariance = adjusted.covariance;
       const int host = frames_[static_cast<std::size_t>(adjusted.host)];
-      if (text.host != host && !transport_plane(map, host, text.host, &theta, &covariance)) continue;
+      if (text.host != host &&
+          !textplane::transport_plane(map.text_keyframe(text.host).from(map.text_keyframe(host)), &theta, &covariance))
+        continue;
       text.theta = theta;
       text.covariance = covariance;
       text.zncc = adjusted.zncc;
@@ -147,7 +149,7 @@ class Adjustment {
 class StagedWindow : public StagedAdjustment {
  public:
   StagedWindow(const Map& map, const Parameters& parameters, const AdjustmentSelection& selection)
-      : adjustment_(map, parameters, selection, parameters.text_views),
+      : adjustment_(map, parameters, selection, parameters.text.views),
         iterations_(parameters.window_iterations),
         newest_(map.newest_keyframe()),
         points_(map.points.size()),

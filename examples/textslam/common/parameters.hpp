@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textplane/landmarks/text_options.hpp"
 #include "textplane/photometry/pyramid.hpp"
 
 namespace textslam {
@@ -16,9 +17,12 @@ enum class Mode {
 };
 
 struct Parameters {
+  textplane::TextOptions text;
 #define SECTION(title)
 #define FIELD(type, name, value, meaning) type name = value;
+#define TEXT_FIELD(name, member, meaning)
 #include "textslam/common/parameters.inc"
+#undef TEXT_FIELD
 #undef FIELD
 #undef SECTION
 };
@@ -36,7 +40,7 @@ inline Parameters at_size(Parameters parameters, int width, int height) {
   parameters.relocation_search *= scale;
   const double levels = std::log2(std::min(width, height) / static_cast<double>(parameters.coarsest_side));
   parameters.pyramid_levels =
-      std::clamp(1 + static_cast<int>(levels), parameters.text_levels, textplane::kMaxPyramidLevels);
+      std::clamp(1 + static_cast<int>(levels), parameters.text.levels, textplane::kMaxPyramidLevels);
   return parameters;
 }
 
@@ -46,7 +50,9 @@ void for_each_parameter(const Parameters& parameters, Visit visit) {
   const char* section = "";
 #define SECTION(title) section = title;
 #define FIELD(type, name, value, meaning) visit(section, #name, parameters.name, meaning);
+#define TEXT_FIELD(name, member, meaning) visit(section, #name, parameters.text.member, meaning);
 #include "textslam/common/parameters.inc"
+#undef TEXT_FIELD
 #undef FIELD
 #undef SECTION
 }

@@ -6,19 +6,18 @@
 #include <vector>
 
 #include "io/detections.hpp"
+#include "textplane/landmarks/keyframe.hpp"
 #include "textplane/photometry/pyramid.hpp"
 
 namespace textslam {
 
 using textplane::Pyramid;
 
-struct Frame {
+struct Frame : textplane::ImageNoise {
   int index = -1;
   double timestamp = 0;
   std::shared_ptr<const Pyramid> image;  ///< Undistorted.
   std::vector<Detection> detections;     ///< Undistorted px.
-  double noise = 0;                      ///< Grey levels: standard deviation of a pixel of level 0.
-  double smoothing = 0;                  ///< px^2: variance of the Gaussian that the image was smoothed with.
 };
 
 }  // namespace textslam

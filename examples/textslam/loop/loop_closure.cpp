@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "textplane/geometry/quad.hpp"
+#include "textplane/landmarks/words.hpp"
 #include "textslam/common/algorithms.hpp"
-#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/track/pose_refit.hpp"
 
 namespace textslam {
@@ -51,7 +52,7 @@ std::vector<Detection> detections_of_old(const Map& map, const LocalMap& local, 
     Quad<double> quad;
     if (text.state != TextState::mapped) continue;
     if (!local.has_text(text.id)) {
-      words.push_back(text.word());
+      words.push_back(textplane::consensus(text.votes));
     } else if (facing(map, text, T_c_w) > 0 && project_text(map, text, T_c_w, &quad)) {
       known.push_back(quad);
     }

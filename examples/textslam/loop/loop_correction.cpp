@@ -1,12 +1,12 @@
 // Loop closure, the part that changes the map.
 #include <algorithm>
 
+#include "textplane/landmarks/text_merge.hpp"
 #include "textslam/common/algorithms.hpp"
 #include "textslam/loop/loop_alignment.hpp"
 #include "textslam/loop/loop_closure.hpp"
 #include "textslam/loop/pose_graph.hpp"
 #include "textslam/map/observations.hpp"
-#include "textslam/text/text_merge.hpp"
 
 namespace textslam {
 namespace {
@@ -171,7 +171,7 @@ LoopCorrection close_loop(Map& map, const Parameters& parameters, const Loop& lo
     merge_points(map, kept, other);
     out.points[static_cast<std::size_t>(other)] = kept;
   }
-  for (const auto& [a, b] : loop.link.texts) merge_texts(map, parameters, a, b);
+  for (const auto& [a, b] : loop.link.texts) merge_texts(parameters.text, map.text(a), map.text(b));
   for (const LinkSighting& sighting : loop.link.sightings)
     for (const Track& track : sighting.tracks)
       if (!map.point(track.point).bad && !observes(map, track.point, sighting.keyframe))

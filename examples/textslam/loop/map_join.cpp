@@ -4,11 +4,10 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textplane/landmarks/text_merge.hpp"
 #include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
-#include "textslam/map/text_geometry.hpp"
-#include "textslam/map/text_words.hpp"
-#include "textslam/text/text_merge.hpp"
+#include "textslam/map/text_views.hpp"
 
 namespace textslam {
 namespace {
@@ -111,7 +110,8 @@ class Linker {
   // The corners of a's quad, and where their rays meet b's plane.
   void add_text(const TextObject& of_a, const SE3d& T_c_a, const TextObject& of_b, const SE3d& T_c_b, int id) {
     if (of_a.state != TextState::mapped || of_b.state != TextState::mapped) return;
-    if (!words_agree(of_a.word(), of_b.word(), parameters_)) return;
+    if (!textplane::words_agree(textplane::consensus(of_a.votes), textplane::consensus(of_b.votes), parameters_.text))
+      return;
     Quad<double> quad_a, quad_b;
     if (!project_text(a_, of_a, T_c_a, &quad_a) || !project_text(b_, of_b, T_c_b, &quad_b) ||
         facing(a_, of_a, T_c_a) <= 0 || facing(b_, of_b, T_c_b) <= 0 ||
@@ -188,7 +188,7 @@ JoinedIds join_maps(Map& a, const Map& b, const MapLink& link, const Parameters&
     const auto same = std::find_if(link.texts.begin(), link.texts.end(),
                                    [&](const std::pair<int, int>& pair) { return pair.second == text.id; });
     if (same != link.texts.end()) {
-      add_observations_of(text, ids.first_keyframe, parameters, a.text(same->first));
+      add_observations_of(text, ids.first_keyframe, parameters.text, a.text(same->first));
       continue;
     }
     TextObject moved = text;

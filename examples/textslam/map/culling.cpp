@@ -4,7 +4,6 @@
 
 #include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
-#include "textslam/map/text_geometry.hpp"
 
 namespace textslam {
 namespace {
@@ -38,37 +37,6 @@ void cull_points(Map& map, const Parameters& parameters) {
     if (point.bad || point.visible < parameters.min_visible) continue;
     if (point.found < parameters.min_found_share * point.visible) drop_point(map, static_cast<int>(id));
   }
-}
-
-bool is_detected(const TextObject& text, const Parameters& parameters) {
-  return text.detections >= parameters.text_min_detections &&
-         text.detections >= parameters.text_detected_share * text.shown;
-}
-
-bool is_proven(const TextObject& text, const Parameters& parameters) {
-  return static_cast<int>(text.views.size()) + 1 >= parameters.text_min_observations && is_detected(text, parameters);
-}
-
-bool is_overdue(const TextObject& text, const Parameters& parameters, int newest) {
-  const int age = newest - text.host;
-  return (text.state == TextState::candidate && age > parameters.text_patience) ||
-         (text.state == TextState::tentative && age > parameters.text_tentative_patience);
-}
-
-bool is_contradicted(const TextObject& text, const Parameters& parameters) {
-  return text.failures >= parameters.text_max_failures &&
-         (parameters.mode == Mode::loose || text.failures > static_cast<int>(text.views.size()));
-}
-
-bool is_uncertain(const TextObject& text, const Parameters& parameters) {
-  return !(normal_sigma(text) <= radians(parameters.refine_max_sigma));
-}
-
-void drop(TextObject& text) {
-  text.state = TextState::dropped;
-  text.patch = textplane::TextPatch();
-  std::vector<int>().swap(text.views);
-  text.votes.clear();
 }
 
 int find_redundant_keyframe(const Map& map, const Parameters& parameters, const LocalMap& local, int from) {

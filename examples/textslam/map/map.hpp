@@ -4,12 +4,11 @@
 #ifndef TEXTSLAM_MAP_MAP_HPP
 #define TEXTSLAM_MAP_MAP_HPP
 
-#include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "textplane/photometry/patch.hpp"
+#include "textplane/landmarks/keyframe.hpp"
+#include "textplane/landmarks/text_object.hpp"
 #include "textslam/common/geometry.hpp"
 #include "textslam/common/parameters.hpp"
 #include "textslam/input/frame.hpp"
@@ -39,32 +38,8 @@ struct KeyFrame {
   mutable std::shared_ptr<const KeyFrameLooks> looks = {};  ///< Kept by places.hpp, which makes them when needed.
 };
 
-enum class TextState {
-  candidate,  ///< Detected; its plane is not known yet.
-  tentative,  ///< Has a plane, waits for n_min observations.
-  mapped,     ///< Takes part in tracking and adjustment.
-  dropped,
-};
-
-/// A planar text object: a quad in its host key frame and the plane theta = -n/d in the host's frame.
-struct TextObject {
-  int id = -1;
-  TextState state = TextState::candidate;
-  int host = -1;  ///< Key frame.
-  textplane::TextPatch patch;
-  Vec3 theta = Vec3::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::vector<int> views;               ///< Key frames (without the host) that observe it well.
-  std::map<std::string, double> votes;  ///< Words read: sums of the scores of their readings.
-  int detections = 0;                   ///< Frames in which the detector saw it.
-  int shown = 0;                        ///< Frames with detections that could have shown it, those included.
-  int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
-  double zncc = 0;                      ///< Mean over its last refinement.
-
-  bool has_plane() const { return state == TextState::tentative || state == TextState::mapped; }
-  /// See consensus() in text_words.hpp, where it is defined; kUnreadText where none was read.
-  std::string word() const;
-};
+using textplane::TextObject;
+using textplane::TextState;
 
 struct Map {
   int number = -1;  ///< Maps are numbered in the order in which they began.
@@ -85,6 +60,12 @@ struct Map {
       if (!keyframes[i].culled) ids.push_back(static_cast<int>(i));
     return ids;
   }
+  /// A frame's image as the library takes it; an empty one where the frame has none.
+  textplane::TextImage text_image(const Frame& frame) const {
+    return {{frame.noise, frame.smoothing}, frame.image ? frame.image->view() : textplane::PyramidView(), camera};
+  }
+  /// As textplane::KeyframeLookup asks for it.
+  textplane::TextKeyframe text_keyframe(int id) const { return {text_image(keyframe(id).frame), keyframe(id).T_w_c}; }
   int newest_keyframe() const { return static_cast<int>(keyframes.size()) - 1; }
   MapPoint& point(int id) { return points[static_cast<std::size_t>(id)]; }
   const MapPoint& point(int id) const { return points[static_cast<std::size_t>(id)]; }

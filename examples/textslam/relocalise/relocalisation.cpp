@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "textplane/geometry/quad.hpp"
-#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/track/rotation_prior.hpp"
 
 namespace textslam {

@@ -4,10 +4,11 @@
 
 #include "textplane/geometry/quad.hpp"
 #include "textplane/geometry/quad_projection.hpp"
+#include "textplane/landmarks/text_noise.hpp"
+#include "textplane/landmarks/words.hpp"
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/search.hpp"
-#include "textslam/map/text_geometry.hpp"
-#include "textslam/map/text_zncc.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/relocalise/planar_pose.hpp"
 
 namespace textslam {
@@ -60,7 +61,7 @@ class TextSearch {
   }
 
   bool search(const TextObject& text, SE3d* T_c_w) {
-    if (is_too_slanted(parameters_, facing(map_, text, *T_c_w))) return false;
+    if (is_too_slanted(parameters_.text, facing(map_, text, *T_c_w))) return false;
     const SE3d T_w_h = map_.keyframe(text.host).T_w_c;
     photometric_.reserve(text.patch.max_pixels());
     textplane::SearchOptions options;
@@ -80,13 +81,13 @@ class TextSearch {
     pose_.reserve(&term, 1, 0);
     textplane::PoseOptions options;
     options.sigma_photo = parameters_.photometric_sigma;
-    options.coarsest_level = parameters_.text_levels - 1;
+    options.coarsest_level = parameters_.text.levels - 1;
     const auto fit = textplane::refine_pose(&term, 1, nullptr, 0, frame_.image->view(), map_.camera, hypothesis->T_c_w,
                                             options, pose_);
     if (fit.texts != 1) return false;
     const double least =
-        text_zncc_limit(parameters_, parameters_.text_min_zncc, text.patch, 0, text.theta,
-                        map_.keyframe(text.host).frame, frame_, map_.T_c_h(fit.T_t_w, text.host), map_.camera);
+        text_zncc_limit(parameters_.text, parameters_.text.min_zncc, text.patch, 0, text.theta,
+                        map_.text_keyframe(text.host), map_.text_image(frame_), map_.T_c_h(fit.T_t_w, text.host));
     if (fit.zncc < least) return false;
     hypothesis->T_c_w = textplane::renormalised(fit.T_t_w);
     hypothesis->zncc = fit.zncc;
@@ -119,10 +120,10 @@ std::vector<TextHypothesis> text_hypotheses(const Map& map, const Parameters& pa
                                             WordMatch words) {
   TextSearch search(map, parameters, frame);
   for (const Detection& detection : frame.detections) {
-    if (!textplane::is_convex(detection.quad) || textplane::area(detection.quad) < parameters.text_min_area) continue;
+    if (!textplane::is_convex(detection.quad) || textplane::area(detection.quad) < parameters.text.min_area) continue;
     for (const TextObject& text : map.texts) {
       if (text.state != TextState::mapped) continue;
-      if (is_match(detection.text, text.word(), words)) search.compare(detection, text);
+      if (is_match(detection.text, textplane::consensus(text.votes), words)) search.compare(detection, text);
     }
   }
   return search.best();

@@ -1,7 +1,8 @@
 #include "textslam/report/evaluate_text.hpp"
 
 #include "textplane/geometry/plane.hpp"
-#include "textslam/map/text_geometry.hpp"
+#include "textplane/landmarks/text_view.hpp"
+#include "textplane/landmarks/words.hpp"
 
 namespace textslam {
 
@@ -22,7 +23,8 @@ TextEvaluation evaluate_text(const Map& map, const std::vector<TrueSign>& signs,
   for (const TextObject& text : map.texts) {
     if (text.state != TextState::mapped) continue;
     const Vec3 normal = map.keyframe(text.host).T_w_c.R * textplane::plane_normal(text.theta);
-    texts.push_back({text.id, text.word(), world_corners(map, text), normal, normal_sigma(text) / radians(1)});
+    texts.push_back(
+        {text.id, textplane::consensus(text.votes), world_corners(map, text), normal, normal_sigma(text) / radians(1)});
   }
   return evaluate_texts(texts, signs, alignment);
 }

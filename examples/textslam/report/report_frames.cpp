@@ -6,10 +6,9 @@
 #include "io/data_uri.hpp"
 #include "io/image_file.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textplane/landmarks/text_plane.hpp"
 #include "textplane/photometry/sample.hpp"
 #include "textslam/common/algorithms.hpp"
-#include "textslam/map/text_geometry.hpp"
-#include "textslam/text/text_plane.hpp"
 
 namespace textslam {
 namespace {
@@ -30,12 +29,14 @@ int level_for(const Pyramid& image, double length, double wanted) {
 }
 
 // The ZNCC of a text under a frame's pose, if it is in view there.
-bool see_text(const Map& map, const Parameters& parameters, const TextObject& text, const Pyramid& image,
+bool see_text(const Map& map, const Parameters& parameters, const TextObject& text, const Pyramid& pyramid,
               const SE3d& T_c_w, Quad<double>* quad, double* zncc) {
-  if (!text_in_view(map, parameters, text, T_c_w, quad)) return false;
+  const textplane::TextImage image{{}, pyramid.view(), map.camera};
+  const SE3d T_c_h = map.T_c_h(T_c_w, text.host);
+  if (!text_in_view(parameters.text, text, T_c_h, image, quad)) return false;
   const int level = text.patch.level_count() > 1 ? 1 : 0;
   textplane::PhotometricWorkspace workspace;
-  const auto cost = compare_text(map, text, level, image, T_c_w, scale_shift(text, *quad), workspace);
+  const auto cost = compare_text(text, level, image, T_c_h, scale_shift(text, *quad), workspace);
   *zncc = cost.zncc;
   return textplane::is_ok(cost.status);
 }

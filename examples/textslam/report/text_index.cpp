@@ -1,8 +1,9 @@
 #include "textslam/report/text_index.hpp"
 
 #include "textplane/geometry/plane.hpp"
+#include "textplane/landmarks/words.hpp"
 #include "textslam/common/report_json.hpp"
-#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/report/evaluate_text.hpp"
 
 namespace textslam {
@@ -32,7 +33,7 @@ std::vector<IndexedText> index_texts(const Map& map, const std::function<std::st
     if (text.state != TextState::mapped) continue;
     IndexedText entry;
     entry.id = text.id;
-    entry.text = text.word();
+    entry.text = textplane::consensus(text.votes);
     entry.readings = text.votes;
     double votes = 0;
     for (const auto& [word, count] : text.votes) votes += count;

@@ -5,7 +5,8 @@
 
 #include "io/data_uri.hpp"
 #include "textplane/geometry/plane.hpp"
-#include "textslam/map/text_geometry.hpp"
+#include "textplane/landmarks/text_view.hpp"
+#include "textplane/landmarks/words.hpp"
 #include "textslam/report/report_frames.hpp"
 
 namespace textslam {
@@ -17,7 +18,7 @@ Fields describe(const Map& map, const TextObject& text) {
   const double sigma = normal_sigma(text) * 180 / M_PI;
   Fields fields;
   fields.add("id", "id", text.id);
-  fields.add("text", "word", text.word());
+  fields.add("text", "word", textplane::consensus(text.votes));
   fields.add("corners", "corners", corners);
   fields.add(nullptr, "centre", Vec3((corners[0] + corners[1] + corners[2] + corners[3]) / 4));
   fields.add("normal", "normal", Vec3(host.T_w_c.R * textplane::plane_normal(text.theta)));

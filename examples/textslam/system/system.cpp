@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "io/clock.hpp"
+#include "textplane/landmarks/text_merge.hpp"
 #include "textslam/adjust/adjustment.hpp"
 #include "textslam/common/algorithms.hpp"
 #include "textslam/map/culling.hpp"
 #include "textslam/relocalise/relocalisation.hpp"
 #include "textslam/text/loose_planes.hpp"
-#include "textslam/text/text_merge.hpp"
 #include "textslam/text/text_reading.hpp"
 #include "textslam/text/text_refiner.hpp"
 #include "textslam/track/feature_tracks.hpp"
@@ -274,7 +274,8 @@ void System::finish() {
   take_over(adjuster_.settle(map_));
   keep_largest();
   if (map_.keyframes.size() < 2) return;
-  if (parameters_.mode == Mode::text && parameters_.loop_closure) merge_duplicate_texts(map_, parameters_);
+  if (parameters_.mode == Mode::text && parameters_.loop_closure)
+    textplane::merge_duplicate_texts(parameters_.text, textplane::KeyframeLookup(map_), map_.texts);
   adjust_all(map_, parameters_, parameters_.final_iterations);
   // Poses are good to a pixel or two now: points are found where the tracker had lost them. That closes loops, too.
   if (parameters_.loop_closure && observe_points_again(map_, parameters_) > 0)
@@ -285,7 +286,7 @@ void System::finish() {
     // base settles their slant.
     text_mapper_.observe_again();
     adjust_all(map_, parameters_, parameters_.final_iterations);
-    TextRefiner(map_, parameters_).refine();
+    refine_texts(map_, parameters_);
   }
   for (FrameRecord& record : records_) refit(record);
   align_live_world();

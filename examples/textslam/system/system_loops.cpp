@@ -1,7 +1,7 @@
 // System, the part that closes loops.
+#include "textplane/landmarks/text_merge.hpp"
 #include "textslam/adjust/adjustment.hpp"
 #include "textslam/system/system.hpp"
-#include "textslam/text/text_merge.hpp"
 
 namespace textslam {
 
@@ -32,11 +32,12 @@ void System::close_loops(FrameRecord& record) {
   LoopRecord closed;
   closed.frame = map_.keyframe(loop.keyframe).frame.index;
   closed.met_frame = map_.keyframe(loop.met).frame.index;
-  if (!loop.link.texts.empty()) closed.word = map_.text(loop.link.texts.front().first).word();
+  if (!loop.link.texts.empty()) closed.word = textplane::consensus(map_.text(loop.link.texts.front().first).votes);
   const LoopCorrection correction = close_loop(map_, parameters_, loop);
   closed.corrected = correction.corrected;
   closed.found = correction.found;
-  if (parameters_.mode == Mode::text) merge_duplicate_texts(map_, parameters_);
+  if (parameters_.mode == Mode::text)
+    textplane::merge_duplicate_texts(parameters_.text, textplane::KeyframeLookup(map_), map_.texts);
   if (correction.corrected) {
     adjust_all(map_, parameters_, parameters_.final_iterations);
     if (parameters_.mode == Mode::text) text_mapper_.observe_again();

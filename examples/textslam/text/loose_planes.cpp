@@ -8,8 +8,7 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/plane_fit.hpp"
 #include "textplane/geometry/quad.hpp"
-#include "textslam/map/culling.hpp"
-#include "textslam/map/text_geometry.hpp"
+#include "textplane/landmarks/text_life.hpp"
 
 namespace textslam {
 namespace {
@@ -62,7 +61,7 @@ PointsOfText points_in_quad(const Map& map, const TextObject& text) {
 bool fit_text(const Map& map, const Parameters& parameters, TextObject& text, std::vector<int>* on_plane) {
   const PointsOfText points = points_in_quad(map, text);
   const LoosePlane plane = fit_loose_plane(points.m, points.rho, parameters);
-  if (!plane.ok || !is_plausible_plane(map, parameters, text.patch.quad, plane.theta)) return false;
+  if (!plane.ok || !is_plausible_plane(parameters.text, map.camera, text.patch.quad, plane.theta)) return false;
   text.theta = plane.theta;
   text.covariance = plane.covariance;
   on_plane->clear();
@@ -73,8 +72,9 @@ bool fit_text(const Map& map, const Parameters& parameters, TextObject& text, st
 bool observes(const Map& map, const Parameters& parameters, const TextObject& text, const std::vector<int>& on_plane,
               int keyframe) {
   Quad<double> quad;
-  if (!is_in_view(map, parameters, text, map.keyframe(keyframe).T_w_c.inverse(),
-                  parameters.text_seen_area * parameters.text_min_area, 1, &quad))
+  const textplane::TextKeyframe target = map.text_keyframe(keyframe);
+  if (!is_in_view(parameters.text, text, target.from(map.text_keyframe(text.host)), target,
+                  parameters.text.seen_area * parameters.text.min_area, 1, &quad))
     return false;
   int seen = 0;
   for (const int point : map.keyframe(keyframe).points)
@@ -141,8 +141,9 @@ void update_loose_planes(Map& map, const Parameters& parameters, int id) {
     } else if (text.has_plane()) {
       ++text.failures;
     }
-    if (text.state == TextState::tentative && is_proven(text, parameters)) text.state = TextState::mapped;
-    if (is_overdue(text, parameters, id) || is_contradicted(text, parameters)) drop(text);
+    if (text.state == TextState::tentative && is_proven(text, parameters.text)) text.state = TextState::mapped;
+    // What the points contradict is dropped even if many key frames showed it.
+    if (is_overdue(text, parameters.text, id - text.host) || text.failures >= parameters.text.max_failures) drop(text);
   }
 }
 

@@ -71,7 +71,7 @@ PendingTexts::Count PendingTexts::take(const Map& map, const SE3d& T_c_w, const 
   Count count;
   erase_if(all_, [&](const Pending& pending) {
     Quad<double> there;
-    if (!project(map, T_c_w, pending, &there) || textplane::iou(there, quad) < parameters_.text_confirm_iou)
+    if (!project(map, T_c_w, pending, &there) || textplane::iou(there, quad) < parameters_.text.confirm_iou)
       return false;
     if (pending.count.detections > count.detections) count = pending.count;
     return true;

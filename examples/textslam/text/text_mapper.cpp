@@ -3,23 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
-#include "textplane/geometry/plane_fit.hpp"
+#include "textplane/landmarks/text_hosting.hpp"
+#include "textplane/landmarks/text_life.hpp"
+#include "textplane/landmarks/text_plane.hpp"
+#include "textplane/landmarks/text_surface.hpp"
+#include "textplane/landmarks/words.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textslam/common/algorithms.hpp"
-#include "textslam/map/culling.hpp"
 #include "textslam/map/observations.hpp"
-#include "textslam/map/text_geometry.hpp"
-#include "textslam/map/text_words.hpp"
-#include "textslam/map/text_zncc.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/text/loose_planes.hpp"
-#include "textslam/text/text_hosting.hpp"
-#include "textslam/text/text_plane.hpp"
-#include "textslam/text/text_surface.hpp"
 
 namespace textslam {
 namespace {
+
+using textplane::KeyframeLookup;
 
 double overlap(const Quad<double>& a, const Quad<double>& b) {
   const double inter = std::abs(textplane::area(textplane::intersection(a, b)));
@@ -31,7 +30,7 @@ double overlap(const Quad<double>& a, const Quad<double>& b) {
 
 bool TextMapper::meets(const std::vector<Detection>& detections, const Quad<double>& quad) const {
   return std::any_of(detections.begin(), detections.end(), [&](const Detection& detection) {
-    return textplane::iou(quad, detection.quad) >= parameters_.text_confirm_iou;
+    return textplane::iou(quad, detection.quad) >= parameters_.text.confirm_iou;
   });
 }
 
@@ -54,9 +53,9 @@ bool TextMapper::locate(const TextObject& text, const SE3d& T_c_w, const std::ve
 
 // Could a detector find it where locate() says that it is?
 bool TextMapper::is_whole(const TextObject& text, const Quad<double>& quad, const SE3d& T_c_w) const {
-  return textplane::inside_image(quad, map_.width, map_.height, parameters_.text_border) &&
-         std::abs(textplane::area(quad)) >= parameters_.text_min_area &&
-         !(text.has_plane() && is_too_slanted(parameters_, facing(map_, text, T_c_w)));
+  return textplane::inside_image(quad, map_.width, map_.height, parameters_.text.border) &&
+         std::abs(textplane::area(quad)) >= parameters_.text.min_area &&
+         !(text.has_plane() && is_too_slanted(parameters_.text, facing(map_, text, T_c_w)));
 }
 
 bool TextMapper::has_parallax(const SE3d& T_c_w, const std::vector<Track>& tracks, int last) const {
@@ -64,7 +63,7 @@ bool TextMapper::has_parallax(const SE3d& T_c_w, const std::vector<Track>& track
   return std::any_of(map_.texts.begin(), map_.texts.end(), [&](const TextObject& text) {
     const bool waits = text.state == TextState::candidate || text.state == TextState::tentative;
     Quad<double> quad;
-    if (!waits || text.detections < 2 || text.detections < parameters_.text_detected_share * text.shown ||
+    if (!waits || text.detections < 2 || text.detections < parameters_.text.detected_share * text.shown ||
         !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad) || !is_whole(text, quad, T_c_w))
       return false;
     std::vector<double> parallax;
@@ -92,10 +91,10 @@ void TextMapper::associate(const Frame& frame, const SE3d& T_c_w, const std::vec
     if (text.state == TextState::dropped || !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad)) continue;
     bool shown = is_whole(text, quad, T_c_w);
     for (const Detection& detection : frame.detections) {
-      if (textplane::iou(quad, detection.quad) < parameters_.text_confirm_iou) continue;
+      if (textplane::iou(quad, detection.quad) < parameters_.text.confirm_iou) continue;
       ++text.detections;
       shown = true;
-      if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_);
+      if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_.text);
       break;
     }
     text.shown += shown ? 1 : 0;
@@ -123,10 +122,10 @@ std::vector<Detection> TextMapper::unknown(const std::vector<Detection>& detecti
   std::vector<Detection> accepted;
   for (const Detection& detection : detections) {
     const Quad<double>& quad = detection.quad;
-    if (!textplane::is_convex(quad) || std::abs(textplane::area(quad)) < parameters_.text_min_area) continue;
-    if (!textplane::inside_image(quad, map_.width, map_.height, parameters_.text_border)) continue;
+    if (!textplane::is_convex(quad) || std::abs(textplane::area(quad)) < parameters_.text.min_area) continue;
+    if (!textplane::inside_image(quad, map_.width, map_.height, parameters_.text.border)) continue;
     const bool taken = std::any_of(known.begin(), known.end(), [&](const Quad<double>& other) {
-      return overlap(quad, other) > parameters_.text_overlap;
+      return overlap(quad, other) > parameters_.text.overlap;
     });
     if (taken) continue;
     accepted.push_back(detection);
@@ -140,12 +139,12 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
     TextObject text;
     text.id = static_cast<int>(map_.texts.size());
     text.host = id;
-    text.patch = make_text_patch(map_, parameters_, id, detection.quad);
+    text.patch = make_text_patch(parameters_.text, map_.text_keyframe(id), detection.quad);
     if (!textplane::is_ok(text.patch.status)) continue;
     const PendingTexts::Count count = pending_.take(map_, map_.keyframe(id).T_w_c.inverse(), detection.quad);
     text.detections = std::max(1, count.detections);
     text.shown = std::max(1, count.shown);
-    if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_);
+    if (is_read(detection.text)) vote(&text.votes, detection.text, detection.score, parameters_.text);
     map_.texts.push_back(std::move(text));
   }
 }
@@ -163,52 +162,16 @@ TextMapper::Corners TextMapper::corners(const TextObject& text, int keyframe, co
   return out;
 }
 
-// The linear system of section IV-B, with outliers removed by transfer error. False with too few corners or parallax.
-bool TextMapper::initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks,
-                               Vec3* theta) const {
-  const SE3d T_t_h = map_.keyframe(keyframe).T_w_c.inverse() * map_.keyframe(text.host).T_w_c;
-  auto [host, target] = corners(text, keyframe, tracks);
-  const auto too_few = [&](const auto& rays) { return static_cast<int>(rays.size()) < parameters_.text_min_corners; };
-  std::vector<double> parallax;
-  for (std::size_t i = 0; i < host.size(); ++i) {
-    const Vec3 turned = T_t_h.R * host[i];
-    parallax.push_back(degrees_between(turned, target[i]));
-  }
-  if (too_few(host) || median(parallax) < parameters_.text_min_parallax) return false;
-  for (int round = 0; round < parameters_.text_plane_rounds; ++round) {
-    const auto fit = textplane::plane_from_matches(host.data(), target.data(), static_cast<int>(host.size()), T_t_h);
-    if (!textplane::is_ok(fit.status)) return false;
-    *theta = fit.value;
-    const Eigen::Matrix3d H = textplane::plane_homography(*theta, T_t_h);
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < host.size(); ++i) {
-      const Vec3 q = H * host[i];
-      const bool ahead = q.z() > 1e-6;
-      errors.push_back(ahead ? map_.camera.fx * (q.hnormalized() - target[i].hnormalized()).norm() : 1e9);
-    }
-    const double limit = std::max(parameters_.text_plane_min_error, parameters_.text_plane_outlier * median(errors));
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < host.size(); ++i) {
-      if (errors[i] > limit) continue;
-      host[kept] = host[i];
-      target[kept++] = target[i];
-    }
-    if (kept == host.size()) break;
-    host.resize(kept);
-    target.resize(kept);
-    if (too_few(host)) return false;
-  }
-  return theta->allFinite() &&
-         textplane::inverse_depth(*theta, map_.camera.unproject(textplane::centroid(text.patch.quad))) > 0;
-}
-
 // The plane by the corners of key frame `id` and the images, and the views that agree with it. It replaces an earlier
 // plane where more views agree: the first was solved with little parallax.
 bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& tracks) {
   TextObject found = text;
   Vec3 theta;
-  if (!initial_plane(text, id, tracks, &theta) ||
-      !refine_plane(map_, parameters_, {id}, theta, parameters_.text_min_zncc, found))
+  const auto [host, target] = corners(text, id, tracks);
+  const Vec3 centre = map_.camera.unproject(textplane::centroid(text.patch.quad));
+  const SE3d T_t_h = map_.T_c_h(map_.keyframe(id).T_w_c.inverse(), text.host);
+  if (!plane_from_text_matches(parameters_.text, host, target, T_t_h, map_.camera.fx, centre, &theta) ||
+      !refine_text_plane(parameters_.text, KeyframeLookup(map_), {id}, theta, parameters_.text.min_zncc, found))
     return false;
   observe_until(found, id);
   if (text.has_plane() && found.views.size() <= text.views.size()) return false;
@@ -216,11 +179,21 @@ bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& 
   return true;
 }
 
+// By the map points about it, which its host sees.
+bool TextMapper::plane_by_points(TextObject& text) const {
+  const SE3d T_w_h = map_.keyframe(text.host).T_w_c, T_h_w = T_w_h.inverse();
+  std::vector<Vec3> seen;
+  for (const int id : map_.keyframe(text.host).points)
+    if (!map_.point(id).bad) seen.push_back(T_h_w * map_.point(id).p_w);
+  const SurfacePoints points{map_, parameters_.point_sigma};
+  return plane_from_surface(parameters_.text, textplane::PointLookup(points), T_w_h, seen, text);
+}
+
 // The key frames about the host, up to `id`, that agree with a text's new plane: those before it too, where the
 // detector may have missed it. Failures of the old plane are forgotten.
 void TextMapper::observe_until(TextObject& text, int id) {
   text.views.clear();
-  for (int other = std::max(0, text.host - parameters_.text_patience); other <= id; ++other)
+  for (int other = std::max(0, text.host - parameters_.text.patience); other <= id; ++other)
     if (other != text.host && !map_.keyframe(other).culled) observe(text, other, 1);
   text.failures = 0;
 }
@@ -228,25 +201,24 @@ void TextMapper::observe_until(TextObject& text, int id) {
 // Does key frame `keyframe` show the text where its plane says? A rough plane asks for all of it (`min_share` 1): on a
 // part it may agree with the image by chance.
 void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
-  const SE3d T_c_w = map_.keyframe(keyframe).T_w_c.inverse();
+  const textplane::TextKeyframe host = map_.text_keyframe(text.host), target = map_.text_keyframe(keyframe);
+  const SE3d T_t_h = target.from(host);
   Quad<double> quad;
-  if (!is_in_view(map_, parameters_, text, T_c_w, parameters_.text_seen_area * parameters_.text_min_area, min_share,
-                  &quad))
+  if (!is_in_view(parameters_.text, text, T_t_h, target, parameters_.text.seen_area * parameters_.text.min_area,
+                  min_share, &quad))
     return;
   const int level = text.patch.level_count() > 1 ? 1 : 0;
-  const auto input = textplane::photometric_input(text.patch, level, map_.keyframe(keyframe).frame.image->view(),
-                                                  map_.camera, scale_shift(text, quad));
+  const auto input =
+      textplane::photometric_input(text.patch, level, target.pyramid, target.camera, scale_shift(text, quad));
   textplane::PhotometricWorkspace workspace(input.patch.n);
-  const auto cost = textplane::reference::evaluate(
-      textplane::ResidualRequest{input, text.theta, map_.T_c_h(T_c_w, text.host)}, workspace);
+  const auto cost = textplane::reference::evaluate(textplane::ResidualRequest{input, text.theta, T_t_h}, workspace);
   if (!textplane::is_ok(cost.status)) return;
-  const double least = text_zncc_limit(parameters_, parameters_.text_min_zncc, text.patch, level, text.theta,
-                                       map_.keyframe(text.host).frame, map_.keyframe(keyframe).frame,
-                                       map_.T_c_h(T_c_w, text.host), map_.camera);
+  const double least =
+      text_zncc_limit(parameters_.text, parameters_.text.min_zncc, text.patch, level, text.theta, host, target, T_t_h);
   if (cost.zncc >= least) {
     text.views.push_back(keyframe);
     text.failures = 0;
-  } else if (cost.zncc * parameters_.text_min_zncc < least * parameters_.text_cull_zncc &&
+  } else if (cost.zncc * parameters_.text.min_zncc < least * parameters_.text.cull_zncc &&
              !meets(map_.keyframe(keyframe).frame.detections, quad)) {
     ++text.failures;  // where the detector sees it, the image is blurred
   }
@@ -259,8 +231,8 @@ void TextMapper::observe_again() {
     const LocalMap near = parameters_.loop_closure ? LocalMap() : local_map(map_, parameters_, text.host);
     std::vector<int> before = std::exchange(text.views, {});
     for (const int id : map_.keyframe_ids())
-      if (id != text.host && near.has_keyframe(id)) observe(text, id, parameters_.text_min_share);
-    if (static_cast<int>(text.views.size()) + 1 < parameters_.text_min_observations) text.views = std::move(before);
+      if (id != text.host && near.has_keyframe(id)) observe(text, id, parameters_.text.min_share);
+    if (static_cast<int>(text.views.size()) + 1 < parameters_.text.min_observations) text.views = std::move(before);
   }
 }
 
@@ -273,9 +245,9 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     if (text.state == TextState::candidate) {
       if (near && find_plane(text, id, tracks)) {
         text.state = TextState::tentative;
-      } else if (is_overdue(text, parameters_, id) ||
-                 static_cast<int>(corners(text, id, tracks).host.size()) < parameters_.text_min_corners) {
-        if (near && plane_from_surface(map_, parameters_, text)) {
+      } else if (is_overdue(text, parameters_.text, id - text.host) ||
+                 static_cast<int>(corners(text, id, tracks).host.size()) < parameters_.text.min_corners) {
+        if (near && plane_by_points(text)) {
           observe_until(text, id);  // no view need agree yet
           text.state = TextState::tentative;
         } else {
@@ -288,12 +260,13 @@ void TextMapper::update(int id, const std::vector<Track>& tracks) {
     }
     if (!text.has_plane()) continue;
     if (text.views.size() > before && text.state == TextState::tentative) {
-      refine_plane(map_, parameters_, evenly_spaced(text.views, static_cast<std::size_t>(parameters_.text_views)),
-                   text.theta, parameters_.text_cull_zncc, text);
+      refine_text_plane(parameters_.text, KeyframeLookup(map_),
+                        evenly_spaced(text.views, static_cast<std::size_t>(parameters_.text.views)), text.theta,
+                        parameters_.text.cull_zncc, text);
     }
-    if (text.state == TextState::tentative && is_proven(text, parameters_)) text.state = TextState::mapped;
-    if (is_contradicted(text, parameters_) || is_overdue(text, parameters_, id)) drop(text);
-    if (text.views.size() > before) rehost(map_, parameters_, id, text);
+    if (text.state == TextState::tentative && is_proven(text, parameters_.text)) text.state = TextState::mapped;
+    if (is_contradicted(text, parameters_.text) || is_overdue(text, parameters_.text, id - text.host)) drop(text);
+    if (text.views.size() > before) rehost(parameters_.text, KeyframeLookup(map_), id, text);
   }
 }
 

@@ -4,8 +4,10 @@
 //              corners are tracked
 //   tentative  theta by the linear system [m']x t m^T theta = -[m']x R m once the corners have parallax, else by map
 //              points round it; refined photometrically against its views
-//   mapped     after n_min observations: takes part in tracking and adjustment; gets a better host (text_hosting.hpp)
-//   dropped    by the rules of culling.hpp
+//   mapped     after n_min observations: takes part in tracking and adjustment; gets a better host
+//   dropped    by the rules of textplane/landmarks/text_life.hpp
+//
+// How a text looks and which plane it has is the library's part, textplane/landmarks; this knows map and tracks.
 #ifndef TEXTSLAM_TEXT_TEXT_MAPPER_HPP
 #define TEXTSLAM_TEXT_TEXT_MAPPER_HPP
 
@@ -50,7 +52,7 @@ class TextMapper {
   };
   Corners corners(const TextObject& text, int keyframe, const std::vector<Track>& tracks) const;
   bool find_plane(TextObject& text, int id, const std::vector<Track>& tracks);
-  bool initial_plane(const TextObject& text, int keyframe, const std::vector<Track>& tracks, Vec3* theta) const;
+  bool plane_by_points(TextObject& text) const;
   void observe(TextObject& text, int keyframe, double min_share);
   void observe_until(TextObject& text, int id);
 

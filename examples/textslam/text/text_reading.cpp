@@ -5,9 +5,9 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad_projection.hpp"
+#include "textplane/landmarks/words.hpp"
 #include "textplane/photometry/sample.hpp"
-#include "textslam/map/text_geometry.hpp"
-#include "textslam/map/text_words.hpp"
+#include "textslam/map/text_views.hpp"
 
 namespace textslam {
 namespace {
@@ -122,7 +122,7 @@ void read_texts(Map& map, const Parameters& parameters, TextReader& reader) {
       if (!(view.sharpness > 0)) continue;
       const TextReader::Reading reading = read_either_way(reader, view);
       if (is_read(reading.text))
-        vote(&text.votes, reading.text, reading.score * view.sharpness / views.front().sharpness, parameters);
+        vote(&text.votes, reading.text, reading.score * view.sharpness / views.front().sharpness, parameters.text);
     }
   }
 }

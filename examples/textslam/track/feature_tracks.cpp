@@ -5,8 +5,8 @@
 #include "textplane/features/fast.hpp"
 #include "textplane/features/klt.hpp"
 #include "textplane/features/select.hpp"
+#include "textplane/landmarks/text_noise.hpp"
 #include "textslam/common/algorithms.hpp"
-#include "textslam/input/noise_filter.hpp"
 
 namespace textslam {
 namespace {
@@ -33,14 +33,14 @@ double contrast_at(const Frame& frame, const Vec2f& px, int radius) {
 void track_klt(const Frame& from, const Frame& to, const Vec2f* start, const Vec2f* guesses, int n,
                textplane::KltOptions options, const Parameters& parameters, textplane::KltResult* results) {
   const textplane::PyramidView from_view = from.image->view(), to_view = to.image->view();
-  if (!is_noisy(parameters, from, to)) {
+  if (!is_noisy(parameters.text, from, to)) {
     textplane::track_klt(from_view, to_view, start, guesses, n, options, results);
     return;
   }
   for (int i = 0; i < n; ++i) {
     const double contrast = contrast_at(from, start[i], options.radius);
     options.min_zncc = static_cast<float>(
-        zncc_limit(parameters, static_cast<double>(parameters.min_track_zncc), 0, from, contrast, to, contrast));
+        zncc_limit(parameters.text, static_cast<double>(parameters.min_track_zncc), 0, from, contrast, to, contrast));
     textplane::track_klt(from_view, to_view, start + i, guesses ? guesses + i : nullptr, 1, options, results + i);
   }
 }

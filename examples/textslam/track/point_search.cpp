@@ -5,7 +5,7 @@
 
 #include "textplane/features/klt.hpp"
 #include "textplane/geometry/homography.hpp"
-#include "textslam/input/noise_filter.hpp"
+#include "textplane/landmarks/text_noise.hpp"
 
 namespace textslam {
 namespace {
@@ -83,7 +83,7 @@ bool find_point(const Map& map, const Parameters& parameters, const PointPredict
     const float limit = level > 0 ? parameters.min_coarse_point_zncc : parameters.min_point_zncc;
     const auto contrast = static_cast<double>(patch.contrast());
     options.min_zncc = static_cast<float>(
-        zncc_limit(parameters, static_cast<double>(limit), level, host_frame, contrast, frame, contrast));
+        zncc_limit(parameters.text, static_cast<double>(limit), level, host_frame, contrast, frame, contrast));
     const auto result =
         textplane::align_point_patch(patch, frame.image->level(level), textplane::point_to_level(*px, level), options);
     if (textplane::is_ok(result.status)) {

@@ -6,11 +6,11 @@
 #include <map>
 
 #include "io/clock.hpp"
+#include "textplane/landmarks/text_noise.hpp"
+#include "textplane/landmarks/text_view.hpp"
 #include "textplane/solver/pose.hpp"
 #include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
-#include "textslam/map/text_geometry.hpp"
-#include "textslam/map/text_zncc.hpp"
 #include "textslam/track/feature_tracks.hpp"
 #include "textslam/track/pose_refit.hpp"
 #include "textslam/track/rotation_prior.hpp"
@@ -201,13 +201,12 @@ void Tracker::add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTe
 int Tracker::agreeing(const Frame& frame, const std::vector<const TextObject*>& texts, const SE3d& T_c_w,
                       const std::vector<float>& zncc) const {
   int count = 0;
+  const textplane::TextImage image = map_.text_image(frame);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const TextObject& text = *texts[i];
-    count +=
-        zncc[i] >= text_zncc_limit(parameters_, parameters_.text_min_zncc, text.patch, 0, text.theta,
-                                   map_.keyframe(text.host).frame, frame, map_.T_c_h(T_c_w, text.host), map_.camera)
-            ? 1
-            : 0;
+    const double least = text_zncc_limit(parameters_.text, parameters_.text.min_zncc, text.patch, 0, text.theta,
+                                         map_.text_keyframe(text.host), image, map_.T_c_h(T_c_w, text.host));
+    count += zncc[i] >= least ? 1 : 0;
   }
   return count;
 }
@@ -229,7 +228,7 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
     for (const TextObject& text : map_.texts) {
       Quad<double> quad;
       if (text.state != TextState::mapped || (local_ && !local_->has_text(text.id))) continue;
-      if (!text_in_view(map_, parameters_, text, *T_c_w, &quad)) continue;
+      if (!text_in_view(parameters_.text, text, map_.T_c_h(*T_c_w, text.host), map_.text_image(frame), &quad)) continue;
       texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)});
       seen.push_back(&text);
     }
@@ -242,7 +241,7 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
   workspace.reserve(texts.data(), text_count, point_count);
   textplane::PoseOptions options;
   options.sigma_photo = parameters_.photometric_sigma;
-  options.coarsest_level = parameters_.text_levels - 1;
+  options.coarsest_level = parameters_.text.levels - 1;
   std::vector<float> zncc(texts.size()), chi2(points.size());
   const auto result = textplane::refine_pose(texts.data(), text_count, points.data(), point_count, frame.image->view(),
                                              map_.camera, *T_c_w, options, workspace, zncc.data(), chi2.data());

@@ -11,6 +11,7 @@
 #include "textplane/landmarks/keyframe.hpp"
 #include "textplane/landmarks/text_options.hpp"
 #include "textplane/photometry/noise.hpp"
+#include "textplane/photometry/patch.hpp"
 #include "textplane/photometry/sample.hpp"
 #include "textplane/photometry/zncc.hpp"
 

@@ -191,8 +191,8 @@ void fit_to_surface(const TextOptions& options, const PointLookup& points, const
 }
 
 /// The same for a text without a plane, by the points alone. `seen`: in the host's frame, those that the host sees.
-/// False, and nothing changed, with fewer than surface_min_points of them about the text, or where the normal stays less
-/// certain than surface_max_sigma.
+/// False, and nothing changed, with fewer than surface_min_points of them about the text, or where the normal stays
+/// less certain than surface_max_sigma.
 TEXTPLANE_DEFERRED
 bool plane_from_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h,
                         const std::vector<Vector3<double>>& seen, TextObject& text) {

@@ -25,7 +25,7 @@ TEST(ParametersAtSize, LeaveRoomForTheCorners) {
     const double cells = static_cast<double>(width) * height / (p.corner_cell * p.corner_cell);
     EXPECT_GT(cells, listed.max_tracks);
     EXPECT_LT(cells, 2 * listed.max_tracks);
-    EXPECT_GE(p.pyramid_levels, p.text_levels);
+    EXPECT_GE(p.pyramid_levels, p.text.levels);
     EXPECT_LE(p.pyramid_levels, textplane::kMaxPyramidLevels);
     EXPECT_GE(std::min(width, height) >> (p.pyramid_levels - 1), p.coarsest_side);
     EXPECT_NEAR(p.keyframe_flow / listed.keyframe_flow, std::sqrt(width * height / (640.0 * 480.0)), 1e-9);
@@ -36,7 +36,7 @@ TEST(ParametersAtSize, KeepCornersApartInTinyImages) {
   const Parameters p = at_size(Parameters(), 64, 48);
   EXPECT_EQ(p.corner_cell, p.min_corner_cell);
   EXPECT_EQ(p.text_corner_cell, p.min_corner_cell);
-  EXPECT_EQ(p.pyramid_levels, p.text_levels);
+  EXPECT_EQ(p.pyramid_levels, p.text.levels);
 }
 
 }  // namespace parameters_test

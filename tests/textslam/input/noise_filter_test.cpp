@@ -1,4 +1,4 @@
-// Noisy images become as clear as is said, clear ones stay as they are, and limits of the ZNCC follow.
+// Noisy images become as clear as is said, and clear ones stay as they are.
 #include "textslam/input/noise_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <memory>
 #include <random>
 
+#include "textplane/landmarks/text_noise.hpp"
 #include "textplane/photometry/noise.hpp"
-#include "textplane/photometry/zncc.hpp"
 
 namespace textslam {
 namespace noise_filter_test {
@@ -77,34 +77,6 @@ TEST(NoiseFilter, KnowsTheNoiseOfEveryLevel) {
           << sigma << ", level " << level;
     }
   }
-}
-
-TEST(ZnccLimit, IsThatOfClearImagesWithoutNoise) {
-  const Parameters parameters;
-  Frame a, b;
-  a.noise = b.noise = parameters.clear_noise;
-  EXPECT_FALSE(is_noisy(parameters, a, b));
-  EXPECT_EQ(zncc_limit(parameters, 0.65, 0, a, 4, b, 4), 0.65);
-  b.noise = parameters.clear_noise + 1e-6;
-  EXPECT_TRUE(is_noisy(parameters, a, b));
-  EXPECT_NEAR(zncc_limit(parameters, 0.65, 0, a, 10, b, 10), 0.65, 1e-6) << "no step";
-}
-
-TEST(ZnccLimit, FallsWithTheNoiseBeyondAndGrowsWithTheContrast) {
-  const Parameters parameters;
-  Frame a, b;
-  a.noise = b.noise = 5;
-  double last = 0;
-  for (const double contrast : {8.0, 12.0, 20.0, 60.0}) {
-    const double limit = zncc_limit(parameters, 0.65, 0, a, contrast, b, contrast);
-    EXPECT_GT(limit, last);
-    EXPECT_NEAR(limit, 0.65 * (1 - (25 - parameters.clear_noise * parameters.clear_noise) / (contrast * contrast)),
-                1e-12);
-    EXPECT_LT(zncc_limit(parameters, 0.65, 0, a, contrast, b, 0.5 * contrast), limit) << "a view of half the gain";
-    last = limit;
-  }
-  EXPECT_NEAR(zncc_limit(parameters, 0.65, 0, a, 4, b, 4), 0.65 * parameters.least_expected_zncc, 1e-12);
-  EXPECT_GT(zncc_limit(parameters, 0.65, 2, a, 8, b, 8), zncc_limit(parameters, 0.65, 0, a, 8, b, 8));
 }
 
 }  // namespace noise_filter_test

@@ -64,6 +64,7 @@ class LoopClosureTest : public testing::Test {
     text.host = 15;
     text.theta = Vec3(0.05, 0, 0.5);
     text.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+    text.patch.camera = map.camera;
     text.patch.quad.corner = {Vec2(100, 100), Vec2(200, 100), Vec2(200, 140), Vec2(100, 140)};
     map.texts.push_back(text);
   }

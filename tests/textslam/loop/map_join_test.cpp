@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "textslam/map/observations.hpp"
-#include "textslam/map/text_geometry.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/relocalise/boards_support.hpp"
 #include "textslam/relocalise/text_hypotheses.hpp"
 
@@ -42,11 +42,11 @@ class MapJoinTest : public TextRecoveryTest {
       EXPECT_EQ(textplane::reanchor_plane<double>(text.theta, poses[0], &theta), textplane::Status::ok);
       other.theta = theta / scale;
       textplane::SelectOptions options;
-      options.levels = parameters.text_levels;
+      options.levels = parameters.text.levels;
       other.patch = textplane::make_patch(b.keyframes[0].frame.image->view(), b.camera,
                                           quad_of(boards[static_cast<std::size_t>(text.id)], poses[0]), options);
       other.views = {1};
-      other.votes = {{text.word(), 2}};
+      other.votes = {{textplane::consensus(text.votes), 2}};
       b.texts.push_back(std::move(other));
     }
   }
@@ -78,7 +78,8 @@ class MapJoinTest : public TextRecoveryTest {
 
 TEST_F(MapJoinTest, JoinedMapsAreOne) {
   Frame newest = b.keyframe(1).frame;
-  for (std::size_t i = 0; i < 3; ++i) newest.detections.push_back(detection(i, poses[1], map.texts[i].word()));
+  for (std::size_t i = 0; i < 3; ++i)
+    newest.detections.push_back(detection(i, poses[1], textplane::consensus(map.texts[i].votes)));
   const Relocalisation seen = relocalise(map, parameters, newest);
   ASSERT_TRUE(seen.ok);
   Parameters few = parameters;

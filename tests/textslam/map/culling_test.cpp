@@ -139,22 +139,5 @@ TEST_F(KeyframeCullingTest, SeenByAKeyFrameIsThinnedEvenly) {
   }
 }
 
-// 3 false hits a frame at random places: a text is met by some in the long run, by far too few for what shows it.
-TEST(TextCulling, DetectionsCountAsAShareOfTheFramesThatCouldHaveShownIt) {
-  const Parameters parameters;
-  TextObject text;
-  for (int view = 1; view < parameters.text_min_observations; ++view) text.views.push_back(view);
-  text.detections = parameters.text_min_detections;
-  text.shown = parameters.text_min_detections;
-  EXPECT_TRUE(is_proven(text, parameters));
-  text.shown = static_cast<int>(text.detections / parameters.text_detected_share) + 1;
-  EXPECT_FALSE(is_proven(text, parameters));
-  EXPECT_FALSE(is_detected(text, parameters));
-  text.detections = static_cast<int>(0.4 * text.shown);  // 60 % missed
-  EXPECT_TRUE(is_proven(text, parameters));
-  text.shown = text.detections = parameters.text_min_detections - 1;
-  EXPECT_FALSE(is_proven(text, parameters)) << "too few to tell";
-}
-
 }  // namespace culling_test
 }  // namespace textslam

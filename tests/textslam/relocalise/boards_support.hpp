@@ -50,7 +50,7 @@ class TextRecoveryTest : public testing::Test {
       const Vec3 normal = -boards[i].T_w_b.R.col(2);
       text.theta = textplane::plane_from_normal<double>(normal, -normal.dot(boards[i].T_w_b.t));
       textplane::SelectOptions options;
-      options.levels = parameters.text_levels;
+      options.levels = parameters.text.levels;
       text.patch =
           textplane::make_patch(map.keyframes[0].frame.image->view(), map.camera, quad_of(boards[i], SE3d{}), options);
       EXPECT_TRUE(textplane::is_ok(text.patch.status));

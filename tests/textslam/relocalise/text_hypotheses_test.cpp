@@ -33,7 +33,8 @@ TEST_F(TextRecoveryTest, OneSignGivesThePose) {
 TEST_F(TextRecoveryTest, SeveralSignsConfirmEachOther) {
   const SE3d truth = moved({0.3, -0.1, 0.2}, {0.02, -0.1, 0.05});
   Frame frame = frame_at(truth);
-  for (std::size_t i = 0; i < 3; ++i) frame.detections.push_back(detection(i, truth, map.texts[i].word()));
+  for (std::size_t i = 0; i < 3; ++i)
+    frame.detections.push_back(detection(i, truth, textplane::consensus(map.texts[i].votes)));
   const auto found = text_hypotheses(map, parameters, frame, WordMatch::same);
   ASSERT_GE(found.size(), 3u);
   EXPECT_EQ(found[0].confirmed, 3);
@@ -64,7 +65,8 @@ TEST_F(TextRecoveryTest, AWordAloneIsNoPlace) {
   const SE3d truth = moved({0.2, 0, 0.1}, {0, 0.1, 0});
   for (Board& board : boards) board.print += 10;
   Frame frame = frame_at(truth);
-  for (std::size_t i = 0; i < 3; ++i) frame.detections.push_back(detection(i, truth, map.texts[i].word()));
+  for (std::size_t i = 0; i < 3; ++i)
+    frame.detections.push_back(detection(i, truth, textplane::consensus(map.texts[i].votes)));
   EXPECT_FALSE(relocalise(map, parameters, frame).ok);
   // The same sign, hung elsewhere, and nothing else.
   boards = {{moved({0.5, 0.5, 2.5}, {0, 0.3, 0}), 1}};

@@ -85,7 +85,7 @@ TEST(Report, EveryParameterIsThere) {
   Parameters parameters;
   parameters.mode = Mode::loose;
   parameters.real_time = true;
-  parameters.text_min_zncc = 0.123;
+  parameters.text.min_zncc = 0.123;
   const Json list = parameters_json(parameters);
   const auto value_of = [&](const std::string& name) {
     for (const Json& row : list)

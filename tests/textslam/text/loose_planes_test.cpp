@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "textplane/geometry/plane.hpp"
@@ -103,6 +104,7 @@ class LoosePlanesTest : public testing::Test {
     TextObject text;
     text.id = 0;
     text.host = 0;
+    text.patch.camera = map.camera;
     text.patch.quad.corner = {Vec2(260, 215), Vec2(380, 215), Vec2(380, 265), Vec2(260, 265)};
     text.detections = 4;
     map.texts.push_back(text);
@@ -111,6 +113,7 @@ class LoosePlanesTest : public testing::Test {
   int add_keyframe(std::size_t first = 0) {
     const int id = static_cast<int>(map.keyframes.size());
     map.keyframes.push_back({{}, {Eigen::Matrix3d::Identity(), Vec3(0.05 * id, 0, 0)}, {}});
+    map.keyframe(id).frame.image = blank;
     for (std::size_t i = first; i < map.points.size(); ++i) {
       const Vec3 p = map.keyframe(id).T_w_c.inverse() * map.points[i].p_w;
       add_observation(map, static_cast<int>(i), id, map.camera.project(p));
@@ -122,22 +125,24 @@ class LoosePlanesTest : public testing::Test {
   Parameters parameters;
   Map map;
   Vec3 normal;
+  std::shared_ptr<const Pyramid> blank =
+      std::make_shared<const Pyramid>(Image<std::uint8_t>(640, 480, std::uint8_t{100}).view(), 1);
 };
 
 TEST_F(LoosePlanesTest, ObjectLivesFromCandidateToMapped) {
   add_keyframe();
   update_loose_planes(map, parameters, 0);
   EXPECT_EQ(text().state, TextState::candidate) << "its own host tells nothing";
-  for (int observations = 2; observations < parameters.text_min_observations; ++observations) {
+  for (int observations = 2; observations < parameters.text.min_observations; ++observations) {
     update_loose_planes(map, parameters, add_keyframe());
     ASSERT_EQ(text().state, TextState::tentative);
     EXPECT_EQ(static_cast<int>(text().views.size()) + 1, observations);
     EXPECT_LT(degrees_between(-text().theta, normal), 1e-6);
   }
-  text().detections = parameters.text_min_detections - 1;
+  text().detections = parameters.text.min_detections - 1;
   update_loose_planes(map, parameters, add_keyframe());
   EXPECT_EQ(text().state, TextState::tentative) << "seen by the detector too rarely";
-  text().detections = parameters.text_min_detections;
+  text().detections = parameters.text.min_detections;
   update_loose_planes(map, parameters, add_keyframe());
   EXPECT_EQ(text().state, TextState::mapped);
 }
@@ -169,7 +174,7 @@ TEST_F(LoosePlanesTest, RefreshFollowsThePointsAndKeepsWhatItCannotFitAnew) {
 TEST_F(LoosePlanesTest, CandidatesWithoutAPlaneAreDroppedInTheEnd) {
   for (MapPoint& point : map.points) point.bad = true;
   add_keyframe();
-  for (int i = 0; i < parameters.text_patience; ++i) update_loose_planes(map, parameters, add_keyframe());
+  for (int i = 0; i < parameters.text.patience; ++i) update_loose_planes(map, parameters, add_keyframe());
   EXPECT_EQ(text().state, TextState::candidate);
   update_loose_planes(map, parameters, add_keyframe());
   EXPECT_EQ(text().state, TextState::dropped);

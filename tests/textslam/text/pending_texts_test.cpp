@@ -134,7 +134,7 @@ class TextMapperViewsTest : public TextHostingTest {
 TEST_F(TextMapperViewsTest, APlaneIsSeenInKeyFramesBeforeItsHost) {
   text().state = TextState::candidate;
   text().host = 4;
-  text().patch = make_text_patch(map, parameters, 4, quad_in(map.keyframe(4).T_w_c));
+  text().patch = make_text_patch(parameters.text, map.text_keyframe(4), quad_in(map.keyframe(4).T_w_c));
   text().views.clear();
   map.keyframe(1).culled = true;
   TextMapper(map, everywhere, parameters).update(5, corners_from(4));

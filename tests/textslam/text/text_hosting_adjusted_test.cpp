@@ -25,7 +25,7 @@ class AdjustedMeanwhile : public TextHostingTest {
   std::vector<Vec3> plane() {
     Vec3 theta = text().theta;
     Eigen::Matrix3d unused = Eigen::Matrix3d::Zero();
-    EXPECT_TRUE(transport_plane(map, text().host, 0, &theta, &unused));
+    EXPECT_TRUE(textplane::transport_plane(map.text_keyframe(0).from(map.text_keyframe(text().host)), &theta, &unused));
     std::vector<Vec3> points;
     for (const Vec2& m : {Vec2(0, 0), Vec2(-0.1, 0), Vec2(0.1, 0), Vec2(0, 0.05)})
       points.push_back(map.keyframe(0).T_w_c * textplane::plane_point<double>(theta, m.homogeneous()));
@@ -49,7 +49,7 @@ TEST_F(AdjustedMeanwhile, ThePlaneIsCarriedToTheNewHost) {
 
   std::swap(map, rehosted);
   const std::vector<Vec3> before = plane();
-  ASSERT_TRUE(rehost(map, parameters, near_, text()));
+  ASSERT_TRUE(rehost_to(near_));
   adjustment->apply(map);
   EXPECT_EQ(text().host, near_);
   EXPECT_GT((text().theta - theta).norm(), 0.05) << "not what was solved for the first host";
@@ -68,7 +68,7 @@ TEST_F(AdjustedMeanwhile, AndToOneThatCameSince) {
   std::swap(map, rehosted);
   const int newer = add_target(at(0.08, 1.65));
   map.keyframe(newer).T_w_c.t += map.keyframe(near_).T_w_c.t - at(0.1, 1.6).t;
-  ASSERT_TRUE(rehost(map, parameters, newer, text()));
+  ASSERT_TRUE(rehost_to(newer));
   const SE3d relative = map.keyframe(near_).T_w_c.inverse() * map.keyframe(newer).T_w_c;
   adjustment->apply(map);
   EXPECT_EQ(text().host, newer);

@@ -38,6 +38,7 @@ class TextReading : public testing::Test {
     text.theta = textplane::plane_from_normal<double>(normal, -normal.dot(wall.centre));
     // A box round a sheared word: its sides are not at right angles on the wall.
     const double u[4] = {-0.3, 0.26, 0.3, -0.26}, v[4] = {-0.1, -0.1, 0.1, 0.1};
+    text.patch.camera = map.camera;
     for (std::size_t i = 0; i < 4; ++i) text.patch.quad.corner[i] = map.camera.project(wall.at(u[i], v[i]));
   }
 
@@ -106,7 +107,7 @@ TEST_F(TextReading, ReadsTheSharpestViewsEitherWayUp) {
   EXPECT_EQ(map.texts[0].votes.size(), 2u);
   EXPECT_GT(map.texts[0].votes.at("upright"), 0.8) << "the sharpest view";
   EXPECT_LT(map.texts[0].votes.at("upright"), 1.6) << "and one less sharp";
-  EXPECT_EQ(map.texts[0].word(), "upright");
+  EXPECT_EQ(textplane::consensus(map.texts[0].votes), "upright");
   EXPECT_TRUE(map.texts[1].votes.empty()) << "not mapped";
 }
 
