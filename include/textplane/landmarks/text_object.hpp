@@ -34,6 +34,8 @@ struct TextObject {
   int shown = 0;                        ///< Frames with detections that could have shown it, those included.
   int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
   double zncc = 0;                      ///< Mean over its last refinement.
+  /// How much larger the variance of its residuals acts than that of as many independent pixels: views err as wholes.
+  double variance_factor = 1;
 
   /// Whether theta is known.
   bool has_plane() const noexcept { return state == TextState::tentative || state == TextState::mapped; }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,14 @@ inline bool affine_at(const Pinhole<double>& host, const Pinhole<double>& target
 }
 }  // namespace detail
 
+/// What became of a text in TextRefiner::refine().
+enum class Refinement : std::uint8_t {
+  refined,    ///< Theta and covariance are new.
+  uncertain,  ///< They are, but the normal is less certain than refine_max_sigma.
+  bent,       ///< It is no plane, and certainly so; it is as it was.
+  failed,     ///< No two whole views agree: its plane rests on parts, or on points alone. It is as it was.
+};
+
 /// Refines planes, one text after the other. Keeps memory from text to text; for one thread at a time.
 TEXTPLANE_DEFERRED
 class BasicTextRefiner {
@@ -54,10 +63,8 @@ class BasicTextRefiner {
   BasicTextRefiner(const TextOptions& options, const KeyframeLookup& keyframes)
       : options_(options), keyframes_(keyframes) {}
 
-  /// Theta and covariance of a text with a plane. False, and the text as it was, where it is bent or its normal stays
-  /// uncertain (refine_max_sigma), or where no two whole views agree: its plane rests on parts, or on points alone.
-  /// `points`, if given: of the map, for the surface that it lies on.
-  bool refine(TextObject& text, const PointLookup* points = nullptr) {
+  /// Theta and covariance of a text with a plane. `points`, if given: of the map, for the surface that it lies on.
+  Refinement refine(TextObject& text, const PointLookup* points = nullptr) {
     const std::vector<View> views = views_of(text);
     double largest = 0;
     for (const View& view : views) largest = (std::max)(largest, view.area);
@@ -69,7 +76,7 @@ class BasicTextRefiner {
       Estimate e;
       if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
     }
-    if (estimates.empty()) return false;
+    if (estimates.empty()) return Refinement::failed;
     // A host that is blurred itself is similar to none of its targets.
     double most = 0;
     for (const Estimate& e : estimates) most = (std::max)(most, e.zncc);
@@ -89,10 +96,13 @@ class BasicTextRefiner {
     refined.theta = mean;
     refined.covariance = covariance;
     if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
-    if (is_uncertain(refined, options_) || is_bent(estimates)) return false;
+    const bool uncertain = is_uncertain(refined, options_);
+    if (!uncertain && is_bent(estimates)) return Refinement::bent;
     text.theta = refined.theta;
     text.covariance = refined.covariance;
-    return true;
+    text.variance_factor = 0;
+    for (const Estimate& e : estimates) text.variance_factor += e.variance_factor / n;
+    return uncertain ? Refinement::uncertain : Refinement::refined;
   }
 
  private:
@@ -105,7 +115,7 @@ class BasicTextRefiner {
   struct Estimate {
     Vector3<double> theta;  // in the text's host
     Matrix3<double> covariance;
-    double zncc = 0;
+    double zncc = 0, variance_factor = 1;
     Bend bend;
   };
 
@@ -117,7 +127,7 @@ class BasicTextRefiner {
     for (const int id : ids) {
       View view{id, keyframes_(id), {}, 0};
       const SE3d T_v_h = view.keyframe.from(host);
-      if (!project_text(text, T_v_h, view.keyframe.camera, &view.quad) ||
+      if (view.keyframe.pyramid.levels < 1 || !project_text(text, T_v_h, view.keyframe.camera, &view.quad) ||
           is_too_slanted(options_, facing(text, T_v_h)) ||
           !inside_image(view.quad, view.keyframe.width(), view.keyframe.height(), options_.refine_margin + 1))
         continue;
@@ -237,6 +247,7 @@ class BasicTextRefiner {
     const Matrix3<double> scatter = disagreement(fit.theta);
     const Matrix3<double> known = scatter.trace() > fit.covariance.trace() ? scatter : fit.covariance;
     out->covariance = J * (known + out->bend.doubt) * J.transpose();
+    out->variance_factor = fit.covariance.trace() > 0 ? known.trace() / fit.covariance.trace() : 1;
     out->zncc = fit.zncc;
     return out->theta.norm() > 0;
   }

@@ -1,0 +1,163 @@
+// The pose of a frame by mapped texts and the host's points together, as far as either knows it.
+//
+// A text's plane is not exact, so it is an unknown beside the pose, held by its covariance:
+//
+//   C(T, theta_i) = sum_points rho(|e|^2 / (sigma s)^2)
+//                 + sum_texts N / (v_i sigma_i^2) c_i(T, theta_i) + (theta_i - theta_i0)^T Sigma_i^-1 (theta_i - theta_i0)
+//
+// c_i is the robust photometric cost (residual.hpp), sigma_i^2 = 2 (1 - ZNCC) what the text differs by in this very
+// image, v_i its variance factor (TextObject). Each theta_i is eliminated by the Schur complement, so a plane that is
+// hardly known says little, and in no direction more than it knows. s is the scale of the points' residuals.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "textplane/landmarks/order.hpp"
+#include "textplane/landmarks/text_view.hpp"
+#include "textplane/photometry/residual.hpp"
+#include "textplane/solver/pose.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A mapped text that a frame may show.
+struct FrameText {
+  const TextObject* object = nullptr;  ///< With a plane.
+  SE3d T_w_h;                          ///< Of its host.
+  int scale_shift = 0;                 ///< Of photometric_input().
+  bool used = false;                   ///< Whether it takes part.
+  double zncc = 0;                     ///< Result: at the pose found.
+  double share = 0;                    ///< Result: of the information on the camera's position, 0 to 1.
+};
+
+namespace detail {
+
+using Information6 = FixedMatrix<double, 6, 6>;
+
+// Robust normal equations of points about a pose, xi left. Returns the cost.
+inline double point_equations(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera,
+                              const SE3d& T_c_w, double scale, Information6* H, Vector6<double>* b) noexcept {
+  const Robust robust{RobustKind::huber, 2.4477};
+  double cost = 0;
+  for (const PosePointTerm& point : points) {
+    Vector3<double> p;
+    Vector2<double> e;
+    if (!reproject(point, T_c_w, camera, &p, &e)) continue;
+    const double sigma = point.sigma * scale, squared = e.squaredNorm() / (sigma * sigma);
+    cost += robust.rho(squared);
+    const double w = robust.weight(squared) / (sigma * sigma), z = 1 / p.z(), u = p.x() * z, v = p.y() * z;
+    FixedMatrix<double, 2, 6> J;
+    J << z, 0, -u * z, -u * v, 1 + u * u, -v, 0, z, -v * z, -(1 + v * v), u * v, u;
+    J.row(0) *= camera.fx;
+    J.row(1) *= camera.fy;
+    *H += w * J.transpose() * J;
+    *b += w * J.transpose() * e;
+  }
+  return cost;
+}
+
+}  // namespace detail
+
+/// Solves for the pose of one frame; keeps its memory. For one thread at a time.
+TEXTPLANE_DEFERRED
+class BasicTextPose {
+ public:
+  /// Scale of the points' residuals about a pose, in units of their sigmas: 1.4826 times the median of |e| / sigma over
+  /// that of a Rayleigh distribution, at least `least`. 1 for fewer than eight points.
+  double point_scale(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera, const SE3d& T_c_w,
+                     double least) {
+    errors_.clear();
+    for (const PosePointTerm& point : points) {
+      Vector3<double> p;
+      Vector2<double> e;
+      if (detail::reproject(point, T_c_w, camera, &p, &e)) errors_.push_back(e.norm() / point.sigma);
+    }
+    if (errors_.size() < 8) return 1;
+    const auto middle = errors_.begin() + static_cast<std::ptrdiff_t>(errors_.size() / 2);
+    std::nth_element(errors_.begin(), middle, errors_.end());
+    constexpr double kRayleighMedian = 1.1774100225154747;
+    return (std::max)(least, *middle / kRayleighMedian);
+  }
+
+  /// Iterates from *T_c_w over the texts that are `used`, at level 0. False where the terms do not determine the pose.
+  bool solve(const std::vector<PosePointTerm>& points, double scale, std::vector<FrameText>& texts,
+             const TextImage& image, SE3d* T_c_w, int iterations = 8) {
+    theta_.resize(texts.size());
+    for (std::size_t i = 0; i < texts.size(); ++i) theta_[i] = texts[i].object->theta;
+    for (const FrameText& text : texts) photometric_.reserve(text.object->patch.max_pixels());
+    eliminated_.resize(texts.size());
+    for (int k = 0; k < iterations; ++k) {
+      Information6 H = Information6::Zero();
+      Vector6<double> b = Vector6<double>::Zero();
+      detail::point_equations(points, image.camera, *T_c_w, scale, &H, &b);
+      for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, &H, &b);
+      const Ldlt<double, 6> system(H, 1e-12);
+      if (!system.ok()) return false;
+      const Vector6<double> step = -system.solve(b);
+      if (!all_finite(step)) return false;
+      *T_c_w = renormalised(se3_exp<double>(step) * *T_c_w);
+      for (std::size_t i = 0; i < texts.size(); ++i)
+        if (eliminated_[i].in)
+          theta_[i] -= eliminated_[i].C_inverse * (eliminated_[i].h + eliminated_[i].B.transpose() * step);
+      information_ = H;
+      if (step.norm() < 1e-7) break;
+    }
+    return true;
+  }
+
+  /// Of the last solve: inverse of the covariance of the pose, xi left.
+  const FixedMatrix<double, 6, 6>& information() const noexcept { return information_; }
+
+ private:
+  using Information6 = FixedMatrix<double, 6, 6>;
+  struct Eliminated {
+    bool in = false;
+    FixedMatrix<double, 6, 3> B;
+    Matrix3<double> C_inverse;
+    Vector3<double> h;
+  };
+
+  void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, Information6* H,
+                Vector6<double>* b) {
+    Eliminated& out = eliminated_[i];
+    out.in = false;
+    if (!text.used) return;
+    const TextObject& object = *text.object;
+    const auto input = photometric_input(object.patch, 0, image.pyramid, image.camera, text.scale_shift);
+    const auto n =
+        linearise<Parameters::pose_plane>(ResidualRequest{input, theta_[i], T_c_w * text.T_w_h}, photometric_);
+    text.zncc = is_ok(n.status) ? n.zncc : -1;
+    const Ldlt<double, 3> prior(object.covariance, 1e-12);
+    if (!is_ok(n.status) || !prior.ok()) return;
+    const double variance = object.variance_factor * (std::max)(2 * (1 - n.zncc), 0.03);
+    const double weight = n.visible / variance;
+    const Matrix3<double> known = prior.inverse();
+    const FixedMatrix<double, 6, 6> A = weight * n.H.template topLeftCorner<6, 6>();
+    out.B = weight * n.H.template topRightCorner<6, 3>();
+    const Matrix3<double> C = Matrix3<double>(weight * n.H.template bottomRightCorner<3, 3>()) + known;
+    const Ldlt<double, 3> plane(C, 1e-14);
+    if (!plane.ok()) return;
+    out.C_inverse = plane.inverse();
+    out.h = weight * n.b.template tail<3>() + known * (theta_[i] - object.theta);
+    out.in = true;
+    const FixedMatrix<double, 6, 3> K = out.B * out.C_inverse;
+    const Information6 effective = A - K * out.B.transpose();
+    *H += effective;
+    *b += weight * n.b.template head<6>() - K * out.h;
+    text.share = effective.template topLeftCorner<3, 3>().trace();
+  }
+
+  std::vector<double> errors_;
+  std::vector<Vector3<double>> theta_;
+  std::vector<Eliminated> eliminated_;
+  PhotometricWorkspace photometric_;
+  Information6 information_ = Information6::Zero();
+};
+using TextPose = BasicTextPose<>;  ///< It is compiled only where it is used.
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
