@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 136 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: e6637a82d86a63ca
+// textplane 0.1.0 in one header, made of 143 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: 59c14f9e13ed748f
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 e6637a82d86a63ca"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 59c14f9e13ed748f"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -33566,6 +33566,88 @@ class KeyframeLookup {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_KEYFRAME_HPP
+// KeyframeStore: the key frames of a TextMap, by the host's ids.
+#ifndef TEXTPLANE_LANDMARKS_KEYFRAME_STORE_HPP
+#define TEXTPLANE_LANDMARKS_KEYFRAME_STORE_HPP
+
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <utility>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Key frames in the order of their ids. An image is a view of the host's, or the store's own.
+class KeyframeStore {
+ public:
+  /// False, and nothing changed, for an id that is in use. `own`: the image of `keyframe`, or null.
+  bool add(int id, TextKeyframe keyframe, std::unique_ptr<Pyramid> own) {
+    if (own) keyframe.pyramid = own->view();
+    return all_.emplace(id, Entry{keyframe, std::move(own)}).second;
+  }
+  bool has(int id) const { return all_.count(id) != 0; }  ///< Whether it knows this key frame.
+  /// Whether it still has its image.
+  bool has_image(int id) const {
+    const auto at = all_.find(id);
+    return at != all_.end() && at->second.keyframe.pyramid.levels > 0;
+  }
+  /// Lets go of the images of the oldest ids until `most` are left, and of the poses too where needs(id) is false.
+  template <class Needs>
+  void forget_oldest(int most, Needs needs) {
+    int images = 0;
+    for (const auto& [id, entry] : all_) images += entry.keyframe.pyramid.levels > 0 ? 1 : 0;
+    for (auto at = all_.begin(); at != all_.end();) {
+      if (at->second.keyframe.pyramid.levels > 0 && images > most) {
+        at->second.keyframe.pyramid = PyramidView{};
+        at->second.own.reset();
+        --images;
+      }
+      at = at->second.keyframe.pyramid.levels > 0 || needs(at->first) ? std::next(at) : all_.erase(at);
+    }
+  }
+  void erase(int id) { all_.erase(id); }  ///< Lets go of all.
+  /// The pose becomes f(id), world to camera, where that is finite.
+  template <class PoseOf>
+  void move(PoseOf f) {
+    for (auto& [id, entry] : all_) {
+      const SE3d T_c_w = f(id);
+      if (all_finite(T_c_w)) entry.keyframe.T_w_c = T_c_w.inverse();
+    }
+  }
+  /// The key frame; without an image, at the origin, for an unknown id.
+  TextKeyframe text_keyframe(int id) const {
+    const auto at = all_.find(id);
+    return at == all_.end() ? TextKeyframe{} : at->second.keyframe;
+  }
+  std::size_t size() const noexcept { return all_.size(); }  ///< Key frames, those without an image included.
+  /// Calls f(id, keyframe) in the order of the ids.
+  template <class Visit>
+  void for_each(Visit f) const {
+    for (const auto& [id, entry] : all_) f(id, entry.keyframe);
+  }
+  /// Bytes of the images that it owns.
+  std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [id, entry] : all_)
+      if (entry.own)
+        for (int l = 0; l < entry.own->levels(); ++l)
+          sum += static_cast<std::size_t>(entry.own->level(l).width()) *
+                 static_cast<std::size_t>(entry.own->level(l).height());
+    return sum;
+  }
+
+ private:
+  struct Entry {
+    TextKeyframe keyframe;
+    std::unique_ptr<Pyramid> own;
+  };
+  std::map<int, Entry> all_;
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_KEYFRAME_STORE_HPP
 // Order statistics, and an even choice of what is too much.
 #ifndef TEXTPLANE_LANDMARKS_ORDER_HPP
 #define TEXTPLANE_LANDMARKS_ORDER_HPP
@@ -33772,13 +33854,9 @@ bool bend_of(const TextPatch& patch, const Vector3<double>& theta, const std::ve
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_PLANARITY_HPP
-// A better host for a mapped text: a new key frame that shows it whole, much larger than its host does, and as sharp.
-//
-// A sign is first detected from afar, often aslant, so its first host is its poorest view. The plane and its covariance
-// move to the better view and are refined there; the plane gives the quad in the new image; the old host becomes a
-// view. Each change needs a view that is larger by a pyramid level, so changes are few.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
+// TextFinder: the plane of a new text, and the key frames that agree with it.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_FINDER_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_FINDER_HPP
 
 #include <algorithm>
 #include <cmath>
@@ -33786,22 +33864,22 @@ TEXTPLANE_END_NAMESPACE
 #include <utility>
 #include <vector>
 
-// Patch and plane of a text: making, solving for, refining, moving to another key frame, and comparing with an image.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_PLANE_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_PLANE_HPP
+// What a host system gives to TextMap: points and detections of an image.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_MAP_INPUT_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_MAP_INPUT_HPP
 
-#include <algorithm>
-#include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
-// What ZNCC a view has to reach, by the noise of the images: limits are for clear ones.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_NOISE_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_NOISE_HPP
+// What a text says, by its readings: each is mostly right, and seldom right in every letter.
+#ifndef TEXTPLANE_LANDMARKS_WORDS_HPP
+#define TEXTPLANE_LANDMARKS_WORDS_HPP
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 // TextOptions: every number that the life of a text object depends on.
@@ -33810,7 +33888,7 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Numbers of the paper (Li et al., ICRA 2020) are marked so; the others were chosen on rendered rooms. docs/texts.md
+/// Numbers of the paper (Li et al., ICRA 2020) are marked so; the others were chosen on rendered rooms. docs/integrate.md
 /// shows what happens when one is halved or doubled.
 struct TextOptions {
   // Proposal: which quads become candidates.
@@ -33898,6 +33976,130 @@ struct TextOptions {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_TEXT_OPTIONS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// The word of a text that nobody read, as in ICDAR's files.
+constexpr const char* kUnreadText = "###";
+/// Whether it is a reading.
+inline bool is_read(const std::string& text) { return !text.empty() && text != kUnreadText; }
+
+namespace detail {
+inline std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = (std::min)({changed, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+}  // namespace detail
+
+/// 1 for the same word, less by twice the share of letters to change, add or leave out, at least 0.
+inline double word_similarity(const std::string& a, const std::string& b) {
+  const double longer = static_cast<double>((std::max)(a.size(), b.size()));
+  return longer > 0 ? (std::max)(0.0, 1 - 2 * static_cast<double>(detail::edit_distance(a, b)) / longer) : 1;
+}
+
+/// Are the two readings of one word (same_word)? An unread one may be any word.
+inline bool words_agree(const std::string& a, const std::string& b, const TextOptions& options = {}) {
+  return !is_read(a) || !is_read(b) || word_similarity(a, b) >= options.same_word;
+}
+
+/// Adds a reading's score to its votes. Beyond max_readings, the older reading with the fewest votes is forgotten.
+inline void vote(std::map<std::string, double>* votes, const std::string& word, double score,
+                 const TextOptions& options = {}) {
+  (*votes)[word] += score;
+  if (votes->size() <= static_cast<std::size_t>(options.max_readings)) return;
+  auto fewest = votes->end();
+  for (auto entry = votes->begin(); entry != votes->end(); ++entry)
+    if (entry->first != word && (fewest == votes->end() || entry->second < fewest->second)) fewest = entry;
+  votes->erase(fewest);
+}
+
+/// The reading most similar to all readings, weighed by their votes (a weighted median of strings): letters misread
+/// here and there do not split the votes. The first in order among equals, kUnreadText without readings.
+inline std::string consensus(const std::map<std::string, double>& votes) {
+  std::string best = kUnreadText;
+  double most = 0;
+  for (const auto& [word, own] : votes) {
+    double support = 0;
+    for (const auto& [other, count] : votes) support += count * word_similarity(word, other);
+    if (support <= most) continue;
+    best = word;
+    most = support;
+  }
+  return best;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_WORDS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A point that the host sees in an image: where, and what it knows of its place. Of the three kinds, a frame may have
+/// any mixture.
+struct TextPoint {
+  Vector2<double> px = Vector2<double>::Zero();   ///< Undistorted, level 0.
+  Vector3<double> p_w = Vector3<double>::Zero();  ///< In the world, where has_position.
+  double depth = 0;                               ///< Along the optical axis, where positive and not has_position.
+  bool has_position = false;                      ///< Whether p_w is known.
+  int id = -1;       ///< Of the host's track or landmark: the same one in several key frames is a match. -1: none.
+  double sigma = 1;  ///< px: standard deviation of px.
+
+  /// A point of the host's map.
+  static TextPoint at(const Vector2<double>& px, const Vector3<double>& p_w, int id = -1, double sigma = 1) noexcept {
+    return {px, p_w, 0, true, id, sigma};
+  }
+  /// A pixel with depth, as of a stereo or RGB-D camera.
+  static TextPoint with_depth(const Vector2<double>& px, double depth, int id = -1, double sigma = 1) noexcept {
+    return {px, Vector3<double>::Zero(), depth, false, id, sigma};
+  }
+  /// A tracked corner of unknown depth.
+  static TextPoint track(const Vector2<double>& px, int id, double sigma = 1) noexcept {
+    return {px, Vector3<double>::Zero(), 0, false, id, sigma};
+  }
+};
+
+/// A quad that a detector found in an image, and what it read there.
+struct TextDetection {
+  Quad<double> quad;               ///< Undistorted px of level 0, clockwise from the text's top left.
+  std::string word = kUnreadText;  ///< UTF-8.
+  double score = 1;                ///< Of the reading.
+
+  TextDetection() = default;
+  /// A quad, and a word where it was read.
+  TextDetection(const Quad<double>& q, std::string w = kUnreadText, double s = 1)
+      : quad(q), word(std::move(w)), score(s) {}
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_MAP_INPUT_HPP
+// Patch and plane of a text: making, solving for, refining, moving to another key frame, and comparing with an image.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_PLANE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_PLANE_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// What ZNCC a view has to reach, by the noise of the images: limits are for clear ones.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_NOISE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_NOISE_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -33998,6 +34200,8 @@ struct TextObject {
   int shown = 0;                        ///< Frames with detections that could have shown it, those included.
   int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
   double zncc = 0;                      ///< Mean over its last refinement.
+  /// How much larger the variance of its residuals acts than that of as many independent pixels: views err as wholes.
+  double variance_factor = 1;
 
   /// Whether theta is known.
   bool has_plane() const noexcept { return state == TextState::tentative || state == TextState::mapped; }
@@ -34200,304 +34404,13 @@ inline bool transport_plane(const SE3d& T_to_from, Vector3<double>* theta, Matri
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_TEXT_PLANE_HPP
-
-TEXTPLANE_BEGIN_NAMESPACE
-
-namespace detail {
-
-// Its whole quad in a key frame that shows clearly more of it than the host; false where that does not.
-inline bool shown_better(const TextOptions& options, const TextKeyframe& host, const TextKeyframe& keyframe,
-                         const TextObject& text, Quad<double>* quad) noexcept {
-  const SE3d T_k_h = keyframe.from(host);
-  if (!project_text(text, T_k_h, keyframe.camera, quad) || !is_convex(*quad) ||
-      !inside_image(*quad, keyframe.width(), keyframe.height(), options.border))
-    return false;
-  if (!(area(*quad) >= options.rehost_area * area(text.patch.quad))) return false;
-  const auto slant = [&](const SE3d& T) { return std::acos(std::clamp(facing(text, T), -1.0, 1.0)); };
-  return slant(T_k_h) <= slant(host.from(host)) + radians(options.rehost_slant);
-}
-
-// Mean of 1 - ZNCC between the text's patch and these key frames, on the finest level.
-TEXTPLANE_DEFERRED
-double dissimilarity(const KeyframeLookup& keyframes, const TextObject& text, const std::vector<int>& ids) {
-  const TextKeyframe host = keyframes(text.host);
-  PhotometricWorkspace workspace;
-  double sum = 0;
-  for (const int id : ids) {
-    const TextKeyframe keyframe = keyframes(id);
-    const SE3d T_k_h = keyframe.from(host);
-    Quad<double> quad;
-    if (!project_text(text, T_k_h, keyframe.camera, &quad)) return 2;
-    const auto cost = compare_text(text, 0, keyframe, T_k_h, scale_shift(text, quad), workspace);
-    sum += is_ok(cost.status) ? 1 - cost.zncc : 2;
-  }
-  return sum / static_cast<double>(ids.size());
-}
-
-}  // namespace detail
-
-/// Makes key frame `id`, one of the mapped text's views, its host. False, and the text as it was, where it shows the
-/// text less than rehost_area times as large, more slanted by rehost_slant, or not whole; or where the other views
-/// agree with its patch clearly less (rehost_max_dissimilarity), as with a blurred one.
-TEXTPLANE_DEFERRED
-bool rehost(const TextOptions& options, const KeyframeLookup& keyframes, int id, TextObject& text) {
-  const auto at = std::find(text.views.begin(), text.views.end(), id);
-  Quad<double> quad;
-  if (text.state != TextState::mapped || at == text.views.end()) return false;
-  const TextKeyframe host = keyframes(text.host), keyframe = keyframes(id);
-  if (!detail::shown_better(options, host, keyframe, text, &quad)) return false;
-  std::vector<int> others = text.views;
-  others.erase(others.begin() + (at - text.views.begin()));
-  if (others.empty()) return false;
-
-  TextObject moved = text;
-  moved.host = id;
-  moved.patch = make_text_patch(options, keyframe, quad);
-  if (!is_ok(moved.patch.status) || !transport_plane(keyframe.from(host), &moved.theta, &moved.covariance))
-    return false;
-  moved.views = others;
-  moved.views.insert(std::upper_bound(moved.views.begin(), moved.views.end(), text.host), text.host);
-  const auto most = static_cast<std::size_t>(options.views);
-  if (!refine_text_plane(options, keyframes, evenly_spaced(moved.views, most), moved.theta, options.min_zncc, moved))
-    return false;
-  // The same key frames speak for either host.
-  const std::vector<int> both = evenly_spaced(others, most);
-  if (detail::dissimilarity(keyframes, moved, both) >
-      options.rehost_max_dissimilarity * detail::dissimilarity(keyframes, text, both))
-    return false;
-  text = std::move(moved);
-  return true;
-}
-
-TEXTPLANE_END_NAMESPACE
-
-#endif  // TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
-// The rules by which a text is believed, waits, or is dropped.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
-
-#include <vector>
-
-TEXTPLANE_BEGIN_NAMESPACE
-
-/// Did the detector see it often enough: min_detections, and detected_share of the frames that could have shown it?
-inline bool is_detected(const TextObject& text, const TextOptions& options) noexcept {
-  return text.detections >= options.min_detections && text.detections >= options.detected_share * text.shown;
-}
-
-/// Ready to be mapped: min_observations key frames show it, and it is_detected().
-inline bool is_proven(const TextObject& text, const TextOptions& options) noexcept {
-  return static_cast<int>(text.views.size()) + 1 >= options.min_observations && is_detected(text, options);
-}
-
-/// Has it waited too long for its plane, or to be mapped, after `age` key frames?
-inline bool is_overdue(const TextObject& text, const TextOptions& options, int age) noexcept {
-  return (text.state == TextState::candidate && age > options.patience) ||
-         (text.state == TextState::tentative && age > options.tentative_patience);
-}
-
-/// Have max_failures key frames in a row, and more than ever showed it, failed to?
-inline bool is_contradicted(const TextObject& text, const TextOptions& options) noexcept {
-  return text.failures >= options.max_failures && text.failures > static_cast<int>(text.views.size());
-}
-
-/// Is its normal less certain than refine_max_sigma?
-inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
-  return !(normal_sigma(text) <= detail::radians(options.refine_max_sigma));
-}
-
-/// Takes it out of use and frees its memory; its id stays.
-inline void drop(TextObject& text) noexcept {
-  text.state = TextState::dropped;
-  text.patch = TextPatch();
-  std::vector<int>().swap(text.views);
-  text.votes.clear();
-}
-
-TEXTPLANE_END_NAMESPACE
-
-#endif  // TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
-// Merging of texts: a sign that came to be mapped twice becomes one object.
-//
-// That happens after drift, and where its detections fell on different parts.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+// The first plane of a new text: by points in its quad, by matches, or by its pixels alone.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_PROPOSAL_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_PROPOSAL_HPP
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
-#include <vector>
-
-// What a text says, by its readings: each is mostly right, and seldom right in every letter.
-#ifndef TEXTPLANE_LANDMARKS_WORDS_HPP
-#define TEXTPLANE_LANDMARKS_WORDS_HPP
-
-#include <algorithm>
-#include <cstddef>
-#include <map>
-#include <string>
-#include <vector>
-
-TEXTPLANE_BEGIN_NAMESPACE
-
-/// The word of a text that nobody read, as in ICDAR's files.
-constexpr const char* kUnreadText = "###";
-/// Whether it is a reading.
-inline bool is_read(const std::string& text) { return !text.empty() && text != kUnreadText; }
-
-namespace detail {
-inline std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = (std::min)({changed, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-}  // namespace detail
-
-/// 1 for the same word, less by twice the share of letters to change, add or leave out, at least 0.
-inline double word_similarity(const std::string& a, const std::string& b) {
-  const double longer = static_cast<double>((std::max)(a.size(), b.size()));
-  return longer > 0 ? (std::max)(0.0, 1 - 2 * static_cast<double>(detail::edit_distance(a, b)) / longer) : 1;
-}
-
-/// Are the two readings of one word (same_word)? An unread one may be any word.
-inline bool words_agree(const std::string& a, const std::string& b, const TextOptions& options = {}) {
-  return !is_read(a) || !is_read(b) || word_similarity(a, b) >= options.same_word;
-}
-
-/// Adds a reading's score to its votes. Beyond max_readings, the older reading with the fewest votes is forgotten.
-inline void vote(std::map<std::string, double>* votes, const std::string& word, double score,
-                 const TextOptions& options = {}) {
-  (*votes)[word] += score;
-  if (votes->size() <= static_cast<std::size_t>(options.max_readings)) return;
-  auto fewest = votes->end();
-  for (auto entry = votes->begin(); entry != votes->end(); ++entry)
-    if (entry->first != word && (fewest == votes->end() || entry->second < fewest->second)) fewest = entry;
-  votes->erase(fewest);
-}
-
-/// The reading most similar to all readings, weighed by their votes (a weighted median of strings): letters misread
-/// here and there do not split the votes. The first in order among equals, kUnreadText without readings.
-inline std::string consensus(const std::map<std::string, double>& votes) {
-  std::string best = kUnreadText;
-  double most = 0;
-  for (const auto& [word, own] : votes) {
-    double support = 0;
-    for (const auto& [other, count] : votes) support += count * word_similarity(word, other);
-    if (support <= most) continue;
-    best = word;
-    most = support;
-  }
-  return best;
-}
-
-TEXTPLANE_END_NAMESPACE
-
-#endif  // TEXTPLANE_LANDMARKS_WORDS_HPP
-
-TEXTPLANE_BEGIN_NAMESPACE
-
-namespace detail {
-
-// b's plane beside a's, in a's host.
-inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
-                         const TextObject& b) noexcept {
-  Vector3<double> theta = b.theta;
-  Matrix3<double> covariance = b.covariance;
-  if (!transport_plane(T_a_b, &theta, &covariance)) return false;
-  const Vector3<double> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
-  const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
-  const double angle_sigma = std::hypot(normal_sigma(a), normal_sigma(theta, covariance));
-  if (!(angle <= radians(options.merge_angle) + options.merge_sigmas * angle_sigma)) return false;
-
-  const Vector3<double> m = a.patch.camera.unproject(centroid(a.patch.quad));
-  const double rho_a = inverse_depth<double>(a.theta, m), rho_b = inverse_depth<double>(theta, m);
-  const double rho_sigma = std::sqrt((std::max)(0.0, m.dot((a.covariance + covariance) * m)));
-  return std::abs(rho_a - rho_b) <= options.merge_depth * std::abs(rho_a) + options.merge_sigmas * rho_sigma;
-}
-
-inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
-                             const TextObject& b) noexcept {
-  Quad<double> quad;
-  return facing(b, T_a_b) > 0 && project_text(b, T_a_b, a.patch.camera, &quad) &&
-         iou(a.patch.quad, quad) >= options.merge_overlap;
-}
-
-}  // namespace detail
-
-/// What `other` saw counts for `kept`; its key-frame ids are `first_keyframe` higher in kept's map.
-inline void add_observations_of(const TextObject& other, int first_keyframe, const TextOptions& options,
-                                TextObject& kept) {
-  kept.views.push_back(first_keyframe + other.host);
-  for (const int id : other.views) kept.views.push_back(first_keyframe + id);
-  for (const auto& [word, count] : other.votes) vote(&kept.votes, word, count, options);
-  kept.detections += other.detections;
-  kept.shown += other.shown;
-}
-
-/// Do two texts with planes stand for one sign? Words, planes (angle and inverse depth at the centres, within a
-/// tolerance beside merge_sigmas standard deviations) and quads, in the host of either, must agree.
-inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframes, const TextObject& a,
-                      const TextObject& b) {
-  if (!words_agree(consensus(a.votes), consensus(b.votes), options)) return false;
-  const TextKeyframe host_a = keyframes(a.host), host_b = keyframes(b.host);
-  const SE3d T_a_b = host_a.from(host_b), T_b_a = host_b.from(host_a);
-  return detail::overlaps_in_host(options, T_a_b, a, b) && detail::overlaps_in_host(options, T_b_a, b, a) &&
-         detail::planes_agree(options, T_a_b, a, b) && detail::planes_agree(options, T_b_a, b, a);
-}
-
-/// Merges two texts into the one with more views, `a` among equals. Its plane stays; the other text is dropped.
-inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b) {
-  TextObject &to = b.views.size() > a.views.size() ? b : a, &from = &to == &a ? b : a;
-  add_observations_of(from, 0, options, to);
-  std::sort(to.views.begin(), to.views.end());
-  to.views.erase(std::unique(to.views.begin(), to.views.end()), to.views.end());
-  to.views.erase(std::remove(to.views.begin(), to.views.end(), to.host), to.views.end());
-  to.failures = 0;
-  drop(from);
-}
-
-/// Merges the mapped texts that are the same. Returns how many are gone.
-TEXTPLANE_DEFERRED
-int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts) {
-  int merged = 0;
-  for (std::size_t i = 0; i < texts.size(); ++i)
-    for (std::size_t j = i + 1; j < texts.size(); ++j) {
-      TextObject &a = texts[i], &b = texts[j];
-      if (a.state != TextState::mapped || b.state != TextState::mapped || !same_text(options, keyframes, a, b))
-        continue;
-      merge_texts(options, a, b);
-      ++merged;
-    }
-  return merged;
-}
-
-TEXTPLANE_END_NAMESPACE
-
-#endif  // TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
-// TextRefiner: the plane of a text from many views, once the poses of the key frames are known.
-//
-// The text is compared between its views, from several hosts, with all its pixels, each pair at the same blur
-// (photometry/blur.hpp). Each host samples narrow strokes differently, so the hosts' planes are averaged; their
-// scatter, and the disagreement of the views (jackknife.hpp), go into the covariance. Last, the map points of the
-// surface count, if there are any and the text lies on it (text_surface.hpp). What is bent (planarity.hpp) or uncertain
-// is no text.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <utility>
 #include <vector>
 
 // The surface that a text lies on, as a page or a board. Beside a small text, map points determine the plane best.
@@ -34724,6 +34637,539 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
+/// A plane across the ray of `centre` (m~), at a depth.
+inline Vector3<double> frontal_plane(const Vector3<double>& centre, double depth) noexcept {
+  return centre / (depth * centre.squaredNorm());
+}
+
+/// Depth of a point in a camera's frame; 0 where it is not known or not in front.
+inline double depth_of(const TextPoint& point, const SE3d& T_c_w) noexcept {
+  const double depth = point.has_position ? (T_c_w * point.p_w).z() : point.depth;
+  return depth > 0 && is_finite(depth) ? depth : 0;
+}
+
+/// Median depth of the points within a quad's longer side of its centre, of all points where those are fewer than
+/// `least`; 0 where these are, too.
+TEXTPLANE_DEFERRED
+double depth_about(const std::vector<TextPoint>& points, const SE3d& T_c_w, const Quad<double>& quad, int least) {
+  const auto& c = quad.corner;
+  const double reach = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
+  const Vector2<double> middle = centroid(quad);
+  std::vector<double> close, all;
+  for (const TextPoint& point : points) {
+    const double depth = depth_of(point, T_c_w);
+    if (!(depth > 0)) continue;
+    all.push_back(depth);
+    if ((point.px - middle).norm() <= reach) close.push_back(depth);
+  }
+  std::vector<double>& used = static_cast<int>(close.size()) < least ? all : close;
+  return static_cast<int>(used.size()) < least ? 0 : median(used);
+}
+
+/// The plane of points in a quad, robustly: from a guess across the ray at their median depth, with the scatter of the
+/// points about the plane as their sigma. `inside`: in the host's frame. False with fewer than min_corners, or where
+/// the plane is implausible.
+TEXTPLANE_DEFERRED
+bool plane_from_inside_points(const TextOptions& options, const std::vector<Vector3<double>>& inside,
+                              const TextPatch& patch, Vector3<double>* theta, Matrix3<double>* covariance) {
+  if (static_cast<int>(inside.size()) < options.min_corners) return false;
+  std::vector<double> depths;
+  for (const Vector3<double>& p : inside) depths.push_back(p.z());
+  const double depth = median(depths);
+  const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad)), centre = depth * ray;
+  const Vector3<double> guess = frontal_plane(ray, depth);
+  const Matrix3<double> doubt = detail::guessed(guess, centre, options.surface_guess_turn, options.surface_guess_depth);
+  double sigma = 0.02 * depth;
+  for (int round = 0; round < options.plane_rounds; ++round) {
+    std::vector<SurfacePoint> points;
+    for (const Vector3<double>& p : inside) points.push_back({p, sigma, 0});
+    *theta = guess;
+    *covariance = doubt;
+    TextOptions all = options;
+    all.surface_min_points = 0.5 * options.min_corners;
+    if (!fit_to_surface(points, centre, all, theta, covariance)) return false;
+    std::vector<double> off;
+    for (const Vector3<double>& p : inside) off.push_back(std::abs(1 - theta->dot(p)) / theta->norm());
+    sigma = std::clamp(1.4826 * median(off), 1e-4 * depth, 0.05 * depth);
+  }
+  return is_plausible_plane(options, patch.camera, patch.quad, *theta);
+}
+
+/// The plane across the ray to the text whose image in `target` is most like the text, of inverse depths between
+/// 1 / `farthest` and 1 / `nearest`; by one batch on a coarse level. `zncc` receives its likeness, -1 where none can be
+/// compared.
+TEXTPLANE_DEFERRED
+Vector3<double> sweep_depths(const TextPatch& patch, const TextImage& target, const SE3d& T_t_h, double nearest,
+                             double farthest, double* zncc) {
+  constexpr int kDepths = 64;
+  *zncc = -1;
+  const int level = (std::min)({1, patch.level_count() - 1, target.pyramid.levels - 1});
+  const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad));
+  Vector3<double> best = frontal_plane(ray, nearest);
+  if (level < 0) return best;
+  std::vector<TextBatchItem> items;
+  for (int i = 0; i < kDepths; ++i) {
+    const double share = (i + 0.5) / kDepths, rho = (1 - share) / nearest + share / farthest;
+    items.push_back({patch.levels[static_cast<std::size_t>(level)].view(), patch.camera.at_level(level),
+                     frontal_plane(ray, 1 / rho)});
+  }
+  const std::vector<SE3d> poses(items.size(), T_t_h);
+  const TextBatch batch(items.data(), kDepths);
+  TextBatchResult result(batch);
+  if (!is_ok(evaluate_batch(batch, target.pyramid.level[static_cast<std::size_t>(level)], target.camera.at_level(level),
+                            poses.data(), PhotometricOptions{}, result)))
+    return best;
+  for (int i = 0; i < kDepths; ++i) {
+    if (!is_ok(result.status(i)) || !(result.zncc(i) > *zncc)) continue;
+    *zncc = result.zncc(i);
+    best = items[static_cast<std::size_t>(i)].theta;
+  }
+  return best;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_PROPOSAL_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// What a text needs until it is mapped, and when it was last refined.
+struct TextNotes {
+  std::vector<std::pair<int, Vector3<double>>> rays;  ///< Tracks in the quad, and their rays in the host.
+  std::vector<Vector3<double>> inside;                ///< Known points in the quad, in the host.
+  Vector3<double> guess = Vector3<double>::Zero();    ///< A plane by the depths about it, or zero.
+  int age = 0;                                        ///< Key frames since.
+  std::size_t refined_views = 0;                      ///< Views at the last refinement.
+};
+
+/// Finds planes and views in the key frames of a store.
+TEXTPLANE_DEFERRED
+class BasicTextFinder {
+ public:
+  /// Both must outlive it.
+  BasicTextFinder(const TextOptions& options, const KeyframeStore& store)
+      : options_(options), store_(store), keyframes_(store) {}
+
+  /// The first plane of a text, or a better one, from what key frame `id` adds: by points in the quad, by matches, or
+  /// by its pixels alone. True where the image of the key frame with most parallax agrees with it; text.views are then
+  /// all that do, and it is at least tentative. False, and the text as it was, otherwise, and where no more views agree
+  /// than with the plane that it has.
+  bool find(TextObject& text, TextNotes& notes, int id, const TextKeyframe& keyframe,
+            const std::vector<TextPoint>& points) {
+    const TextKeyframe host = store_.text_keyframe(text.host);
+    std::vector<Vector3<double>> from, to;
+    if (id != text.host) learn(host, keyframe, points, text.patch.quad, notes, &from, &to);
+    Vector3<double> theta;
+    Matrix3<double> covariance;
+    if (plane_from_inside_points(options_, notes.inside, text.patch, &theta, &covariance) && confirm(text, theta, id))
+      return true;
+    const Vector3<double> middle = text.patch.camera.unproject(centroid(text.patch.quad));
+    if (id != text.host &&
+        plane_from_text_matches(options_, from, to, keyframe.from(host), keyframe.camera.fx, middle, &theta) &&
+        confirm(text, theta, id))
+      return true;
+    // By its pixels alone.
+    const Vector3<double> about = notes.guess.norm() > 0 ? notes.guess : frontal_plane(middle, unknown_depth(host));
+    const int other = widest(text, about, id);
+    if (other < 0) return false;
+    const TextKeyframe seen = store_.text_keyframe(other);
+    const double depth = 1 / inverse_depth<double>(about, middle);
+    double zncc = -1;
+    theta = sweep_depths(text.patch, seen, seen.from(host), kSweepNearest * depth, kSweepFarthest * depth, &zncc);
+    return zncc > 0 && confirm(text, theta, id);
+  }
+
+  /// Does the key frame show the text where its plane says? It becomes a view, or counts as a failure. `min_share` of
+  /// the quad must be inside the image.
+  void observe(TextObject& text, int id, const TextKeyframe& keyframe, const std::vector<TextDetection>& detections,
+               double min_share) {
+    const TextKeyframe host = store_.text_keyframe(text.host);
+    const SE3d T_k_h = keyframe.from(host);
+    Quad<double> quad;
+    if (keyframe.pyramid.levels < 1 ||
+        !is_in_view(options_, text, T_k_h, keyframe, options_.seen_area * options_.min_area, min_share, &quad))
+      return;
+    const int level = text.patch.level_count() > 1 ? 1 : 0;
+    const auto cost = compare_text(text, level, keyframe, T_k_h, scale_shift(text, quad), photometric_);
+    if (!is_ok(cost.status)) return;
+    const double least =
+        text_zncc_limit(options_, options_.min_zncc, text.patch, level, text.theta, host, keyframe, T_k_h);
+    if (cost.zncc >= least) {
+      text.views.insert(std::upper_bound(text.views.begin(), text.views.end(), id), id);
+      text.failures = 0;
+    } else if (cost.zncc * options_.min_zncc < least * options_.cull_zncc &&
+               std::none_of(detections.begin(), detections.end(), [&](const TextDetection& detection) {
+                 return iou(quad, detection.quad) >= options_.confirm_iou;
+               })) {
+      ++text.failures;  // where the detector sees it, the image is blurred
+    }
+  }
+
+ private:
+  // The key frame that shows most of another side of the text's surroundings; -1 where none does.
+  int widest(const TextObject& text, const Vector3<double>& theta, int newest) const {
+    const TextKeyframe host = store_.text_keyframe(text.host);
+    const Vector3<double> centre =
+        host.T_w_c * plane_point(theta, text.patch.camera.unproject(centroid(text.patch.quad)));
+    int best = -1;
+    double widest = 0;
+    TextObject guess;
+    guess.patch.quad = text.patch.quad;
+    guess.patch.camera = text.patch.camera;
+    guess.theta = theta;
+    store_.for_each([&](int id, const TextKeyframe& keyframe) {
+      Quad<double> quad;
+      if (id == text.host || id > newest || keyframe.pyramid.levels < 1 ||
+          !is_in_view(options_, guess, keyframe.from(host), keyframe, options_.min_area, 1, &quad))
+        return;
+      const double parallax = detail::degrees_between(centre - host.T_w_c.t, centre - keyframe.T_w_c.t);
+      if (parallax <= widest) return;
+      widest = parallax;
+      best = id;
+    });
+    return widest >= options_.min_parallax ? best : -1;
+  }
+
+  bool confirm(TextObject& text, const Vector3<double>& theta, int newest) {
+    if (!(theta.norm() > 0)) return false;
+    const int other = widest(text, theta, newest);
+    TextObject found = text;
+    if (other < 0 || !refine_text_plane(options_, keyframes_, {other}, theta, options_.min_zncc, found)) return false;
+    found.state = TextState::tentative;
+    found.views.clear();
+    store_.for_each([&](int id, const TextKeyframe& keyframe) {
+      if (id != found.host && id <= newest) observe(found, id, keyframe, {}, 1);
+    });
+    if (text.has_plane() && found.views.size() <= text.views.size()) return false;
+    found.failures = 0;
+    text = std::move(found);
+    return true;
+  }
+
+  // What a later key frame tells of the points in a text's host: depths that were not known then, and matches.
+  void learn(const TextKeyframe& host, const TextKeyframe& keyframe, const std::vector<TextPoint>& points,
+             const Quad<double>& quad, TextNotes& notes, std::vector<Vector3<double>>* from,
+             std::vector<Vector3<double>>* to) const {
+    const SE3d T_h_k = host.from(keyframe), T_h_w = host.T_c_w();
+    std::vector<Vector3<double>> inside;
+    std::vector<TextPoint> in_host;
+    for (const TextPoint& point : points) {
+      const auto at = std::find_if(notes.rays.begin(), notes.rays.end(),
+                                   [&](const auto& ray) { return point.id >= 0 && ray.first == point.id; });
+      const Vector3<double> ray = keyframe.camera.unproject(point.px);
+      if (at != notes.rays.end()) {
+        from->push_back(at->second);
+        to->push_back(ray);
+      }
+      if (!point.has_position && !(point.depth > 0)) continue;
+      const Vector3<double> p = point.has_position ? T_h_w * point.p_w : T_h_k * Vector3<double>(point.depth * ray);
+      if (!(p.z() > 0)) continue;
+      const Vector2<double> px = host.camera.project(p);
+      in_host.push_back(TextPoint::with_depth(px, p.z()));
+      if (at != notes.rays.end() || (point.id < 0 && contains(quad, px))) inside.push_back(p);
+    }
+    if (inside.size() > notes.inside.size()) notes.inside = std::move(inside);
+    if (notes.guess.norm() > 0) return;
+    const double depth = depth_about(in_host, SE3d{}, quad, options_.min_corners);
+    if (depth > 0) notes.guess = frontal_plane(host.camera.unproject(centroid(quad)), depth);
+  }
+
+  // Where nothing is known of depths: where the newest key frames have some parallax.
+  double unknown_depth(const TextKeyframe& host) const {
+    double baseline = 0;
+    store_.for_each([&](int, const TextKeyframe& keyframe) {
+      if (keyframe.pyramid.levels > 0) baseline = (std::max)(baseline, (keyframe.T_w_c.t - host.T_w_c.t).norm());
+    });
+    return baseline > 0 ? kUnknownBaselines * baseline : 1;
+  }
+
+  static constexpr double kSweepNearest = 0.4, kSweepFarthest = 2.5, kUnknownBaselines = 12;
+
+  const TextOptions& options_;
+  const KeyframeStore& store_;
+  const KeyframeLookup keyframes_;
+  PhotometricWorkspace photometric_;
+};
+using TextFinder = BasicTextFinder<>;  ///< It is compiled only where it is used.
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_FINDER_HPP
+// A better host for a mapped text: a new key frame that shows it whole, much larger than its host does, and as sharp.
+//
+// A sign is first detected from afar, often aslant, so its first host is its poorest view. The plane and its covariance
+// move to the better view and are refined there; the plane gives the quad in the new image; the old host becomes a
+// view. Each change needs a view that is larger by a pyramid level, so changes are few.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+
+// Its whole quad in a key frame that shows clearly more of it than the host; false where that does not.
+inline bool shown_better(const TextOptions& options, const TextKeyframe& host, const TextKeyframe& keyframe,
+                         const TextObject& text, Quad<double>* quad) noexcept {
+  const SE3d T_k_h = keyframe.from(host);
+  if (!project_text(text, T_k_h, keyframe.camera, quad) || !is_convex(*quad) ||
+      !inside_image(*quad, keyframe.width(), keyframe.height(), options.border))
+    return false;
+  if (!(area(*quad) >= options.rehost_area * area(text.patch.quad))) return false;
+  const auto slant = [&](const SE3d& T) { return std::acos(std::clamp(facing(text, T), -1.0, 1.0)); };
+  return slant(T_k_h) <= slant(host.from(host)) + radians(options.rehost_slant);
+}
+
+// Mean of 1 - ZNCC between the text's patch and these key frames, on the finest level.
+TEXTPLANE_DEFERRED
+double dissimilarity(const KeyframeLookup& keyframes, const TextObject& text, const std::vector<int>& ids) {
+  const TextKeyframe host = keyframes(text.host);
+  PhotometricWorkspace workspace;
+  double sum = 0;
+  for (const int id : ids) {
+    const TextKeyframe keyframe = keyframes(id);
+    const SE3d T_k_h = keyframe.from(host);
+    Quad<double> quad;
+    if (!project_text(text, T_k_h, keyframe.camera, &quad)) return 2;
+    const auto cost = compare_text(text, 0, keyframe, T_k_h, scale_shift(text, quad), workspace);
+    sum += is_ok(cost.status) ? 1 - cost.zncc : 2;
+  }
+  return sum / static_cast<double>(ids.size());
+}
+
+}  // namespace detail
+
+/// Makes key frame `id`, one of the mapped text's views, its host. False, and the text as it was, where it shows the
+/// text less than rehost_area times as large, more slanted by rehost_slant, or not whole; or where the other views
+/// agree with its patch clearly less (rehost_max_dissimilarity), as with a blurred one.
+TEXTPLANE_DEFERRED
+bool rehost(const TextOptions& options, const KeyframeLookup& keyframes, int id, TextObject& text) {
+  const auto at = std::find(text.views.begin(), text.views.end(), id);
+  Quad<double> quad;
+  if (text.state != TextState::mapped || at == text.views.end()) return false;
+  const TextKeyframe host = keyframes(text.host), keyframe = keyframes(id);
+  if (!detail::shown_better(options, host, keyframe, text, &quad)) return false;
+  std::vector<int> others = text.views;
+  others.erase(others.begin() + (at - text.views.begin()));
+  if (others.empty()) return false;
+
+  TextObject moved = text;
+  moved.host = id;
+  moved.patch = make_text_patch(options, keyframe, quad);
+  if (!is_ok(moved.patch.status) || !transport_plane(keyframe.from(host), &moved.theta, &moved.covariance))
+    return false;
+  moved.views = others;
+  moved.views.insert(std::upper_bound(moved.views.begin(), moved.views.end(), text.host), text.host);
+  const auto most = static_cast<std::size_t>(options.views);
+  if (!refine_text_plane(options, keyframes, evenly_spaced(moved.views, most), moved.theta, options.min_zncc, moved))
+    return false;
+  // The same key frames speak for either host.
+  const std::vector<int> both = evenly_spaced(others, most);
+  if (detail::dissimilarity(keyframes, moved, both) >
+      options.rehost_max_dissimilarity * detail::dissimilarity(keyframes, text, both))
+    return false;
+  text = std::move(moved);
+  return true;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
+// The rules by which a text is believed, waits, or is dropped.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Did the detector see it often enough: min_detections, and detected_share of the frames that could have shown it?
+inline bool is_detected(const TextObject& text, const TextOptions& options) noexcept {
+  return text.detections >= options.min_detections && text.detections >= options.detected_share * text.shown;
+}
+
+/// Ready to be mapped: min_observations key frames show it, and it is_detected().
+inline bool is_proven(const TextObject& text, const TextOptions& options) noexcept {
+  return static_cast<int>(text.views.size()) + 1 >= options.min_observations && is_detected(text, options);
+}
+
+/// Has it waited too long for its plane, or to be mapped, after `age` key frames?
+inline bool is_overdue(const TextObject& text, const TextOptions& options, int age) noexcept {
+  return (text.state == TextState::candidate && age > options.patience) ||
+         (text.state == TextState::tentative && age > options.tentative_patience);
+}
+
+/// Have max_failures key frames in a row, and more than ever showed it, failed to?
+inline bool is_contradicted(const TextObject& text, const TextOptions& options) noexcept {
+  return text.failures >= options.max_failures && text.failures > static_cast<int>(text.views.size());
+}
+
+/// Is its normal less certain than refine_max_sigma?
+inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
+  return !(normal_sigma(text) <= detail::radians(options.refine_max_sigma));
+}
+
+/// Takes it out of use and frees its memory; its id stays.
+inline void drop(TextObject& text) noexcept {
+  text.state = TextState::dropped;
+  text.patch = TextPatch();
+  std::vector<int>().swap(text.views);
+  text.votes.clear();
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+// TextMap: text objects for a system that has its own poses and points.
+//
+//   TextMap texts(camera);
+//   auto fit = texts.track(pyramid, T_c_w, points);            // each frame: fit.T_c_w
+//   texts.add_keyframe(id, pyramid, T_c_w, quads, points);     // key frame
+//   texts.move([&](int id) { return T_c_w_of(id); });          // after the host's adjustment
+//   for (const TextObject& text : texts.objects()) ...
+//
+// A text becomes an object when key frames show it from different sides. A frame's pose is refined where the texts in
+// view know it clearly better than the points do, and the points do not contradict; else the host's own pose comes
+// back, to the bit. What is hidden, blurred, uncertain or wrong counts less, or not at all: TextFit tells.
+//
+// All poses are of world to camera. Images, quads and points are undistorted. Not thread-safe; no thread of its own;
+// the same calls give the same results. Throws nothing but std::bad_alloc.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_MAP_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_MAP_HPP
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+// TextMapping: what key frames make of the texts: proposal, planes, observations, better hosts, merging, dropping.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_MAPPING_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_MAPPING_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// Merging of texts: a sign that came to be mapped twice becomes one object.
+//
+// That happens after drift, and where its detections fell on different parts.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+
+// b's plane beside a's, in a's host.
+inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
+                         const TextObject& b) noexcept {
+  Vector3<double> theta = b.theta;
+  Matrix3<double> covariance = b.covariance;
+  if (!transport_plane(T_a_b, &theta, &covariance)) return false;
+  const Vector3<double> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
+  const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
+  const double angle_sigma = std::hypot(normal_sigma(a), normal_sigma(theta, covariance));
+  if (!(angle <= radians(options.merge_angle) + options.merge_sigmas * angle_sigma)) return false;
+
+  const Vector3<double> m = a.patch.camera.unproject(centroid(a.patch.quad));
+  const double rho_a = inverse_depth<double>(a.theta, m), rho_b = inverse_depth<double>(theta, m);
+  const double rho_sigma = std::sqrt((std::max)(0.0, m.dot((a.covariance + covariance) * m)));
+  return std::abs(rho_a - rho_b) <= options.merge_depth * std::abs(rho_a) + options.merge_sigmas * rho_sigma;
+}
+
+inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
+                             const TextObject& b) noexcept {
+  Quad<double> quad;
+  return facing(b, T_a_b) > 0 && project_text(b, T_a_b, a.patch.camera, &quad) &&
+         iou(a.patch.quad, quad) >= options.merge_overlap;
+}
+
+}  // namespace detail
+
+/// What `other` saw counts for `kept`; its key-frame ids are `first_keyframe` higher in kept's map.
+inline void add_observations_of(const TextObject& other, int first_keyframe, const TextOptions& options,
+                                TextObject& kept) {
+  kept.views.push_back(first_keyframe + other.host);
+  for (const int id : other.views) kept.views.push_back(first_keyframe + id);
+  for (const auto& [word, count] : other.votes) vote(&kept.votes, word, count, options);
+  kept.detections += other.detections;
+  kept.shown += other.shown;
+}
+
+/// Do two texts with planes stand for one sign? Words, planes (angle and inverse depth at the centres, within a
+/// tolerance beside merge_sigmas standard deviations) and quads, in the host of either, must agree.
+inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframes, const TextObject& a,
+                      const TextObject& b) {
+  if (!words_agree(consensus(a.votes), consensus(b.votes), options)) return false;
+  const TextKeyframe host_a = keyframes(a.host), host_b = keyframes(b.host);
+  const SE3d T_a_b = host_a.from(host_b), T_b_a = host_b.from(host_a);
+  return detail::overlaps_in_host(options, T_a_b, a, b) && detail::overlaps_in_host(options, T_b_a, b, a) &&
+         detail::planes_agree(options, T_a_b, a, b) && detail::planes_agree(options, T_b_a, b, a);
+}
+
+/// Merges two texts into the one with more views, `a` among equals. Its plane stays; the other text is dropped.
+inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b) {
+  TextObject &to = b.views.size() > a.views.size() ? b : a, &from = &to == &a ? b : a;
+  add_observations_of(from, 0, options, to);
+  std::sort(to.views.begin(), to.views.end());
+  to.views.erase(std::unique(to.views.begin(), to.views.end()), to.views.end());
+  to.views.erase(std::remove(to.views.begin(), to.views.end(), to.host), to.views.end());
+  to.failures = 0;
+  drop(from);
+}
+
+/// Merges the mapped texts that are the same. Returns how many are gone.
+TEXTPLANE_DEFERRED
+int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts) {
+  int merged = 0;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (std::size_t j = i + 1; j < texts.size(); ++j) {
+      TextObject &a = texts[i], &b = texts[j];
+      if (a.state != TextState::mapped || b.state != TextState::mapped || !same_text(options, keyframes, a, b))
+        continue;
+      merge_texts(options, a, b);
+      ++merged;
+    }
+  return merged;
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_MERGE_HPP
+// TextRefiner: the plane of a text from many views, once the poses of the key frames are known.
+//
+// The text is compared between its views, from several hosts, with all its pixels, each pair at the same blur
+// (photometry/blur.hpp). Each host samples narrow strokes differently, so the hosts' planes are averaged; their
+// scatter, and the disagreement of the views (jackknife.hpp), go into the covariance. Last, the map points of the
+// surface count, if there are any and the text lies on it (text_surface.hpp). What is bent (planarity.hpp) or uncertain
+// is no text.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
 namespace detail {
 // Moves the sides of a quad outwards by `margin` px.
 inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
@@ -34748,6 +35194,14 @@ inline bool affine_at(const Pinhole<double>& host, const Pinhole<double>& target
 }
 }  // namespace detail
 
+/// What became of a text in TextRefiner::refine().
+enum class Refinement : std::uint8_t {
+  refined,    ///< Theta and covariance are new.
+  uncertain,  ///< They are, but the normal is less certain than refine_max_sigma.
+  bent,       ///< It is no plane, and certainly so; it is as it was.
+  failed,     ///< No two whole views agree: its plane rests on parts, or on points alone. It is as it was.
+};
+
 /// Refines planes, one text after the other. Keeps memory from text to text; for one thread at a time.
 TEXTPLANE_DEFERRED
 class BasicTextRefiner {
@@ -34756,10 +35210,8 @@ class BasicTextRefiner {
   BasicTextRefiner(const TextOptions& options, const KeyframeLookup& keyframes)
       : options_(options), keyframes_(keyframes) {}
 
-  /// Theta and covariance of a text with a plane. False, and the text as it was, where it is bent or its normal stays
-  /// uncertain (refine_max_sigma), or where no two whole views agree: its plane rests on parts, or on points alone.
-  /// `points`, if given: of the map, for the surface that it lies on.
-  bool refine(TextObject& text, const PointLookup* points = nullptr) {
+  /// Theta and covariance of a text with a plane. `points`, if given: of the map, for the surface that it lies on.
+  Refinement refine(TextObject& text, const PointLookup* points = nullptr) {
     const std::vector<View> views = views_of(text);
     double largest = 0;
     for (const View& view : views) largest = (std::max)(largest, view.area);
@@ -34771,7 +35223,7 @@ class BasicTextRefiner {
       Estimate e;
       if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
     }
-    if (estimates.empty()) return false;
+    if (estimates.empty()) return Refinement::failed;
     // A host that is blurred itself is similar to none of its targets.
     double most = 0;
     for (const Estimate& e : estimates) most = (std::max)(most, e.zncc);
@@ -34791,10 +35243,13 @@ class BasicTextRefiner {
     refined.theta = mean;
     refined.covariance = covariance;
     if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
-    if (is_uncertain(refined, options_) || is_bent(estimates)) return false;
+    const bool uncertain = is_uncertain(refined, options_);
+    if (!uncertain && is_bent(estimates)) return Refinement::bent;
     text.theta = refined.theta;
     text.covariance = refined.covariance;
-    return true;
+    text.variance_factor = 0;
+    for (const Estimate& e : estimates) text.variance_factor += e.variance_factor / n;
+    return uncertain ? Refinement::uncertain : Refinement::refined;
   }
 
  private:
@@ -34807,7 +35262,7 @@ class BasicTextRefiner {
   struct Estimate {
     Vector3<double> theta;  // in the text's host
     Matrix3<double> covariance;
-    double zncc = 0;
+    double zncc = 0, variance_factor = 1;
     Bend bend;
   };
 
@@ -34819,7 +35274,7 @@ class BasicTextRefiner {
     for (const int id : ids) {
       View view{id, keyframes_(id), {}, 0};
       const SE3d T_v_h = view.keyframe.from(host);
-      if (!project_text(text, T_v_h, view.keyframe.camera, &view.quad) ||
+      if (view.keyframe.pyramid.levels < 1 || !project_text(text, T_v_h, view.keyframe.camera, &view.quad) ||
           is_too_slanted(options_, facing(text, T_v_h)) ||
           !inside_image(view.quad, view.keyframe.width(), view.keyframe.height(), options_.refine_margin + 1))
         continue;
@@ -34939,6 +35394,7 @@ class BasicTextRefiner {
     const Matrix3<double> scatter = disagreement(fit.theta);
     const Matrix3<double> known = scatter.trace() > fit.covariance.trace() ? scatter : fit.covariance;
     out->covariance = J * (known + out->bend.doubt) * J.transpose();
+    out->variance_factor = fit.covariance.trace() > 0 ? known.trace() / fit.covariance.trace() : 1;
     out->zncc = fit.zncc;
     return out->theta.norm() > 0;
   }
@@ -34969,5 +35425,608 @@ using TextRefiner = BasicTextRefiner<>;  ///< It is compiled only where it is us
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// The objects of a TextMap, and their life from key frame to key frame.
+TEXTPLANE_DEFERRED
+class BasicTextMapping {
+ public:
+  /// Both must outlive it.
+  BasicTextMapping(const TextOptions& options, const KeyframeStore& store)
+      : options_(options),
+        store_(store),
+        keyframes_(store),
+        refiner_(options_, keyframes_),
+        finder_(options_, store_) {}
+
+  const std::vector<TextObject>& objects() const noexcept { return objects_; }  ///< None is dropped. By their ids.
+
+  /// After key frame `id` was added to the store.
+  void update(int id, const std::vector<TextDetection>& detections, const std::vector<TextPoint>& points) {
+    const TextKeyframe keyframe = store_.text_keyframe(id);
+    std::vector<char> taken = associate(keyframe, detections);
+    for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
+    for (std::size_t d = 0; d < detections.size(); ++d)
+      if (!taken[d]) propose(id, keyframe, detections[d], points);
+    merge_duplicate_texts(options_, keyframes_, objects_);
+    erase_dropped();
+  }
+
+  /// Before a key frame leaves the store: texts no longer count it, and those that it hosts get another host or are
+  /// dropped.
+  void keyframe_left(int id) {
+    for (TextObject& text : objects_) {
+      if (text.host == id && !find_host(text)) drop(text);
+      text.views.erase(std::remove(text.views.begin(), text.views.end(), id), text.views.end());
+    }
+    erase_dropped();
+  }
+
+  /// Whether a text needs the pose of this key frame.
+  bool needs(int id) const {
+    return std::any_of(objects_.begin(), objects_.end(), [id](const TextObject& text) { return text.host == id; });
+  }
+
+ private:
+  // The largest whole view becomes the host. False where there is none with an image.
+  bool find_host(TextObject& text) {
+    if (text.state != TextState::mapped) return false;
+    const TextKeyframe host = store_.text_keyframe(text.host);
+    double largest = 0;
+    TextObject best;
+    for (const int id : with_images(text.views)) {
+      const TextKeyframe keyframe = store_.text_keyframe(id);
+      TextObject moved = text;
+      Quad<double> quad;
+      const SE3d T_k_h = keyframe.from(host);
+      if (!is_in_view(options_, text, T_k_h, keyframe, options_.min_area, 1, &quad) || area(quad) <= largest) continue;
+      moved.host = id;
+      moved.patch = make_text_patch(options_, keyframe, quad);
+      moved.views.erase(std::remove(moved.views.begin(), moved.views.end(), id), moved.views.end());
+      if (!is_ok(moved.patch.status) || !transport_plane(T_k_h, &moved.theta, &moved.covariance)) continue;
+      largest = area(quad);
+      best = std::move(moved);
+    }
+    if (largest > 0) text = std::move(best);
+    return largest > 0;
+  }
+
+  void erase_dropped() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      if (objects_[i].state == TextState::dropped) continue;
+      if (kept != i) {
+        objects_[kept] = std::move(objects_[i]);
+        notes_[kept] = std::move(notes_[i]);
+      }
+      ++kept;
+    }
+    objects_.resize(kept);
+    notes_.resize(kept);
+  }
+
+  // Where a text is in a key frame: by its plane, or by the guess of it.
+  bool locate(const TextObject& text, const TextNotes& notes, const TextKeyframe& keyframe, Quad<double>* quad) const {
+    const SE3d T_k_h = keyframe.from(store_.text_keyframe(text.host));
+    if (text.has_plane()) return facing(text, T_k_h) > 0 && project_text(text, T_k_h, keyframe.camera, quad);
+    if (!(notes.guess.norm() > 0)) return false;
+    TextObject guess;
+    guess.patch.quad = text.patch.quad;
+    guess.patch.camera = text.patch.camera;
+    guess.theta = notes.guess;
+    return project_text(guess, T_k_h, keyframe.camera, quad);
+  }
+
+  // Counts detections for the texts that they fall on. Returns which of them are of known texts, or no quads of use.
+  std::vector<char> associate(const TextKeyframe& keyframe, const std::vector<TextDetection>& detections) {
+    std::vector<char> taken(detections.size(), 0);
+    std::vector<Quad<double>> known;
+    for (std::size_t d = 0; d < detections.size(); ++d) {
+      const Quad<double>& quad = detections[d].quad;
+      taken[d] = !all_finite(quad) || !is_convex(quad) || std::abs(area(quad)) < options_.min_area ||
+                 !inside_image(quad, keyframe.width(), keyframe.height(), options_.border);
+    }
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      TextObject& text = objects_[i];
+      Quad<double> quad;
+      if (!locate(text, notes_[i], keyframe, &quad)) continue;
+      known.push_back(quad);
+      bool shown = inside_image(quad, keyframe.width(), keyframe.height(), options_.border) &&
+                   std::abs(area(quad)) >= options_.min_area && !detections.empty();
+      for (const TextDetection& detection : detections) {
+        if (!(iou(quad, detection.quad) >= options_.confirm_iou)) continue;
+        ++text.detections;
+        shown = true;
+        if (is_read(detection.word)) vote(&text.votes, detection.word, detection.score, options_);
+        break;
+      }
+      text.shown += shown ? 1 : 0;
+    }
+    for (std::size_t d = 0; d < detections.size(); ++d) {
+      const Quad<double>& quad = detections[d].quad;
+      if (taken[d]) continue;
+      taken[d] = std::any_of(known.begin(), known.end(), [&](const Quad<double>& other) {
+        const double smaller = (std::min)(std::abs(area(quad)), std::abs(area(other)));
+        return smaller > 0 && std::abs(area(intersection(quad, other))) > options_.overlap * smaller;
+      });
+      if (!taken[d]) known.push_back(quad);  // of detections on one another, the first counts
+    }
+    return taken;
+  }
+
+  void propose(int id, const TextKeyframe& keyframe, const TextDetection& detection,
+               const std::vector<TextPoint>& points) {
+    TextObject text;
+    text.patch = make_text_patch(options_, keyframe, detection.quad);
+    if (!is_ok(text.patch.status)) return;
+    text.id = next_id_++;
+    text.host = id;
+    text.detections = text.shown = 1;
+    if (is_read(detection.word)) vote(&text.votes, detection.word, detection.score, options_);
+    TextNotes notes;
+    const SE3d T_c_w = keyframe.T_c_w();
+    for (const TextPoint& point : points) {
+      if (!contains(detection.quad, point.px)) continue;
+      const double depth = depth_of(point, T_c_w);
+      const Vector3<double> ray = keyframe.camera.unproject(point.px);
+      if (depth > 0) notes.inside.push_back(depth * ray);
+      if (point.id >= 0) notes.rays.emplace_back(point.id, ray);
+    }
+    const double depth = depth_about(points, T_c_w, detection.quad, options_.min_corners);
+    if (depth > 0) notes.guess = frontal_plane(keyframe.camera.unproject(centroid(detection.quad)), depth);
+    objects_.push_back(std::move(text));
+    notes_.push_back(std::move(notes));
+    finder_.find(objects_.back(), notes_.back(), id, keyframe, points);
+  }
+
+  void advance(TextObject& text, TextNotes& notes, int id, const TextKeyframe& keyframe,
+               const std::vector<TextDetection>& detections, const std::vector<TextPoint>& points) {
+    ++notes.age;
+    const std::size_t before = text.views.size();
+    if (text.has_plane()) finder_.observe(text, id, keyframe, detections, 1);
+    if (!text.has_plane() || (text.state == TextState::tentative && text.views.size() == before))
+      finder_.find(text, notes, id, keyframe, points);
+    if (text.has_plane() && text.views.size() > before) settle(text, notes, id);
+    if (is_contradicted(text, options_) || is_overdue(text, options_, notes.age)) drop(text);
+  }
+
+  // After new observations: a better plane, a better host, a place in the map.
+  void settle(TextObject& text, TextNotes& notes, int id) {
+    if (text.state == TextState::tentative) {
+      refine_text_plane(options_, keyframes_,
+                        evenly_spaced(with_images(text.views), static_cast<std::size_t>(options_.views)), text.theta,
+                        options_.cull_zncc, text);
+      if (!is_proven(text, options_) || !refined(text)) return;
+      text.state = TextState::mapped;
+      notes.refined_views = text.views.size();
+      notes.rays.clear();
+      notes.inside.clear();
+      return;
+    }
+    if (rehost(options_, keyframes_, id, text)) notes.refined_views = 0;
+    if (2 * text.views.size() < 3 * notes.refined_views) return;
+    notes.refined_views = text.views.size();
+    if (!refined(text)) ++text.failures;
+  }
+
+  // Whether its plane is worth having; how well it is known, its covariance says.
+  bool refined(TextObject& text) {
+    const Refinement result = refiner_.refine(text);
+    return (result == Refinement::refined || result == Refinement::uncertain) &&
+           normal_sigma(text) <= detail::radians(kMostSigma);
+  }
+
+  std::vector<int> with_images(const std::vector<int>& ids) const {
+    std::vector<int> out;
+    for (const int id : ids)
+      if (store_.has_image(id)) out.push_back(id);
+    return out;
+  }
+
+  static constexpr double kMostSigma = 45;  // degrees
+
+  const TextOptions& options_;
+  const KeyframeStore& store_;
+  const KeyframeLookup keyframes_;
+  TextRefiner refiner_;
+  TextFinder finder_;
+  std::vector<TextObject> objects_;
+  std::vector<TextNotes> notes_;
+  int next_id_ = 0;
+};
+using TextMapping = BasicTextMapping<>;  ///< It is compiled only where it is used.
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_MAPPING_HPP
+// The pose of a frame by mapped texts and the host's points together, as far as either knows it.
+//
+// A text's plane is not exact, so it is an unknown beside the pose, held by its covariance:
+//
+//   C(T, theta_i) = sum_points rho(|e|^2 / (sigma s)^2)
+//                 + sum_texts N / (v_i sigma_i^2) c_i(T, theta_i) + |theta_i - theta_i0|^2 by Sigma_i^-1
+//
+// c_i is the robust photometric cost (residual.hpp), sigma_i^2 = 2 (1 - ZNCC) what the text differs by in this very
+// image, v_i its variance factor (TextObject). Each theta_i is eliminated by the Schur complement, so a plane that is
+// hardly known says little, and in no direction more than it knows. s is the scale of the points' residuals.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// A mapped text that a frame may show.
+struct FrameText {
+  const TextObject* object = nullptr;  ///< With a plane.
+  SE3d T_w_h;                          ///< Of its host.
+  int scale_shift = 0;                 ///< Of photometric_input().
+  bool used = false;                   ///< Whether it takes part.
+  double zncc = 0;                     ///< Result: at the pose found.
+  double share = 0;                    ///< Result: of the information on the camera's position, 0 to 1.
+};
+
+namespace detail {
+
+using Information6 = FixedMatrix<double, 6, 6>;
+
+// Robust normal equations of points about a pose, xi left. Returns the cost.
+inline double point_equations(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera,
+                              const SE3d& T_c_w, double scale, Information6* H, Vector6<double>* b) noexcept {
+  const Robust robust{RobustKind::huber, 2.4477};
+  double cost = 0;
+  for (const PosePointTerm& point : points) {
+    Vector3<double> p;
+    Vector2<double> e;
+    if (!reproject(point, T_c_w, camera, &p, &e)) continue;
+    const double sigma = point.sigma * scale, squared = e.squaredNorm() / (sigma * sigma);
+    cost += robust.rho(squared);
+    const double w = robust.weight(squared) / (sigma * sigma), z = 1 / p.z(), u = p.x() * z, v = p.y() * z;
+    FixedMatrix<double, 2, 6> J;
+    J << z, 0, -u * z, -u * v, 1 + u * u, -v, 0, z, -v * z, -(1 + v * v), u * v, u;
+    J.row(0) *= camera.fx;
+    J.row(1) *= camera.fy;
+    *H += w * J.transpose() * J;
+    *b += w * J.transpose() * e;
+  }
+  return cost;
+}
+
+}  // namespace detail
+
+/// Solves for the pose of one frame; keeps its memory. For one thread at a time.
+TEXTPLANE_DEFERRED
+class BasicTextPose {
+ public:
+  /// Scale of the points' residuals about a pose, in units of their sigmas: 1.4826 times the median of |e| / sigma over
+  /// that of a Rayleigh distribution, at least `least`. 1 for fewer than eight points.
+  double point_scale(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera, const SE3d& T_c_w,
+                     double least) {
+    errors_.clear();
+    for (const PosePointTerm& point : points) {
+      Vector3<double> p;
+      Vector2<double> e;
+      if (detail::reproject(point, T_c_w, camera, &p, &e)) errors_.push_back(e.norm() / point.sigma);
+    }
+    if (errors_.size() < 8) return 1;
+    const auto middle = errors_.begin() + static_cast<std::ptrdiff_t>(errors_.size() / 2);
+    std::nth_element(errors_.begin(), middle, errors_.end());
+    constexpr double kRayleighMedian = 1.1774100225154747;
+    return (std::max)(least, *middle / kRayleighMedian);
+  }
+
+  /// Iterates from *T_c_w over the texts that are `used`, at level 0. False where the terms do not determine the pose.
+  bool solve(const std::vector<PosePointTerm>& points, double scale, std::vector<FrameText>& texts,
+             const TextImage& image, SE3d* T_c_w, int iterations = 8) {
+    theta_.resize(texts.size());
+    for (std::size_t i = 0; i < texts.size(); ++i) theta_[i] = texts[i].object->theta;
+    for (const FrameText& text : texts) photometric_.reserve(text.object->patch.max_pixels());
+    eliminated_.resize(texts.size());
+    for (int k = 0; k < iterations; ++k) {
+      Information6 H = Information6::Zero();
+      Vector6<double> b = Vector6<double>::Zero();
+      detail::point_equations(points, image.camera, *T_c_w, scale, &H, &b);
+      for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, &H, &b);
+      const Ldlt<double, 6> system(H, 1e-12);
+      if (!system.ok()) return false;
+      const Vector6<double> step = -system.solve(b);
+      if (!all_finite(step)) return false;
+      *T_c_w = renormalised(se3_exp<double>(step) * *T_c_w);
+      for (std::size_t i = 0; i < texts.size(); ++i)
+        if (eliminated_[i].in)
+          theta_[i] -= eliminated_[i].C_inverse * (eliminated_[i].h + eliminated_[i].B.transpose() * step);
+      information_ = H;
+      if (step.norm() < 1e-7) break;
+    }
+    return true;
+  }
+
+  /// Of the last solve: inverse of the covariance of the pose, xi left.
+  const FixedMatrix<double, 6, 6>& information() const noexcept { return information_; }
+
+ private:
+  using Information6 = FixedMatrix<double, 6, 6>;
+  struct Eliminated {
+    bool in = false;
+    FixedMatrix<double, 6, 3> B;
+    Matrix3<double> C_inverse;
+    Vector3<double> h;
+  };
+
+  void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, Information6* H,
+                Vector6<double>* b) {
+    Eliminated& out = eliminated_[i];
+    out.in = false;
+    if (!text.used) return;
+    const TextObject& object = *text.object;
+    const auto input = photometric_input(object.patch, 0, image.pyramid, image.camera, text.scale_shift);
+    const auto n =
+        linearise<Parameters::pose_plane>(ResidualRequest{input, theta_[i], T_c_w * text.T_w_h}, photometric_);
+    text.zncc = is_ok(n.status) ? n.zncc : -1;
+    const Ldlt<double, 3> prior(object.covariance, 1e-12);
+    if (!is_ok(n.status) || !prior.ok()) return;
+    const double variance = object.variance_factor * (std::max)(2 * (1 - n.zncc), 0.03);
+    const double weight = n.visible / variance;
+    const Matrix3<double> known = prior.inverse();
+    const FixedMatrix<double, 6, 6> A = weight * n.H.template topLeftCorner<6, 6>();
+    out.B = weight * n.H.template topRightCorner<6, 3>();
+    const Matrix3<double> C = Matrix3<double>(weight * n.H.template bottomRightCorner<3, 3>()) + known;
+    const Ldlt<double, 3> plane(C, 1e-14);
+    if (!plane.ok()) return;
+    out.C_inverse = plane.inverse();
+    out.h = weight * n.b.template tail<3>() + known * (theta_[i] - object.theta);
+    out.in = true;
+    const FixedMatrix<double, 6, 3> K = out.B * out.C_inverse;
+    const Information6 effective = A - K * out.B.transpose();
+    *H += effective;
+    *b += weight * n.b.template head<6>() - K * out.h;
+    text.share = effective.template topLeftCorner<3, 3>().trace();
+  }
+
+  std::vector<double> errors_;
+  std::vector<Vector3<double>> theta_;
+  std::vector<Eliminated> eliminated_;
+  PhotometricWorkspace photometric_;
+  Information6 information_ = Information6::Zero();
+};
+using TextPose = BasicTextPose<>;  ///< It is compiled only where it is used.
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Why a text took part in a pose, or did not.
+enum class TextUse : std::uint8_t {
+  used,        ///< It took part.
+  dissimilar,  ///< The image does not look like it, where it should be: hidden, blurred, or the pose is far off.
+  disagrees,   ///< What it says of the pose contradicts the points or the other texts.
+};
+
+/// What one text in view did.
+struct TextReport {
+  int id = -1;                  ///< Of the object.
+  TextUse use = TextUse::used;  ///< Whether it took part.
+  double zncc = 0;              ///< At the pose returned.
+  double share = 0;             ///< Of the information on the camera's position.
+};
+
+/// Result of TextMap::track().
+struct TextFit {
+  SE3d T_c_w;            ///< World to camera: refined, or the host's own to the bit.
+  bool refined = false;  ///< Which of the two.
+  FixedMatrix<double, 6, 6> information = FixedMatrix<double, 6, 6>::Zero();  ///< Of T_c_w, xi = (v, omega) left.
+  double gain = 0;  ///< By how much the texts lower the standard deviation of the camera's position, as a share.
+  int texts = 0;    ///< Texts that took part.
+  Status status = Status::invalid_argument;  ///< ok; too_few: no text in view; diverged: texts and points disagree.
+  std::vector<TextReport> reports;           ///< Of the mapped texts in view.
+};
+
+/// Settings of a TextMap.
+struct TextMapOptions {
+  TextOptions text;           ///< Of the life of a text.
+  double min_zncc = 0.6;      ///< Of a text that takes part in a pose.
+  double least_gain = 0.1;    ///< Of TextFit::gain; with less the host's pose stays as it is.
+  double least_sigma = 0.25;  ///< px: points are not taken to be better.
+  double most_shift = 2;      ///< Factor by which texts may raise the scale of the points' residuals.
+  int max_images = 100;       ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
+};
+
+/// See the head of this file.
+TEXTPLANE_DEFERRED
+class BasicTextMap {
+ public:
+  /// `camera`: of all images but those that are given with their own.
+  explicit BasicTextMap(const Pinhole<double>& camera, const TextMapOptions& options = {})
+      : camera_(camera), options_(options), mapping_(options_.text, store_) {}
+  BasicTextMap(const BasicTextMap&) = delete;
+  BasicTextMap& operator=(const BasicTextMap&) = delete;
+
+  /// The pose of a frame, from the host's `T_c_w` (by its points, or predicted), by the mapped texts in view and the
+  /// points with p_w. Without points the texts decide alone. Nothing of the map changes.
+  TextFit track(const PyramidView& pyramid, const SE3d& T_c_w, const std::vector<TextPoint>& points) {
+    return track(image_of(pyramid), T_c_w, points);
+  }
+
+  /// The same for an image with a camera of its own, as in a rig: T_c_w is of that camera.
+  TextFit track(const TextImage& image, const SE3d& T_c_w, const std::vector<TextPoint>& points) {
+    TextFit fit;
+    fit.T_c_w = T_c_w;
+    if (!all_finite(T_c_w) || image.pyramid.levels < 1 || !image.camera.valid()) return fit;
+    points_.clear();
+    for (const TextPoint& point : points)
+      if (point.has_position && all_finite(point.p_w) && all_finite(point.px) && point.sigma > 0)
+        points_.push_back({point.p_w, point.px, point.sigma});
+    find_visible(image, T_c_w);
+    fit.status = Status::too_few;
+    if (visible_.empty()) return fit;
+
+    // What the points say alone.
+    const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
+    SE3d by_points = T_c_w;
+    for (FrameText& text : visible_) text.used = false;
+    const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
+    if (!has_points) by_points = T_c_w;
+    const double alone = has_points ? position_variance(pose_.information()) : 0;
+
+    SE3d both = by_points;
+    approach(image, scale, &both);
+    for (FrameText& text : visible_) text.used = text.zncc >= options_.min_zncc;
+    bool ok = pose_.solve(points_, scale, visible_, image, &both);
+    bool changed = false;
+    for (FrameText& text : visible_) {
+      const bool good = text.used && text.zncc >= options_.min_zncc;
+      changed |= good != text.used;
+      text.used = good;
+    }
+    if (ok && changed) ok = pose_.solve(points_, scale, visible_, image, &both);
+    for (const FrameText& text : visible_) {
+      fit.texts += text.used ? 1 : 0;
+      fit.reports.push_back({text.object->id, text.used ? TextUse::used : TextUse::dissimilar, text.zncc, text.share});
+    }
+    if (!ok || fit.texts == 0) {
+      fit.texts = 0;
+      return fit;
+    }
+    fit.gain = has_points ? 1 - std::sqrt(position_variance(pose_.information()) / alone) : 1;
+    if (fit.gain < options_.least_gain) return fit;
+    if (has_points &&
+        pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
+      for (TextReport& report : fit.reports)
+        if (report.use == TextUse::used) report.use = TextUse::disagrees;
+      fit.status = Status::diverged;
+      fit.texts = 0;
+      return fit;
+    }
+    fit.T_c_w = both;
+    fit.information = pose_.information();
+    fit.refined = true;
+    fit.status = Status::ok;
+    return fit;
+  }
+
+  /// A key frame: new texts, observations, planes, better hosts, and what is dropped. The host keeps the image until
+  /// it calls remove_keyframe(id). invalid_argument for an id in use, an empty image or a camera that is not valid(),
+  /// non_finite for such a pose; nothing changes then. Quads and points that are not finite are passed over.
+  Status add_keyframe(int id, const PyramidView& pyramid, const SE3d& T_c_w, const std::vector<TextDetection>& quads,
+                      const std::vector<TextPoint>& points) {
+    return add(id, image_of(pyramid), nullptr, T_c_w, quads, points);
+  }
+  /// The same with an image that the map owns from here on.
+  Status add_keyframe(int id, Pyramid&& pyramid, const SE3d& T_c_w, const std::vector<TextDetection>& quads,
+                      const std::vector<TextPoint>& points) {
+    auto own = std::make_unique<Pyramid>(std::move(pyramid));
+    const PyramidView view = own->view();
+    return add(id, image_of(view), std::move(own), T_c_w, quads, points);
+  }
+
+  /// The same for an image with a camera of its own, which the host keeps.
+  Status add_keyframe(int id, const TextImage& image, const SE3d& T_c_w, const std::vector<TextDetection>& quads,
+                      const std::vector<TextPoint>& points) {
+    return add(id, image, nullptr, T_c_w, quads, points);
+  }
+
+  /// A key frame has left the host's map. Texts that it hosts move to their best other view, or are dropped.
+  void remove_keyframe(int id) {
+    if (!store_.has(id)) return;
+    mapping_.keyframe_left(id);
+    store_.erase(id);
+  }
+
+  /// Poses of the key frames anew: f(id) is that of world to camera. One that is not finite changes nothing. f is asked
+  /// for the ids that texts or images still need, in their order.
+  template <class PoseOf>
+  void move(PoseOf f) {
+    store_.move(f);
+  }
+
+  /// The texts of now, in the order of their ids. Valid until the next key frame is added or removed.
+  const std::vector<TextObject>& objects() const noexcept { return mapping_.objects(); }
+  const KeyframeStore& keyframes() const noexcept { return store_; }  ///< What it knows of the key frames.
+
+  /// Its corners in the world, clockwise from the top left; false where it has no plane.
+  bool corners(const TextObject& text, std::array<Vector3<double>, 4>* out) const {
+    if (!text.has_plane() || !is_ok(quad_points(text.patch.quad, text.patch.camera, text.theta, out))) return false;
+    const SE3d T_w_h = store_.text_keyframe(text.host).T_w_c;
+    for (Vector3<double>& corner : *out) corner = T_w_h * corner;
+    return true;
+  }
+
+ private:
+  // Of the camera's centre; infinite where it is not determined.
+  static double position_variance(const FixedMatrix<double, 6, 6>& information) noexcept {
+    const Ldlt<double, 6> ldlt(information);
+    return ldlt.ok() ? ldlt.inverse().template topLeftCorner<3, 3>().trace() : HUGE_VAL;
+  }
+
+  TextImage image_of(const PyramidView& pyramid) const {
+    TextImage image;
+    image.pyramid = pyramid;
+    image.camera = camera_;
+    return image;
+  }
+
+  Status add(int id, const TextImage& image, std::unique_ptr<Pyramid> own, const SE3d& T_c_w,
+             const std::vector<TextDetection>& quads, const std::vector<TextPoint>& points) {
+    if (image.pyramid.levels < 1 || !image.camera.valid()) return Status::invalid_argument;
+    if (!all_finite(T_c_w)) return Status::non_finite;
+    TextKeyframe keyframe;
+    static_cast<TextImage&>(keyframe) = image;
+    keyframe.T_w_c = T_c_w.inverse();
+    if (!store_.add(id, keyframe, std::move(own))) return Status::invalid_argument;
+    mapping_.update(id, quads, points);
+    store_.forget_oldest(options_.max_images, [this](int other) { return mapping_.needs(other); });
+    return Status::ok;
+  }
+
+  void find_visible(const TextImage& image, const SE3d& T_c_w) {
+    visible_.clear();
+    for (const TextObject& text : mapping_.objects()) {
+      if (text.state != TextState::mapped) continue;
+      const SE3d T_w_h = store_.text_keyframe(text.host).T_w_c;
+      Quad<double> quad;
+      if (!text_in_view(options_.text, text, T_c_w * T_w_h, image, &quad)) continue;
+      visible_.push_back({&text, T_w_h, scale_shift(text, quad)});
+    }
+  }
+
+  // Coarse to fine, into the texts' basins.
+  void approach(const TextImage& image, double scale, SE3d* T_c_w) {
+    terms_.clear();
+    for (const FrameText& text : visible_)
+      terms_.push_back(
+          {&text.object->patch, text.object->theta, text.T_w_h, 1 / text.object->variance_factor, text.scale_shift});
+    const int n = static_cast<int>(terms_.size()), m = static_cast<int>(points_.size());
+    workspace_.reserve(terms_.data(), n, m);
+    zncc_.assign(visible_.size(), -1.0F);
+    PoseOptions pose;
+    pose.sigma_rep = scale;
+    const PoseFit fit = refine_pose(terms_.data(), n, points_.data(), m, image.pyramid, image.camera, *T_c_w, pose,
+                                    workspace_, zncc_.data(), nullptr);
+    if (is_ok(fit.status)) *T_c_w = renormalised(fit.T_t_w);
+    for (std::size_t i = 0; i < visible_.size(); ++i) visible_[i].zncc = static_cast<double>(zncc_[i]);
+  }
+
+  Pinhole<double> camera_;
+  TextMapOptions options_;
+  KeyframeStore store_;
+  TextMapping mapping_;
+  TextPose pose_;
+  PoseWorkspace workspace_;
+  std::vector<PosePointTerm> points_;
+  std::vector<PoseTextTerm> terms_;
+  std::vector<FrameText> visible_;
+  std::vector<float> zncc_;
+};
+using TextMap = BasicTextMap<>;  ///< It is compiled only where it is used.
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_MAP_HPP
 
 #endif  // TEXTPLANE_TEXTPLANE_HPP

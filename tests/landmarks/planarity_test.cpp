@@ -25,7 +25,7 @@ class PlanarityTest : public WalkTest {
     EXPECT_TRUE(bend_of(text.patch, text.theta, targets, wall.camera, options.refine_bend_sigmas, workspace, &out));
     return out;
   }
-  bool refined() { return TextRefiner(options, KeyframeLookup(frames)).refine(text); }
+  bool refined() { return TextRefiner(options, KeyframeLookup(frames)).refine(text) == Refinement::refined; }
 };
 
 TEST_F(PlanarityTest, ABendIsTheTurnOfTheNormalFromEndToEnd) {

@@ -30,9 +30,9 @@ class TextRefinerTest : public WalkTest {
   }
   bool refined(const Points* points = nullptr) {
     TextRefiner refiner(options, KeyframeLookup(frames));
-    if (!points) return refiner.refine(text);
+    if (!points) return refiner.refine(text) == Refinement::refined;
     const PointLookup lookup(*points);
-    return refiner.refine(text, &lookup);
+    return refiner.refine(text, &lookup) == Refinement::refined;
   }
 };
 

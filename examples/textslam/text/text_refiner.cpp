@@ -11,7 +11,8 @@ void refine_texts(Map& map, const Parameters& parameters) {
   const SurfacePoints kept{map, parameters.point_sigma};
   const textplane::PointLookup points(kept);
   for (TextObject& text : map.texts)
-    if (text.state == TextState::mapped && !(is_detected(text, parameters.text) && refiner.refine(text, &points)))
+    if (text.state == TextState::mapped &&
+        !(is_detected(text, parameters.text) && refiner.refine(text, &points) == Refinement::refined))
       drop(text);
 }
 

@@ -32,10 +32,10 @@ class BasicTextFinder {
   BasicTextFinder(const TextOptions& options, const KeyframeStore& store)
       : options_(options), store_(store), keyframes_(store) {}
 
-  /// The first plane of a text, or a better one, from what key frame `id` adds: by points in the quad, by matches, or by
-  /// its pixels alone. True where the image of the key frame with most parallax agrees with it; text.views are then all
-  /// that do, and it is at least tentative. False, and the text as it was, otherwise, and where no more views agree than
-  /// with the plane that it has.
+  /// The first plane of a text, or a better one, from what key frame `id` adds: by points in the quad, by matches, or
+  /// by its pixels alone. True where the image of the key frame with most parallax agrees with it; text.views are then
+  /// all that do, and it is at least tentative. False, and the text as it was, otherwise, and where no more views agree
+  /// than with the plane that it has.
   bool find(TextObject& text, TextNotes& notes, int id, const TextKeyframe& keyframe,
             const std::vector<TextPoint>& points) {
     const TextKeyframe host = store_.text_keyframe(text.host);

@@ -7,7 +7,7 @@
 //   for (const TextObject& text : texts.objects()) ...
 //
 // A text becomes an object when key frames show it from different sides. A frame's pose is refined where the texts in
-// view know it clearly better than the points do, and where the points do not contradict; else the host's own pose comes
+// view know it clearly better than the points do, and the points do not contradict; else the host's own pose comes
 // back, to the bit. What is hidden, blurred, uncertain or wrong counts less, or not at all: TextFit tells.
 //
 // All poses are of world to camera. Images, quads and points are undistorted. Not thread-safe; no thread of its own;

@@ -203,7 +203,7 @@ class BasicTextMapping {
   bool refined(TextObject& text) {
     const Refinement result = refiner_.refine(text);
     return (result == Refinement::refined || result == Refinement::uncertain) &&
-           normal_sigma(text) <= kMostSigma * detail::kRadian;
+           normal_sigma(text) <= detail::radians(kMostSigma);
   }
 
   std::vector<int> with_images(const std::vector<int>& ids) const {

@@ -3,7 +3,7 @@
 // A text's plane is not exact, so it is an unknown beside the pose, held by its covariance:
 //
 //   C(T, theta_i) = sum_points rho(|e|^2 / (sigma s)^2)
-//                 + sum_texts N / (v_i sigma_i^2) c_i(T, theta_i) + (theta_i - theta_i0)^T Sigma_i^-1 (theta_i - theta_i0)
+//                 + sum_texts N / (v_i sigma_i^2) c_i(T, theta_i) + |theta_i - theta_i0|^2 by Sigma_i^-1
 //
 // c_i is the robust photometric cost (residual.hpp), sigma_i^2 = 2 (1 - ZNCC) what the text differs by in this very
 // image, v_i its variance factor (TextObject). Each theta_i is eliminated by the Schur complement, so a plane that is
