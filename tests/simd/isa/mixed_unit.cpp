@@ -1,5 +1,8 @@
 // One translation unit of a program whose units are compiled for different CPUs (mixed_main.cpp): what a tracker calls,
 // from the image to pose and plane. TEXTPLANE_TEST_UNIT is the name of its function.
+//
+// The room landmarks is included and not called: it is for key frames, and its strings, maps and sorts are the standard
+// library's, whose symbols the units of any program share.
 #include <textplane/textplane.hpp>
 
 #include <cstdint>
