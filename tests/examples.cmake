@@ -96,6 +96,10 @@ if(TARGET foreign_tracker)
     -DOUTPUT=${foreign}/run -DFOLDER=${PROJECT_SOURCE_DIR}/examples/foreign_tracker -P ${CMAKE_CURRENT_SOURCE_DIR}/programs/foreign_tracker.cmake)
   set_tests_properties(examples.foreign_tracker PROPERTIES FIXTURES_REQUIRED foreign TIMEOUT 1200)
   textplane_label(examples.foreign_tracker programs)
+  add_test(NAME examples.odometry COMMAND ${CMAKE_COMMAND} -DPROGRAMS=$<TARGET_FILE_DIR:frame_to_map> -DSEQUENCE=${foreign}/sequence
+    -DOUTPUT=${foreign}/odometry -DFOLDER=${PROJECT_SOURCE_DIR}/examples/odometry -P ${CMAKE_CURRENT_SOURCE_DIR}/programs/odometry.cmake)
+  set_tests_properties(examples.odometry PROPERTIES FIXTURES_REQUIRED foreign TIMEOUT 1200)
+  textplane_label(examples.odometry programs)
 endif()
 
 # The script of the experiments, with a stand-in for textslam; readers of other libraries on textslam's outputs; and the

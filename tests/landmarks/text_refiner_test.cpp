@@ -48,11 +48,14 @@ TEST_F(TextRefinerTest, ViewsThatDisagreeMakeAPlaneLessSure) {
 }
 
 // Whoever asks for more finds the text as it was.
-TEST_F(TextRefinerTest, ATextWhoseNormalNobodyKnowsIsRefused) {
+TEST_F(TextRefinerTest, ATextWhoseNormalIsUncertainSaysSoAndKeepsWhatIsKnown) {
+  TextObject certain = text;
+  TextRefiner refiner(options, KeyframeLookup(frames));
+  ASSERT_EQ(refiner.refine(certain), Refinement::refined);
   options.refine_max_sigma = 0.001;
-  const TextObject before = text;
-  EXPECT_FALSE(refined());
-  expect_unchanged(before);
+  EXPECT_EQ(TextRefiner(options, KeyframeLookup(frames)).refine(text), Refinement::uncertain);
+  EXPECT_EQ(text.theta, certain.theta);
+  EXPECT_EQ(text.covariance, certain.covariance);
 }
 
 TEST_F(TextRefinerTest, ATextThatAgreesWithNoneOfItsViewsIsRefused) {

@@ -6,8 +6,7 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Numbers of the paper (Li et al., ICRA 2020) are marked so; the others were chosen on rendered rooms. docs/integrate.md
-/// shows what happens when one is halved or doubled.
+/// Numbers of the paper (Li et al., ICRA 2020) are marked so; the others were chosen on rendered rooms.
 struct TextOptions {
   // Proposal: which quads become candidates.
   double border = 4;         ///< px that a new quad keeps from the image border.
