@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 143 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 59c14f9e13ed748f
+// Hash of these files: 810cf7039686b3c5
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 59c14f9e13ed748f"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 810cf7039686b3c5"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -33888,8 +33888,7 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// Numbers of the paper (Li et al., ICRA 2020) are marked so; the others were chosen on rendered rooms. docs/integrate.md
-/// shows what happens when one is halved or doubled.
+/// Numbers of the paper (Li et al., ICRA 2020) are marked so; the others were chosen on rendered rooms.
 struct TextOptions {
   // Proposal: which quads become candidates.
   double border = 4;         ///< px that a new quad keeps from the image border.

@@ -12,7 +12,7 @@ void refine_texts(Map& map, const Parameters& parameters) {
   const textplane::PointLookup points(kept);
   for (TextObject& text : map.texts)
     if (text.state == TextState::mapped &&
-        !(is_detected(text, parameters.text) && refiner.refine(text, &points) == Refinement::refined))
+        !(is_detected(text, parameters.text) && refiner.refine(text, &points) == textplane::Refinement::refined))
       drop(text);
 }
 
