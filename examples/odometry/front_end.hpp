@@ -16,7 +16,6 @@
 
 #include "odometry/session.hpp"
 
-#include <cstdlib>
 namespace odometry {
 
 /// A corner in the newest frame. Its id is that of its landmark.

@@ -22,7 +22,7 @@ namespace odometry {
 namespace {
 
 constexpr int kKeyFrameEvery = 5, kWindow = 8, kMinPoints = 10;
-constexpr double kHuber = 1, kInlier = 3;
+constexpr double kHuber = 1, kInlier = 3;  // px
 
 using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 
