@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 143 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 810cf7039686b3c5
+// Hash of these files: 0d6c1ebc60539b17
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 810cf7039686b3c5"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 0d6c1ebc60539b17"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -35978,7 +35978,13 @@ class BasicTextMap {
     static_cast<TextImage&>(keyframe) = image;
     keyframe.T_w_c = T_c_w.inverse();
     if (!store_.add(id, keyframe, std::move(own))) return Status::invalid_argument;
-    mapping_.update(id, quads, points);
+    std::vector<TextDetection> finite_quads;
+    std::vector<TextPoint> finite_points;
+    for (const TextDetection& quad : quads)
+      if (all_finite(quad.quad) && is_finite(quad.score)) finite_quads.push_back(quad);
+    for (const TextPoint& point : points)
+      if (all_finite(point.px) && all_finite(point.p_w) && is_finite(point.depth)) finite_points.push_back(point);
+    mapping_.update(id, finite_quads, finite_points);
     store_.forget_oldest(options_.max_images, [this](int other) { return mapping_.needs(other); });
     return Status::ok;
   }

@@ -205,7 +205,13 @@ class BasicTextMap {
     static_cast<TextImage&>(keyframe) = image;
     keyframe.T_w_c = T_c_w.inverse();
     if (!store_.add(id, keyframe, std::move(own))) return Status::invalid_argument;
-    mapping_.update(id, quads, points);
+    std::vector<TextDetection> finite_quads;
+    std::vector<TextPoint> finite_points;
+    for (const TextDetection& quad : quads)
+      if (all_finite(quad.quad) && is_finite(quad.score)) finite_quads.push_back(quad);
+    for (const TextPoint& point : points)
+      if (all_finite(point.px) && all_finite(point.p_w) && is_finite(point.depth)) finite_points.push_back(point);
+    mapping_.update(id, finite_quads, finite_points);
     store_.forget_oldest(options_.max_images, [this](int other) { return mapping_.needs(other); });
     return Status::ok;
   }
