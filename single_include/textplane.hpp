@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 143 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 0d6c1ebc60539b17
+// Hash of these files: f080b9e8e5cccc09
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 0d6c1ebc60539b17"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 f080b9e8e5cccc09"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -1885,6 +1885,14 @@ S iou(const Quad<S>& a, const Quad<S>& b) noexcept {
   if (!(common > S(0))) return S(0);
   if (common > smaller) common = smaller;  // rounding of slivers
   return common / (area_a + area_b - common);
+}
+
+/// The area that two convex quads share, as a share of the smaller one's; 0 where either has no area.
+template <class S>
+S overlap(const Quad<S>& a, const Quad<S>& b) noexcept {
+  using std::abs;
+  const S area_a = abs(area(a)), area_b = abs(area(b)), smaller = area_b < area_a ? area_b : area_a;
+  return smaller > S(0) ? area(intersection(a, b)) / smaller : S(0);
 }
 
 /// Pixel of level 0 in the pixels of pyramid level l: (x + 0.5) / 2^l - 0.5.
@@ -31513,6 +31521,7 @@ TEXTPLANE_END_NAMESPACE
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // The joint cost of one camera pose over text objects and points, as a problem for minimise().
 //
@@ -31690,6 +31699,33 @@ bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const Pinhole<S>&
   return is_finite((*e)[0]) && is_finite((*e)[1]) && valid_sigma(term.sigma);
 }
 
+/// Adds a point's part to the lower triangle of H, to b and to the cost. False where reproject() is.
+inline bool add_point(const PosePointTerm& term, const SE3d& T_t_w, const Pinhole<double>& camera, const Robust& robust,
+                      PoseSystem& system) noexcept {
+  Vector3<double> p;
+  Vector2<double> e;
+  if (!reproject(term, T_t_w, camera, &p, &e)) return false;
+  const double information = 1.0 / (term.sigma * term.sigma), r2 = e.squaredNorm() * information;
+  const double weight = robust.weight(r2) * information;
+  const double iz = 1.0 / p[2], u = p[0] * iz, v = p[1] * iz, fx = camera.fx, fy = camera.fy;
+  // d e / d xi from dp = v + omega x p.
+  const double jx[6] = {fx * iz, 0, -fx * u * iz, -fx * u * v, fx * (1 + u * u), -fx * v};
+  const double jy[6] = {0, fy * iz, -fy * v * iz, -fy * (1 + v * v), fy * u * v, fy * u};
+  for (int i = 0; i < 6; ++i) {
+    const double wx = weight * jx[i], wy = weight * jy[i];
+    system.b[i] += wx * e[0] + wy * e[1];
+    for (int j = 0; j <= i; ++j) system.H(i, j) += wx * jx[j] + wy * jy[j];
+  }
+  system.cost += robust.rho(r2);
+  return true;
+}
+
+/// H's upper triangle becomes its lower one.
+inline void mirror(PoseSystem& system) noexcept {
+  for (int i = 0; i < 6; ++i)
+    for (int j = i + 1; j < 6; ++j) system.H(i, j) = system.H(j, i);
+}
+
 template <class View>
 class PoseProblem {
  public:
@@ -31728,12 +31764,11 @@ class PoseProblem {
       ++active_texts_;
     }
     for (int i = 0; i < point_count_; ++i) {
-      const bool active = add_point(points_[i], T_t_w, system);
+      const bool active = add_point(points_[i], T_t_w, camera_, options_.point_robust, system);
       memory_.points_[static_cast<std::size_t>(i)] = active;
       active_points_ += active;
     }
-    for (int i = 0; i < 6; ++i)
-      for (int j = i + 1; j < 6; ++j) system.H(i, j) = system.H(j, i);
+    mirror(system);
     system.status = active_texts_ + active_points_ > 0 ? Status::ok : trouble;
     return system;
   }
@@ -31816,25 +31851,6 @@ class PoseProblem {
     return Status::ok;
   }
 
-  bool add_point(const PosePointTerm& term, const SE3d& T_t_w, PoseSystem& system) noexcept {
-    Vector3<double> p;
-    Vector2<double> e;
-    if (!reproject(term, T_t_w, camera_, &p, &e)) return false;
-    const double information = 1.0 / (term.sigma * term.sigma), r2 = e.squaredNorm() * information;
-    const double weight = options_.point_robust.weight(r2) * information;
-    const double iz = 1.0 / p[2], u = p[0] * iz, v = p[1] * iz, fx = camera_.fx, fy = camera_.fy;
-    // d e / d xi from dp = v + omega x p.
-    const double jx[6] = {fx * iz, 0, -fx * u * iz, -fx * u * v, fx * (1 + u * u), -fx * v};
-    const double jy[6] = {0, fy * iz, -fy * v * iz, -fy * (1 + v * v), fy * u * v, fy * u};
-    for (int i = 0; i < 6; ++i) {
-      const double wx = weight * jx[i], wy = weight * jy[i];
-      system.b[i] += wx * e[0] + wy * e[1];
-      for (int j = 0; j <= i; ++j) system.H(i, j) += wx * jx[j] + wy * jy[j];
-    }
-    system.cost += options_.point_robust.rho(r2);
-    return true;
-  }
-
   const PoseTextTerm* texts_;
   const PosePointTerm* points_;
   int text_count_, point_count_;
@@ -31872,6 +31888,15 @@ struct PoseResult {
   Path path = Path::kernel;  ///< Path::reference where the slow reference evaluated any text.
   Status status = Status::invalid_argument;  ///< Why it ended: see above.
 };
+
+/// Standard deviation of the camera's position by PoseResult::information: the square root of the covariance's trace.
+/// Infinite where the information leaves a direction open.
+inline double position_sigma(const FixedMatrix<double, 6, 6>& information) noexcept {
+  const Ldlt<double, 6> ldlt(information);
+  if (!ldlt.ok()) return std::numeric_limits<double>::infinity();
+  const FixedMatrix<double, 6, 6> covariance = ldlt.inverse();
+  return std::sqrt(covariance(0, 0) + covariance(1, 1) + covariance(2, 2));
+}
 
 /// Result of refine_pose().
 struct PoseFit : PoseResult {
@@ -33581,9 +33606,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Key frames in the order of their ids. An image is a view of the host's, or the store's own.
 class KeyframeStore {
  public:
-  /// False, and nothing changed, for an id that is in use. `own`: the image of `keyframe`, or null.
-  bool add(int id, TextKeyframe keyframe, std::unique_ptr<Pyramid> own) {
-    if (own) keyframe.pyramid = own->view();
+  /// False, and nothing changed, for an id that is in use. `own`: what holds the image of `keyframe`, or null where the
+  /// host does.
+  bool add(int id, const TextKeyframe& keyframe, std::unique_ptr<Pyramid> own) {
     return all_.emplace(id, Entry{keyframe, std::move(own)}).second;
   }
   bool has(int id) const { return all_.count(id) != 0; }  ///< Whether it knows this key frame.
@@ -33658,13 +33683,15 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// The upper median; 0 of nothing.
-inline double median(std::vector<double> values) {
+/// The upper median, 0 of nothing; the values change places.
+inline double median_in_place(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+/// The upper median; 0 of nothing.
+inline double median(std::vector<double> values) { return median_in_place(values); }
 
 /// At most `count` of the ids, evenly spaced, the first and the last among them.
 inline std::vector<int> evenly_spaced(const std::vector<int>& ids, std::size_t count) {
@@ -33864,24 +33891,65 @@ TEXTPLANE_END_NAMESPACE
 #include <utility>
 #include <vector>
 
-// What a host system gives to TextMap: points and detections of an image.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_MAP_INPUT_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_MAP_INPUT_HPP
-
-#include <string>
-#include <utility>
-#include <vector>
-
-// What a text says, by its readings: each is mostly right, and seldom right in every letter.
-#ifndef TEXTPLANE_LANDMARKS_WORDS_HPP
-#define TEXTPLANE_LANDMARKS_WORDS_HPP
+// The rules by which a text is believed, waits, or is dropped.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
+
+// How a text looks from a camera: its quad, slant and scale. T_t_h maps the host's points to that camera.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
+
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+
+// TextObject: one planar text, as it lives in a map.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
+
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Where a text object is in its life. It goes from one state to the next, or is dropped; nothing goes back.
+enum class TextState : std::uint8_t {
+  candidate,  ///< Detected; its plane is not known yet.
+  tentative,  ///< Has a plane, waits for the paper's n_min observations.
+  mapped,     ///< Takes part in tracking and adjustment.
+  dropped,    ///< Out of use for good; its id is not used again.
+};
+
+/// A planar text: a quad in its host key frame and the plane theta = -n / d in the host's frame.
+struct TextObject {
+  int id = -1;                                           ///< Never used twice.
+  TextState state = TextState::candidate;                ///< See TextState.
+  int host = -1;                                         ///< Id of the key frame that the patch was cut out of.
+  TextPatch patch;                                       ///< Its pixels there, and its quad.
+  Vector3<double> theta = Vector3<double>::Zero();       ///< The plane, in the host's frame.
+  Matrix3<double> covariance = Matrix3<double>::Zero();  ///< Of theta.
+  std::vector<int> views;               ///< Key frames, without the host, that observe it well; increasing.
+  std::map<std::string, double> votes;  ///< Words read: sums of the scores of their readings (words.hpp).
+  int detections = 0;                   ///< Frames in which the detector saw it.
+  int shown = 0;                        ///< Frames with detections that could have shown it, those included.
+  int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
+  double zncc = 0;                      ///< Mean over its last refinement.
+  /// How much larger the variance of its residuals acts than that of as many independent pixels: views err as wholes.
+  double variance_factor = 1;
+
+  /// Whether theta is known.
+  bool has_plane() const noexcept { return state == TextState::tentative || state == TextState::mapped; }
+};
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
 // TextOptions: every number that the life of a text object depends on.
 #ifndef TEXTPLANE_LANDMARKS_TEXT_OPTIONS_HPP
 #define TEXTPLANE_LANDMARKS_TEXT_OPTIONS_HPP
@@ -33975,6 +34043,180 @@ struct TextOptions {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_TEXT_OPTIONS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+constexpr double kHalfTurn = 3.141592653589793;  // pi
+
+inline double radians(double degrees) noexcept { return degrees * kHalfTurn / 180; }
+
+// Between two directions of any length, degrees.
+inline double degrees_between(const Vector3<double>& a, const Vector3<double>& b) noexcept {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kHalfTurn;
+}
+}  // namespace detail
+
+/// A text that has its patch's quad and camera and this plane, and no more: what the functions below look at.
+inline TextObject outline_of(const TextPatch& patch, const Vector3<double>& theta) {
+  TextObject text;
+  text.patch.quad = patch.quad;
+  text.patch.camera = patch.camera;
+  text.theta = theta;
+  return text;
+}
+
+/// The text's quad as seen by the camera; false where a corner is behind it.
+inline bool project_text(const TextObject& text, const SE3d& T_t_h, const Pinhole<double>& camera,
+                         Quad<double>* quad) noexcept {
+  const Matrix3<double> H = plane_homography(text.theta, T_t_h);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3<double> q = H * text.patch.camera.unproject(text.patch.quad.corner[i]);
+    if (!(q.z() > 1e-6)) return false;
+    quad->corner[i] = camera.pixel(Vector2<double>(q.x() / q.z(), q.y() / q.z()));
+  }
+  return true;
+}
+
+/// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
+inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
+  const Vector3<double> m = text.patch.camera.unproject(centroid(text.patch.quad));
+  const Vector3<double> centre = T_t_h * plane_point(text.theta, m);
+  const Vector3<double> normal = T_t_h.R * plane_normal(text.theta);
+  return -normal.dot(centre.normalized());
+}
+
+/// The slant test, for the cosine that facing() returns.
+inline bool is_too_slanted(const TextOptions& options, double facing) noexcept {
+  return facing < std::cos(detail::radians(options.max_slant));
+}
+
+/// As project_text(), and whether the camera sees enough of the text's front to compare it with the host: not too
+/// slanted, at least `min_area` px^2, and `min_share` of it inside the image (1: the whole quad, off the border).
+inline bool is_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
+                       double min_area, double min_share, Quad<double>* quad) noexcept {
+  if (!project_text(text, T_t_h, image.camera, quad) || is_too_slanted(options, facing(text, T_t_h))) return false;
+  const double whole = std::abs(area(*quad));
+  if (whole < min_area) return false;
+  if (min_share >= 1) return inside_image(*quad, image.width(), image.height(), options.seen_border);
+  return area(clip_to_image(*quad, image.width(), image.height())) >= min_share * whole;
+}
+
+/// The same as tracking asks for it: by TextOptions::min_area and min_share.
+inline bool text_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
+                         Quad<double>* quad) noexcept {
+  return is_in_view(options, text, T_t_h, image, options.min_area, options.min_share, quad);
+}
+
+/// Does the plane lie in front of its host, not too slanted, over the whole quad?
+inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>& camera, const Quad<double>& quad,
+                               const Vector3<double>& theta) noexcept {
+  const Vector3<double> ray = camera.unproject(centroid(quad)).normalized();
+  if (is_too_slanted(options, -plane_normal(theta).dot(ray))) return false;
+  return std::all_of(quad.corner.begin(), quad.corner.end(), [&](const Vector2<double>& corner) {
+    return inverse_depth<double>(theta, camera.unproject(corner)) > 0;
+  });
+}
+
+/// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
+inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcept {
+  return scale_shift(std::abs(area(text.patch.quad)), std::abs(area(quad)));
+}
+
+/// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.
+inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& covariance) noexcept {
+  const Vector3<double> n = plane_normal(theta);
+  const Matrix3<double> J = (Matrix3<double>::Identity() - n * n.transpose()) / theta.norm();
+  const Matrix3<double> of_normal = J * covariance * J.transpose();
+  return std::sqrt((std::max)(0.0, symmetric_eigen<double, 3>(of_normal).values[2]));
+}
+/// The same of a text.
+inline double normal_sigma(const TextObject& text) noexcept { return normal_sigma(text.theta, text.covariance); }
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// May a text begin with this quad in an image: convex, of at least min_area, off the border, and on no more than
+/// `overlap` of one of the `known` ones?
+inline bool may_begin(const TextOptions& options, const Quad<double>& quad, int width, int height,
+                      const std::vector<Quad<double>>& known) noexcept {
+  return is_convex(quad) && std::abs(area(quad)) >= options.min_area &&
+         inside_image(quad, width, height, options.border) &&
+         std::none_of(known.begin(), known.end(),
+                      [&](const Quad<double>& other) { return overlap(quad, other) > options.overlap; });
+}
+
+/// Counts a key frame that should show the text where its plane says: as a view with a ZNCC of at least `least`; as a
+/// failure where it is clearly lower (cull_zncc beside min_zncc) and is_detected() is false: where the detector sees
+/// the text, the image is blurred.
+template <class IsDetected>
+void count_view(const TextOptions& options, int keyframe, double zncc, double least, TextObject& text,
+                IsDetected is_detected) {
+  if (zncc >= least) {
+    text.views.insert(std::upper_bound(text.views.begin(), text.views.end(), keyframe), keyframe);
+    text.failures = 0;
+  } else if (zncc * options.min_zncc < least * options.cull_zncc && !is_detected()) {
+    ++text.failures;
+  }
+}
+
+/// Did the detector see it often enough: min_detections, and detected_share of the frames that could have shown it?
+inline bool is_detected(const TextObject& text, const TextOptions& options) noexcept {
+  return text.detections >= options.min_detections && text.detections >= options.detected_share * text.shown;
+}
+
+/// Ready to be mapped: min_observations key frames show it, and it is_detected().
+inline bool is_proven(const TextObject& text, const TextOptions& options) noexcept {
+  return static_cast<int>(text.views.size()) + 1 >= options.min_observations && is_detected(text, options);
+}
+
+/// Has it waited too long for its plane, or to be mapped, after `age` key frames?
+inline bool is_overdue(const TextObject& text, const TextOptions& options, int age) noexcept {
+  return (text.state == TextState::candidate && age > options.patience) ||
+         (text.state == TextState::tentative && age > options.tentative_patience);
+}
+
+/// Have max_failures key frames in a row, and more than ever showed it, failed to?
+inline bool is_contradicted(const TextObject& text, const TextOptions& options) noexcept {
+  return text.failures >= options.max_failures && text.failures > static_cast<int>(text.views.size());
+}
+
+/// Is its normal less certain than refine_max_sigma?
+inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
+  return !(normal_sigma(text) <= detail::radians(options.refine_max_sigma));
+}
+
+/// Takes it out of use and frees its memory; its id stays.
+inline void drop(TextObject& text) noexcept {
+  text.state = TextState::dropped;
+  text.patch = TextPatch();
+  std::vector<int>().swap(text.views);
+  text.votes.clear();
+}
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
+// What a host system gives to TextMap: points and detections of an image.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_MAP_INPUT_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_MAP_INPUT_HPP
+
+#include <string>
+#include <utility>
+#include <vector>
+
+// What a text says, by its readings: each is mostly right, and seldom right in every letter.
+#ifndef TEXTPLANE_LANDMARKS_WORDS_HPP
+#define TEXTPLANE_LANDMARKS_WORDS_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -34158,141 +34400,6 @@ double text_zncc_limit(const TextOptions& options, double limit, const TextPatch
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_TEXT_NOISE_HPP
-// How a text looks from a camera: its quad, slant and scale. T_t_h maps the host's points to that camera.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-
-// TextObject: one planar text, as it lives in a map.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
-
-#include <cstdint>
-#include <map>
-#include <string>
-#include <vector>
-
-TEXTPLANE_BEGIN_NAMESPACE
-
-/// Where a text object is in its life. It goes from one state to the next, or is dropped; nothing goes back.
-enum class TextState : std::uint8_t {
-  candidate,  ///< Detected; its plane is not known yet.
-  tentative,  ///< Has a plane, waits for the paper's n_min observations.
-  mapped,     ///< Takes part in tracking and adjustment.
-  dropped,    ///< Out of use for good; its id is not used again.
-};
-
-/// A planar text: a quad in its host key frame and the plane theta = -n / d in the host's frame.
-struct TextObject {
-  int id = -1;                                           ///< Never used twice.
-  TextState state = TextState::candidate;                ///< See TextState.
-  int host = -1;                                         ///< Id of the key frame that the patch was cut out of.
-  TextPatch patch;                                       ///< Its pixels there, and its quad.
-  Vector3<double> theta = Vector3<double>::Zero();       ///< The plane, in the host's frame.
-  Matrix3<double> covariance = Matrix3<double>::Zero();  ///< Of theta.
-  std::vector<int> views;               ///< Key frames, without the host, that observe it well; increasing.
-  std::map<std::string, double> votes;  ///< Words read: sums of the scores of their readings (words.hpp).
-  int detections = 0;                   ///< Frames in which the detector saw it.
-  int shown = 0;                        ///< Frames with detections that could have shown it, those included.
-  int failures = 0;                     ///< Key frames in a row that should have seen it and did not.
-  double zncc = 0;                      ///< Mean over its last refinement.
-  /// How much larger the variance of its residuals acts than that of as many independent pixels: views err as wholes.
-  double variance_factor = 1;
-
-  /// Whether theta is known.
-  bool has_plane() const noexcept { return state == TextState::tentative || state == TextState::mapped; }
-};
-
-TEXTPLANE_END_NAMESPACE
-
-#endif  // TEXTPLANE_LANDMARKS_TEXT_OBJECT_HPP
-
-TEXTPLANE_BEGIN_NAMESPACE
-
-namespace detail {
-constexpr double kHalfTurn = 3.141592653589793;  // pi
-
-inline double radians(double degrees) noexcept { return degrees * kHalfTurn / 180; }
-
-// Between two directions of any length, degrees.
-inline double degrees_between(const Vector3<double>& a, const Vector3<double>& b) noexcept {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kHalfTurn;
-}
-}  // namespace detail
-
-/// The text's quad as seen by the camera; false where a corner is behind it.
-inline bool project_text(const TextObject& text, const SE3d& T_t_h, const Pinhole<double>& camera,
-                         Quad<double>* quad) noexcept {
-  const Matrix3<double> H = plane_homography(text.theta, T_t_h);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector3<double> q = H * text.patch.camera.unproject(text.patch.quad.corner[i]);
-    if (!(q.z() > 1e-6)) return false;
-    quad->corner[i] = camera.pixel(Vector2<double>(q.x() / q.z(), q.y() / q.z()));
-  }
-  return true;
-}
-
-/// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
-inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
-  const Vector3<double> m = text.patch.camera.unproject(centroid(text.patch.quad));
-  const Vector3<double> centre = T_t_h * plane_point(text.theta, m);
-  const Vector3<double> normal = T_t_h.R * plane_normal(text.theta);
-  return -normal.dot(centre.normalized());
-}
-
-/// The slant test, for the cosine that facing() returns.
-inline bool is_too_slanted(const TextOptions& options, double facing) noexcept {
-  return facing < std::cos(detail::radians(options.max_slant));
-}
-
-/// As project_text(), and whether the camera sees enough of the text's front to compare it with the host: not too
-/// slanted, at least `min_area` px^2, and `min_share` of it inside the image (1: the whole quad, off the border).
-inline bool is_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
-                       double min_area, double min_share, Quad<double>* quad) noexcept {
-  if (!project_text(text, T_t_h, image.camera, quad) || is_too_slanted(options, facing(text, T_t_h))) return false;
-  const double whole = std::abs(area(*quad));
-  if (whole < min_area) return false;
-  if (min_share >= 1) return inside_image(*quad, image.width(), image.height(), options.seen_border);
-  return area(clip_to_image(*quad, image.width(), image.height())) >= min_share * whole;
-}
-
-/// The same as tracking asks for it: by TextOptions::min_area and min_share.
-inline bool text_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
-                         Quad<double>* quad) noexcept {
-  return is_in_view(options, text, T_t_h, image, options.min_area, options.min_share, quad);
-}
-
-/// Does the plane lie in front of its host, not too slanted, over the whole quad?
-inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>& camera, const Quad<double>& quad,
-                               const Vector3<double>& theta) noexcept {
-  const Vector3<double> ray = camera.unproject(centroid(quad)).normalized();
-  if (is_too_slanted(options, -plane_normal(theta).dot(ray))) return false;
-  return std::all_of(quad.corner.begin(), quad.corner.end(), [&](const Vector2<double>& corner) {
-    return inverse_depth<double>(theta, camera.unproject(corner)) > 0;
-  });
-}
-
-/// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
-inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcept {
-  return scale_shift(std::abs(area(text.patch.quad)), std::abs(area(quad)));
-}
-
-/// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.
-inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& covariance) noexcept {
-  const Vector3<double> n = plane_normal(theta);
-  const Matrix3<double> J = (Matrix3<double>::Identity() - n * n.transpose()) / theta.norm();
-  const Matrix3<double> of_normal = J * covariance * J.transpose();
-  return std::sqrt((std::max)(0.0, symmetric_eigen<double, 3>(of_normal).values[2]));
-}
-/// The same of a text.
-inline double normal_sigma(const TextObject& text) noexcept { return normal_sigma(text.theta, text.covariance); }
-
-TEXTPLANE_END_NAMESPACE
-
-#endif  // TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -34352,10 +34459,7 @@ TEXTPLANE_DEFERRED
 bool refine_text_plane(const TextOptions& options, const KeyframeLookup& keyframes, const std::vector<int>& ids,
                        const Vector3<double>& theta, double min_zncc, TextObject& text) {
   const TextKeyframe host = keyframes(text.host);
-  TextObject guess;
-  guess.patch.quad = text.patch.quad;
-  guess.patch.camera = text.patch.camera;
-  guess.theta = theta;
+  const TextObject guess = outline_of(text.patch, theta);
   std::vector<PlaneTarget> targets;
   std::vector<Pinhole<double>> cameras(ids.size());
   std::vector<double> limits;
@@ -34617,10 +34721,7 @@ bool plane_from_surface(const TextOptions& options, const PointLookup& points, c
 
   // A guess: across the ray to the text, at the depth of what is seen there.
   const Vector3<double> ray = camera.unproject(middle), centre = median(depths) * ray;
-  TextObject guess;
-  guess.patch.quad = text.patch.quad;
-  guess.patch.camera = camera;
-  guess.theta = centre / centre.squaredNorm();
+  TextObject guess = outline_of(text.patch, centre / centre.squaredNorm());
   guess.covariance = detail::guessed(guess.theta, centre, options.surface_guess_turn, options.surface_guess_depth);
   if (!fit_to_surface(points_beside(options, points, T_w_h, guess), centre, options, &guess.theta, &guess.covariance) ||
       !(normal_sigma(guess) <= detail::radians(options.surface_max_sigma)))
@@ -34670,7 +34771,7 @@ double depth_about(const std::vector<TextPoint>& points, const SE3d& T_c_w, cons
 /// the plane is implausible.
 TEXTPLANE_DEFERRED
 bool plane_from_inside_points(const TextOptions& options, const std::vector<Vector3<double>>& inside,
-                              const TextPatch& patch, Vector3<double>* theta, Matrix3<double>* covariance) {
+                              const TextPatch& patch, Vector3<double>* theta) {
   if (static_cast<int>(inside.size()) < options.min_corners) return false;
   std::vector<double> depths;
   for (const Vector3<double>& p : inside) depths.push_back(p.z());
@@ -34678,18 +34779,18 @@ bool plane_from_inside_points(const TextOptions& options, const std::vector<Vect
   const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad)), centre = depth * ray;
   const Vector3<double> guess = frontal_plane(ray, depth);
   const Matrix3<double> doubt = detail::guessed(guess, centre, options.surface_guess_turn, options.surface_guess_depth);
-  double sigma = 0.02 * depth;
+  std::vector<SurfacePoint> points;
+  for (const Vector3<double>& p : inside) points.push_back({p, 0.02 * depth, 0});
+  TextOptions fit = options;
+  fit.surface_min_points = 0.5 * options.min_corners;
+  std::vector<double> off(inside.size());
   for (int round = 0; round < options.plane_rounds; ++round) {
-    std::vector<SurfacePoint> points;
-    for (const Vector3<double>& p : inside) points.push_back({p, sigma, 0});
     *theta = guess;
-    *covariance = doubt;
-    TextOptions all = options;
-    all.surface_min_points = 0.5 * options.min_corners;
-    if (!fit_to_surface(points, centre, all, theta, covariance)) return false;
-    std::vector<double> off;
-    for (const Vector3<double>& p : inside) off.push_back(std::abs(1 - theta->dot(p)) / theta->norm());
-    sigma = std::clamp(1.4826 * median(off), 1e-4 * depth, 0.05 * depth);
+    Matrix3<double> covariance = doubt;
+    if (!fit_to_surface(points, centre, fit, theta, &covariance)) return false;
+    for (std::size_t i = 0; i < inside.size(); ++i) off[i] = std::abs(1 - theta->dot(inside[i])) / theta->norm();
+    const double sigma = std::clamp(1.4826 * median_in_place(off), 1e-4 * depth, 0.05 * depth);
+    for (SurfacePoint& point : points) point.sigma = sigma;
   }
   return is_plausible_plane(options, patch.camera, patch.quad, *theta);
 }
@@ -34759,9 +34860,7 @@ class BasicTextFinder {
     std::vector<Vector3<double>> from, to;
     if (id != text.host) learn(host, keyframe, points, text.patch.quad, notes, &from, &to);
     Vector3<double> theta;
-    Matrix3<double> covariance;
-    if (plane_from_inside_points(options_, notes.inside, text.patch, &theta, &covariance) && confirm(text, theta, id))
-      return true;
+    if (plane_from_inside_points(options_, notes.inside, text.patch, &theta) && confirm(text, theta, id)) return true;
     const Vector3<double> middle = text.patch.camera.unproject(centroid(text.patch.quad));
     if (id != text.host &&
         plane_from_text_matches(options_, from, to, keyframe.from(host), keyframe.camera.fx, middle, &theta) &&
@@ -34793,15 +34892,11 @@ class BasicTextFinder {
     if (!is_ok(cost.status)) return;
     const double least =
         text_zncc_limit(options_, options_.min_zncc, text.patch, level, text.theta, host, keyframe, T_k_h);
-    if (cost.zncc >= least) {
-      text.views.insert(std::upper_bound(text.views.begin(), text.views.end(), id), id);
-      text.failures = 0;
-    } else if (cost.zncc * options_.min_zncc < least * options_.cull_zncc &&
-               std::none_of(detections.begin(), detections.end(), [&](const TextDetection& detection) {
-                 return iou(quad, detection.quad) >= options_.confirm_iou;
-               })) {
-      ++text.failures;  // where the detector sees it, the image is blurred
-    }
+    count_view(options_, id, cost.zncc, least, text, [&] {
+      return std::any_of(detections.begin(), detections.end(), [&](const TextDetection& detection) {
+        return iou(quad, detection.quad) >= options_.confirm_iou;
+      });
+    });
   }
 
  private:
@@ -34812,10 +34907,7 @@ class BasicTextFinder {
         host.T_w_c * plane_point(theta, text.patch.camera.unproject(centroid(text.patch.quad)));
     int best = -1;
     double widest = 0;
-    TextObject guess;
-    guess.patch.quad = text.patch.quad;
-    guess.patch.camera = text.patch.camera;
-    guess.theta = theta;
+    const TextObject guess = outline_of(text.patch, theta);
     store_.for_each([&](int id, const TextKeyframe& keyframe) {
       Quad<double> quad;
       if (id == text.host || id > newest || keyframe.pyramid.levels < 1 ||
@@ -34979,51 +35071,6 @@ bool rehost(const TextOptions& options, const KeyframeLookup& keyframes, int id,
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_TEXT_HOSTING_HPP
-// The rules by which a text is believed, waits, or is dropped.
-#ifndef TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
-#define TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
-
-#include <vector>
-
-TEXTPLANE_BEGIN_NAMESPACE
-
-/// Did the detector see it often enough: min_detections, and detected_share of the frames that could have shown it?
-inline bool is_detected(const TextObject& text, const TextOptions& options) noexcept {
-  return text.detections >= options.min_detections && text.detections >= options.detected_share * text.shown;
-}
-
-/// Ready to be mapped: min_observations key frames show it, and it is_detected().
-inline bool is_proven(const TextObject& text, const TextOptions& options) noexcept {
-  return static_cast<int>(text.views.size()) + 1 >= options.min_observations && is_detected(text, options);
-}
-
-/// Has it waited too long for its plane, or to be mapped, after `age` key frames?
-inline bool is_overdue(const TextObject& text, const TextOptions& options, int age) noexcept {
-  return (text.state == TextState::candidate && age > options.patience) ||
-         (text.state == TextState::tentative && age > options.tentative_patience);
-}
-
-/// Have max_failures key frames in a row, and more than ever showed it, failed to?
-inline bool is_contradicted(const TextObject& text, const TextOptions& options) noexcept {
-  return text.failures >= options.max_failures && text.failures > static_cast<int>(text.views.size());
-}
-
-/// Is its normal less certain than refine_max_sigma?
-inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
-  return !(normal_sigma(text) <= detail::radians(options.refine_max_sigma));
-}
-
-/// Takes it out of use and frees its memory; its id stays.
-inline void drop(TextObject& text) noexcept {
-  text.state = TextState::dropped;
-  text.patch = TextPatch();
-  std::vector<int>().swap(text.views);
-  text.votes.clear();
-}
-
-TEXTPLANE_END_NAMESPACE
-
-#endif  // TEXTPLANE_LANDMARKS_TEXT_LIFE_HPP
 // TextMap: text objects for a system that has its own poses and points.
 //
 //   TextMap texts(camera);
@@ -35043,8 +35090,8 @@ TEXTPLANE_END_NAMESPACE
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -35236,10 +35283,7 @@ class BasicTextRefiner {
     for (const Estimate& e : estimates) mean += e.theta / n;
     for (const Estimate& e : estimates)
       covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
-    TextObject refined;
-    refined.patch.quad = text.patch.quad;
-    refined.patch.camera = text.patch.camera;
-    refined.theta = mean;
+    TextObject refined = outline_of(text.patch, mean);
     refined.covariance = covariance;
     if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
     const bool uncertain = is_uncertain(refined, options_);
@@ -35510,22 +35554,13 @@ class BasicTextMapping {
     const SE3d T_k_h = keyframe.from(store_.text_keyframe(text.host));
     if (text.has_plane()) return facing(text, T_k_h) > 0 && project_text(text, T_k_h, keyframe.camera, quad);
     if (!(notes.guess.norm() > 0)) return false;
-    TextObject guess;
-    guess.patch.quad = text.patch.quad;
-    guess.patch.camera = text.patch.camera;
-    guess.theta = notes.guess;
-    return project_text(guess, T_k_h, keyframe.camera, quad);
+    return project_text(outline_of(text.patch, notes.guess), T_k_h, keyframe.camera, quad);
   }
 
   // Counts detections for the texts that they fall on. Returns which of them are of known texts, or no quads of use.
   std::vector<char> associate(const TextKeyframe& keyframe, const std::vector<TextDetection>& detections) {
     std::vector<char> taken(detections.size(), 0);
     std::vector<Quad<double>> known;
-    for (std::size_t d = 0; d < detections.size(); ++d) {
-      const Quad<double>& quad = detections[d].quad;
-      taken[d] = !all_finite(quad) || !is_convex(quad) || std::abs(area(quad)) < options_.min_area ||
-                 !inside_image(quad, keyframe.width(), keyframe.height(), options_.border);
-    }
     for (std::size_t i = 0; i < objects_.size(); ++i) {
       TextObject& text = objects_[i];
       Quad<double> quad;
@@ -35543,13 +35578,8 @@ class BasicTextMapping {
       text.shown += shown ? 1 : 0;
     }
     for (std::size_t d = 0; d < detections.size(); ++d) {
-      const Quad<double>& quad = detections[d].quad;
-      if (taken[d]) continue;
-      taken[d] = std::any_of(known.begin(), known.end(), [&](const Quad<double>& other) {
-        const double smaller = (std::min)(std::abs(area(quad)), std::abs(area(other)));
-        return smaller > 0 && std::abs(area(intersection(quad, other))) > options_.overlap * smaller;
-      });
-      if (!taken[d]) known.push_back(quad);  // of detections on one another, the first counts
+      taken[d] = !may_begin(options_, detections[d].quad, keyframe.width(), keyframe.height(), known);
+      if (!taken[d]) known.push_back(detections[d].quad);  // of detections on one another, the first counts
     }
     return taken;
   }
@@ -35669,40 +35699,12 @@ struct FrameText {
   double share = 0;                    ///< Result: of the information on the camera's position, 0 to 1.
 };
 
-namespace detail {
-
-using Information6 = FixedMatrix<double, 6, 6>;
-
-// Robust normal equations of points about a pose, xi left. Returns the cost.
-inline double point_equations(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera,
-                              const SE3d& T_c_w, double scale, Information6* H, Vector6<double>* b) noexcept {
-  const Robust robust{RobustKind::huber, 2.4477};
-  double cost = 0;
-  for (const PosePointTerm& point : points) {
-    Vector3<double> p;
-    Vector2<double> e;
-    if (!reproject(point, T_c_w, camera, &p, &e)) continue;
-    const double sigma = point.sigma * scale, squared = e.squaredNorm() / (sigma * sigma);
-    cost += robust.rho(squared);
-    const double w = robust.weight(squared) / (sigma * sigma), z = 1 / p.z(), u = p.x() * z, v = p.y() * z;
-    FixedMatrix<double, 2, 6> J;
-    J << z, 0, -u * z, -u * v, 1 + u * u, -v, 0, z, -v * z, -(1 + v * v), u * v, u;
-    J.row(0) *= camera.fx;
-    J.row(1) *= camera.fy;
-    *H += w * J.transpose() * J;
-    *b += w * J.transpose() * e;
-  }
-  return cost;
-}
-
-}  // namespace detail
-
 /// Solves for the pose of one frame; keeps its memory. For one thread at a time.
 TEXTPLANE_DEFERRED
 class BasicTextPose {
  public:
-  /// Scale of the points' residuals about a pose, in units of their sigmas: 1.4826 times the median of |e| / sigma over
-  /// that of a Rayleigh distribution, at least `least`. 1 for fewer than eight points.
+  /// Scale of the points' residuals about a pose, in units of their sigmas: the median of |e| / sigma over that of a
+  /// Rayleigh distribution, at least `least`. 1 for fewer than eight points.
   double point_scale(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera, const SE3d& T_c_w,
                      double least) {
     errors_.clear();
@@ -35712,10 +35714,8 @@ class BasicTextPose {
       if (detail::reproject(point, T_c_w, camera, &p, &e)) errors_.push_back(e.norm() / point.sigma);
     }
     if (errors_.size() < 8) return 1;
-    const auto middle = errors_.begin() + static_cast<std::ptrdiff_t>(errors_.size() / 2);
-    std::nth_element(errors_.begin(), middle, errors_.end());
     constexpr double kRayleighMedian = 1.1774100225154747;
-    return (std::max)(least, *middle / kRayleighMedian);
+    return (std::max)(least, median_in_place(errors_) / kRayleighMedian);
   }
 
   /// Iterates from *T_c_w over the texts that are `used`, at level 0. False where the terms do not determine the pose.
@@ -35726,21 +35726,26 @@ class BasicTextPose {
     for (const FrameText& text : texts) photometric_.reserve(text.object->patch.max_pixels());
     eliminated_.resize(texts.size());
     for (int k = 0; k < iterations; ++k) {
-      Information6 H = Information6::Zero();
-      Vector6<double> b = Vector6<double>::Zero();
-      detail::point_equations(points, image.camera, *T_c_w, scale, &H, &b);
-      for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, &H, &b);
-      const Ldlt<double, 6> system(H, 1e-12);
-      if (!system.ok()) return false;
-      const Vector6<double> step = -system.solve(b);
+      detail::PoseSystem system;
+      for (PosePointTerm point : points) {
+        point.sigma *= scale;
+        detail::add_point(point, *T_c_w, image.camera, robust_, system);
+      }
+      detail::mirror(system);
+      for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, system);
+      const Ldlt<double, 6> factors(system.H, 1e-12);
+      if (!factors.ok()) return false;
+      const Vector6<double> step = -factors.solve(system.b);
       if (!all_finite(step)) return false;
       *T_c_w = renormalised(se3_exp<double>(step) * *T_c_w);
       for (std::size_t i = 0; i < texts.size(); ++i)
         if (eliminated_[i].in)
           theta_[i] -= eliminated_[i].C_inverse * (eliminated_[i].h + eliminated_[i].B.transpose() * step);
-      information_ = H;
+      information_ = system.H;
       if (step.norm() < 1e-7) break;
     }
+    const double all = information_.template topLeftCorner<3, 3>().trace();
+    for (FrameText& text : texts) text.share = all > 0 ? text.share / all : 0;
     return true;
   }
 
@@ -35748,7 +35753,6 @@ class BasicTextPose {
   const FixedMatrix<double, 6, 6>& information() const noexcept { return information_; }
 
  private:
-  using Information6 = FixedMatrix<double, 6, 6>;
   struct Eliminated {
     bool in = false;
     FixedMatrix<double, 6, 3> B;
@@ -35756,10 +35760,10 @@ class BasicTextPose {
     Vector3<double> h;
   };
 
-  void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, Information6* H,
-                Vector6<double>* b) {
+  void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, detail::PoseSystem& system) {
     Eliminated& out = eliminated_[i];
     out.in = false;
+    text.share = 0;
     if (!text.used) return;
     const TextObject& object = *text.object;
     const auto input = photometric_input(object.patch, 0, image.pyramid, image.camera, text.scale_shift);
@@ -35780,9 +35784,9 @@ class BasicTextPose {
     out.h = weight * n.b.template tail<3>() + known * (theta_[i] - object.theta);
     out.in = true;
     const FixedMatrix<double, 6, 3> K = out.B * out.C_inverse;
-    const Information6 effective = A - K * out.B.transpose();
-    *H += effective;
-    *b += weight * n.b.template head<6>() - K * out.h;
+    const FixedMatrix<double, 6, 6> effective = A - K * out.B.transpose();
+    system.H += effective;
+    system.b += weight * n.b.template head<6>() - K * out.h;
     text.share = effective.template topLeftCorner<3, 3>().trace();
   }
 
@@ -35790,7 +35794,8 @@ class BasicTextPose {
   std::vector<Vector3<double>> theta_;
   std::vector<Eliminated> eliminated_;
   PhotometricWorkspace photometric_;
-  Information6 information_ = Information6::Zero();
+  FixedMatrix<double, 6, 6> information_ = FixedMatrix<double, 6, 6>::Zero();
+  Robust robust_ = PoseOptions{}.point_robust;
 };
 using TextPose = BasicTextPose<>;  ///< It is compiled only where it is used.
 
@@ -35868,10 +35873,9 @@ class BasicTextMap {
     // What the points say alone.
     const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
     SE3d by_points = T_c_w;
-    for (FrameText& text : visible_) text.used = false;
     const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
     if (!has_points) by_points = T_c_w;
-    const double alone = has_points ? position_variance(pose_.information()) : 0;
+    const double alone = has_points ? position_sigma(pose_.information()) : 0;
 
     SE3d both = by_points;
     approach(image, scale, &both);
@@ -35892,7 +35896,7 @@ class BasicTextMap {
       fit.texts = 0;
       return fit;
     }
-    fit.gain = has_points ? 1 - std::sqrt(position_variance(pose_.information()) / alone) : 1;
+    fit.gain = has_points ? 1 - position_sigma(pose_.information()) / alone : 1;
     if (fit.gain < options_.least_gain) return fit;
     if (has_points &&
         pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
@@ -35957,12 +35961,6 @@ class BasicTextMap {
   }
 
  private:
-  // Of the camera's centre; infinite where it is not determined.
-  static double position_variance(const FixedMatrix<double, 6, 6>& information) noexcept {
-    const Ldlt<double, 6> ldlt(information);
-    return ldlt.ok() ? ldlt.inverse().template topLeftCorner<3, 3>().trace() : HUGE_VAL;
-  }
-
   TextImage image_of(const PyramidView& pyramid) const {
     TextImage image;
     image.pyramid = pyramid;

@@ -99,6 +99,15 @@ TEST(QuadTest, IouEnds) {
   EXPECT_EQ(tp::iou(Quad(), Quad()), 0);
 }
 
+TEST(QuadTest, OverlapEnds) {
+  const Quad a = rectangle(0, 0, 10, 6);
+  EXPECT_DOUBLE_EQ(tp::overlap(a, rectangle(0, 0, 5, 6)), 1) << "the smaller one lies in the other";
+  EXPECT_DOUBLE_EQ(tp::overlap(rectangle(0, 0, 5, 6), reversed(a)), 1);
+  EXPECT_DOUBLE_EQ(tp::overlap(a, rectangle(8, 0, 12, 6)), 0.5);
+  EXPECT_EQ(tp::overlap(a, rectangle(20, 0, 25, 6)), 0);
+  EXPECT_EQ(tp::overlap(a, Quad()), 0);
+}
+
 TYPED_TEST(Quads, ClipToTheImage) {
   using S = TypeParam;
   const auto clipped = [](const Quad& q) { return value(tp::area(tp::clip_to_image(q.cast<S>(), 101, 51))); };

@@ -20,12 +20,6 @@ namespace {
 
 using textplane::KeyframeLookup;
 
-double overlap(const Quad<double>& a, const Quad<double>& b) {
-  const double inter = std::abs(textplane::area(textplane::intersection(a, b)));
-  const double smaller = std::min(std::abs(textplane::area(a)), std::abs(textplane::area(b)));
-  return smaller > 0 ? inter / smaller : 0;
-}
-
 }  // namespace
 
 bool TextMapper::meets(const std::vector<Detection>& detections, const Quad<double>& quad) const {
@@ -121,15 +115,9 @@ std::vector<Detection> TextMapper::unknown(const std::vector<Detection>& detecti
   }
   std::vector<Detection> accepted;
   for (const Detection& detection : detections) {
-    const Quad<double>& quad = detection.quad;
-    if (!textplane::is_convex(quad) || std::abs(textplane::area(quad)) < parameters_.text.min_area) continue;
-    if (!textplane::inside_image(quad, map_.width, map_.height, parameters_.text.border)) continue;
-    const bool taken = std::any_of(known.begin(), known.end(), [&](const Quad<double>& other) {
-      return overlap(quad, other) > parameters_.text.overlap;
-    });
-    if (taken) continue;
+    if (!may_begin(parameters_.text, detection.quad, map_.width, map_.height, known)) continue;
     accepted.push_back(detection);
-    known.push_back(quad);
+    known.push_back(detection.quad);
   }
   return accepted;
 }
@@ -215,13 +203,8 @@ void TextMapper::observe(TextObject& text, int keyframe, double min_share) {
   if (!textplane::is_ok(cost.status)) return;
   const double least =
       text_zncc_limit(parameters_.text, parameters_.text.min_zncc, text.patch, level, text.theta, host, target, T_t_h);
-  if (cost.zncc >= least) {
-    text.views.push_back(keyframe);
-    text.failures = 0;
-  } else if (cost.zncc * parameters_.text.min_zncc < least * parameters_.text.cull_zncc &&
-             !meets(map_.keyframe(keyframe).frame.detections, quad)) {
-    ++text.failures;  // where the detector sees it, the image is blurred
-  }
+  count_view(parameters_.text, keyframe, cost.zncc, least, text,
+             [&] { return meets(map_.keyframe(keyframe).frame.detections, quad); });
 }
 
 void TextMapper::observe_again() {

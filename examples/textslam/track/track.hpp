@@ -3,10 +3,9 @@
 #define TEXTSLAM_TRACK_TRACK_HPP
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
-#include "textplane/core/numeric.hpp"
+#include "textplane/solver/pose.hpp"
 #include "textslam/map/map.hpp"
 
 namespace textslam {
@@ -32,12 +31,7 @@ inline Matrix6 rescaled(Matrix6 information, double scale) {
   return information;
 }
 
-/// Standard deviation of the camera's position: the square root of the covariance's trace. Infinite where the
-/// information leaves a direction open.
-inline double position_sigma(const Matrix6& information) {
-  const textplane::Ldlt<double, 6> ldlt(information);
-  return ldlt.ok() ? std::sqrt(ldlt.inverse().topLeftCorner<3, 3>().trace()) : std::numeric_limits<double>::infinity();
-}
+using textplane::position_sigma;
 
 /// The observations of its point, or its own while it has none.
 inline const std::vector<PointObservation>& observations_of(const Map& map, const Track& track) {

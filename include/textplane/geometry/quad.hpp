@@ -252,6 +252,14 @@ S iou(const Quad<S>& a, const Quad<S>& b) noexcept {
   return common / (area_a + area_b - common);
 }
 
+/// The area that two convex quads share, as a share of the smaller one's; 0 where either has no area.
+template <class S>
+S overlap(const Quad<S>& a, const Quad<S>& b) noexcept {
+  using std::abs;
+  const S area_a = abs(area(a)), area_b = abs(area(b)), smaller = area_b < area_a ? area_b : area_a;
+  return smaller > S(0) ? area(intersection(a, b)) / smaller : S(0);
+}
+
 /// Pixel of level 0 in the pixels of pyramid level l: (x + 0.5) / 2^l - 0.5.
 template <class S>
 Vector2<S> point_to_level(const Vector2<S>& p, int level) noexcept {

@@ -15,9 +15,9 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// Key frames in the order of their ids. An image is a view of the host's, or the store's own.
 class KeyframeStore {
  public:
-  /// False, and nothing changed, for an id that is in use. `own`: the image of `keyframe`, or null.
-  bool add(int id, TextKeyframe keyframe, std::unique_ptr<Pyramid> own) {
-    if (own) keyframe.pyramid = own->view();
+  /// False, and nothing changed, for an id that is in use. `own`: what holds the image of `keyframe`, or null where the
+  /// host does.
+  bool add(int id, const TextKeyframe& keyframe, std::unique_ptr<Pyramid> own) {
     return all_.emplace(id, Entry{keyframe, std::move(own)}).second;
   }
   bool has(int id) const { return all_.count(id) != 0; }  ///< Whether it knows this key frame.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "textplane/landmarks/keyframe_store.hpp"
+#include "textplane/landmarks/text_life.hpp"
 #include "textplane/landmarks/text_map_input.hpp"
 #include "textplane/landmarks/text_plane.hpp"
 #include "textplane/landmarks/text_proposal.hpp"
@@ -42,9 +43,7 @@ class BasicTextFinder {
     std::vector<Vector3<double>> from, to;
     if (id != text.host) learn(host, keyframe, points, text.patch.quad, notes, &from, &to);
     Vector3<double> theta;
-    Matrix3<double> covariance;
-    if (plane_from_inside_points(options_, notes.inside, text.patch, &theta, &covariance) && confirm(text, theta, id))
-      return true;
+    if (plane_from_inside_points(options_, notes.inside, text.patch, &theta) && confirm(text, theta, id)) return true;
     const Vector3<double> middle = text.patch.camera.unproject(centroid(text.patch.quad));
     if (id != text.host &&
         plane_from_text_matches(options_, from, to, keyframe.from(host), keyframe.camera.fx, middle, &theta) &&
@@ -76,15 +75,11 @@ class BasicTextFinder {
     if (!is_ok(cost.status)) return;
     const double least =
         text_zncc_limit(options_, options_.min_zncc, text.patch, level, text.theta, host, keyframe, T_k_h);
-    if (cost.zncc >= least) {
-      text.views.insert(std::upper_bound(text.views.begin(), text.views.end(), id), id);
-      text.failures = 0;
-    } else if (cost.zncc * options_.min_zncc < least * options_.cull_zncc &&
-               std::none_of(detections.begin(), detections.end(), [&](const TextDetection& detection) {
-                 return iou(quad, detection.quad) >= options_.confirm_iou;
-               })) {
-      ++text.failures;  // where the detector sees it, the image is blurred
-    }
+    count_view(options_, id, cost.zncc, least, text, [&] {
+      return std::any_of(detections.begin(), detections.end(), [&](const TextDetection& detection) {
+        return iou(quad, detection.quad) >= options_.confirm_iou;
+      });
+    });
   }
 
  private:
@@ -95,10 +90,7 @@ class BasicTextFinder {
         host.T_w_c * plane_point(theta, text.patch.camera.unproject(centroid(text.patch.quad)));
     int best = -1;
     double widest = 0;
-    TextObject guess;
-    guess.patch.quad = text.patch.quad;
-    guess.patch.camera = text.patch.camera;
-    guess.theta = theta;
+    const TextObject guess = outline_of(text.patch, theta);
     store_.for_each([&](int id, const TextKeyframe& keyframe) {
       Quad<double> quad;
       if (id == text.host || id > newest || keyframe.pyramid.levels < 1 ||

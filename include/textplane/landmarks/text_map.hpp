@@ -17,8 +17,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -95,10 +95,9 @@ class BasicTextMap {
     // What the points say alone.
     const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
     SE3d by_points = T_c_w;
-    for (FrameText& text : visible_) text.used = false;
     const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
     if (!has_points) by_points = T_c_w;
-    const double alone = has_points ? position_variance(pose_.information()) : 0;
+    const double alone = has_points ? position_sigma(pose_.information()) : 0;
 
     SE3d both = by_points;
     approach(image, scale, &both);
@@ -119,7 +118,7 @@ class BasicTextMap {
       fit.texts = 0;
       return fit;
     }
-    fit.gain = has_points ? 1 - std::sqrt(position_variance(pose_.information()) / alone) : 1;
+    fit.gain = has_points ? 1 - position_sigma(pose_.information()) / alone : 1;
     if (fit.gain < options_.least_gain) return fit;
     if (has_points &&
         pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
@@ -184,12 +183,6 @@ class BasicTextMap {
   }
 
  private:
-  // Of the camera's centre; infinite where it is not determined.
-  static double position_variance(const FixedMatrix<double, 6, 6>& information) noexcept {
-    const Ldlt<double, 6> ldlt(information);
-    return ldlt.ok() ? ldlt.inverse().template topLeftCorner<3, 3>().trace() : HUGE_VAL;
-  }
-
   TextImage image_of(const PyramidView& pyramid) const {
     TextImage image;
     image.pyramid = pyramid;

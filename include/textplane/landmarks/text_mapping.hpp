@@ -100,22 +100,13 @@ class BasicTextMapping {
     const SE3d T_k_h = keyframe.from(store_.text_keyframe(text.host));
     if (text.has_plane()) return facing(text, T_k_h) > 0 && project_text(text, T_k_h, keyframe.camera, quad);
     if (!(notes.guess.norm() > 0)) return false;
-    TextObject guess;
-    guess.patch.quad = text.patch.quad;
-    guess.patch.camera = text.patch.camera;
-    guess.theta = notes.guess;
-    return project_text(guess, T_k_h, keyframe.camera, quad);
+    return project_text(outline_of(text.patch, notes.guess), T_k_h, keyframe.camera, quad);
   }
 
   // Counts detections for the texts that they fall on. Returns which of them are of known texts, or no quads of use.
   std::vector<char> associate(const TextKeyframe& keyframe, const std::vector<TextDetection>& detections) {
     std::vector<char> taken(detections.size(), 0);
     std::vector<Quad<double>> known;
-    for (std::size_t d = 0; d < detections.size(); ++d) {
-      const Quad<double>& quad = detections[d].quad;
-      taken[d] = !all_finite(quad) || !is_convex(quad) || std::abs(area(quad)) < options_.min_area ||
-                 !inside_image(quad, keyframe.width(), keyframe.height(), options_.border);
-    }
     for (std::size_t i = 0; i < objects_.size(); ++i) {
       TextObject& text = objects_[i];
       Quad<double> quad;
@@ -133,13 +124,8 @@ class BasicTextMapping {
       text.shown += shown ? 1 : 0;
     }
     for (std::size_t d = 0; d < detections.size(); ++d) {
-      const Quad<double>& quad = detections[d].quad;
-      if (taken[d]) continue;
-      taken[d] = std::any_of(known.begin(), known.end(), [&](const Quad<double>& other) {
-        const double smaller = (std::min)(std::abs(area(quad)), std::abs(area(other)));
-        return smaller > 0 && std::abs(area(intersection(quad, other))) > options_.overlap * smaller;
-      });
-      if (!taken[d]) known.push_back(quad);  // of detections on one another, the first counts
+      taken[d] = !may_begin(options_, detections[d].quad, keyframe.width(), keyframe.height(), known);
+      if (!taken[d]) known.push_back(detections[d].quad);  // of detections on one another, the first counts
     }
     return taken;
   }

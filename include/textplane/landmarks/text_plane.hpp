@@ -73,10 +73,7 @@ TEXTPLANE_DEFERRED
 bool refine_text_plane(const TextOptions& options, const KeyframeLookup& keyframes, const std::vector<int>& ids,
                        const Vector3<double>& theta, double min_zncc, TextObject& text) {
   const TextKeyframe host = keyframes(text.host);
-  TextObject guess;
-  guess.patch.quad = text.patch.quad;
-  guess.patch.camera = text.patch.camera;
-  guess.theta = theta;
+  const TextObject guess = outline_of(text.patch, theta);
   std::vector<PlaneTarget> targets;
   std::vector<Pinhole<double>> cameras(ids.size());
   std::vector<double> limits;

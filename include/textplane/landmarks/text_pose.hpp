@@ -33,40 +33,12 @@ struct FrameText {
   double share = 0;                    ///< Result: of the information on the camera's position, 0 to 1.
 };
 
-namespace detail {
-
-using Information6 = FixedMatrix<double, 6, 6>;
-
-// Robust normal equations of points about a pose, xi left. Returns the cost.
-inline double point_equations(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera,
-                              const SE3d& T_c_w, double scale, Information6* H, Vector6<double>* b) noexcept {
-  const Robust robust{RobustKind::huber, 2.4477};
-  double cost = 0;
-  for (const PosePointTerm& point : points) {
-    Vector3<double> p;
-    Vector2<double> e;
-    if (!reproject(point, T_c_w, camera, &p, &e)) continue;
-    const double sigma = point.sigma * scale, squared = e.squaredNorm() / (sigma * sigma);
-    cost += robust.rho(squared);
-    const double w = robust.weight(squared) / (sigma * sigma), z = 1 / p.z(), u = p.x() * z, v = p.y() * z;
-    FixedMatrix<double, 2, 6> J;
-    J << z, 0, -u * z, -u * v, 1 + u * u, -v, 0, z, -v * z, -(1 + v * v), u * v, u;
-    J.row(0) *= camera.fx;
-    J.row(1) *= camera.fy;
-    *H += w * J.transpose() * J;
-    *b += w * J.transpose() * e;
-  }
-  return cost;
-}
-
-}  // namespace detail
-
 /// Solves for the pose of one frame; keeps its memory. For one thread at a time.
 TEXTPLANE_DEFERRED
 class BasicTextPose {
  public:
-  /// Scale of the points' residuals about a pose, in units of their sigmas: 1.4826 times the median of |e| / sigma over
-  /// that of a Rayleigh distribution, at least `least`. 1 for fewer than eight points.
+  /// Scale of the points' residuals about a pose, in units of their sigmas: the median of |e| / sigma over that of a
+  /// Rayleigh distribution, at least `least`. 1 for fewer than eight points.
   double point_scale(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera, const SE3d& T_c_w,
                      double least) {
     errors_.clear();
@@ -76,10 +48,8 @@ class BasicTextPose {
       if (detail::reproject(point, T_c_w, camera, &p, &e)) errors_.push_back(e.norm() / point.sigma);
     }
     if (errors_.size() < 8) return 1;
-    const auto middle = errors_.begin() + static_cast<std::ptrdiff_t>(errors_.size() / 2);
-    std::nth_element(errors_.begin(), middle, errors_.end());
     constexpr double kRayleighMedian = 1.1774100225154747;
-    return (std::max)(least, *middle / kRayleighMedian);
+    return (std::max)(least, median_in_place(errors_) / kRayleighMedian);
   }
 
   /// Iterates from *T_c_w over the texts that are `used`, at level 0. False where the terms do not determine the pose.
@@ -90,21 +60,26 @@ class BasicTextPose {
     for (const FrameText& text : texts) photometric_.reserve(text.object->patch.max_pixels());
     eliminated_.resize(texts.size());
     for (int k = 0; k < iterations; ++k) {
-      Information6 H = Information6::Zero();
-      Vector6<double> b = Vector6<double>::Zero();
-      detail::point_equations(points, image.camera, *T_c_w, scale, &H, &b);
-      for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, &H, &b);
-      const Ldlt<double, 6> system(H, 1e-12);
-      if (!system.ok()) return false;
-      const Vector6<double> step = -system.solve(b);
+      detail::PoseSystem system;
+      for (PosePointTerm point : points) {
+        point.sigma *= scale;
+        detail::add_point(point, *T_c_w, image.camera, robust_, system);
+      }
+      detail::mirror(system);
+      for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, system);
+      const Ldlt<double, 6> factors(system.H, 1e-12);
+      if (!factors.ok()) return false;
+      const Vector6<double> step = -factors.solve(system.b);
       if (!all_finite(step)) return false;
       *T_c_w = renormalised(se3_exp<double>(step) * *T_c_w);
       for (std::size_t i = 0; i < texts.size(); ++i)
         if (eliminated_[i].in)
           theta_[i] -= eliminated_[i].C_inverse * (eliminated_[i].h + eliminated_[i].B.transpose() * step);
-      information_ = H;
+      information_ = system.H;
       if (step.norm() < 1e-7) break;
     }
+    const double all = information_.template topLeftCorner<3, 3>().trace();
+    for (FrameText& text : texts) text.share = all > 0 ? text.share / all : 0;
     return true;
   }
 
@@ -112,7 +87,6 @@ class BasicTextPose {
   const FixedMatrix<double, 6, 6>& information() const noexcept { return information_; }
 
  private:
-  using Information6 = FixedMatrix<double, 6, 6>;
   struct Eliminated {
     bool in = false;
     FixedMatrix<double, 6, 3> B;
@@ -120,10 +94,10 @@ class BasicTextPose {
     Vector3<double> h;
   };
 
-  void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, Information6* H,
-                Vector6<double>* b) {
+  void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, detail::PoseSystem& system) {
     Eliminated& out = eliminated_[i];
     out.in = false;
+    text.share = 0;
     if (!text.used) return;
     const TextObject& object = *text.object;
     const auto input = photometric_input(object.patch, 0, image.pyramid, image.camera, text.scale_shift);
@@ -144,9 +118,9 @@ class BasicTextPose {
     out.h = weight * n.b.template tail<3>() + known * (theta_[i] - object.theta);
     out.in = true;
     const FixedMatrix<double, 6, 3> K = out.B * out.C_inverse;
-    const Information6 effective = A - K * out.B.transpose();
-    *H += effective;
-    *b += weight * n.b.template head<6>() - K * out.h;
+    const FixedMatrix<double, 6, 6> effective = A - K * out.B.transpose();
+    system.H += effective;
+    system.b += weight * n.b.template head<6>() - K * out.h;
     text.share = effective.template topLeftCorner<3, 3>().trace();
   }
 
@@ -154,7 +128,8 @@ class BasicTextPose {
   std::vector<Vector3<double>> theta_;
   std::vector<Eliminated> eliminated_;
   PhotometricWorkspace photometric_;
-  Information6 information_ = Information6::Zero();
+  FixedMatrix<double, 6, 6> information_ = FixedMatrix<double, 6, 6>::Zero();
+  Robust robust_ = PoseOptions{}.point_robust;
 };
 using TextPose = BasicTextPose<>;  ///< It is compiled only where it is used.
 

@@ -48,7 +48,7 @@ double depth_about(const std::vector<TextPoint>& points, const SE3d& T_c_w, cons
 /// the plane is implausible.
 TEXTPLANE_DEFERRED
 bool plane_from_inside_points(const TextOptions& options, const std::vector<Vector3<double>>& inside,
-                              const TextPatch& patch, Vector3<double>* theta, Matrix3<double>* covariance) {
+                              const TextPatch& patch, Vector3<double>* theta) {
   if (static_cast<int>(inside.size()) < options.min_corners) return false;
   std::vector<double> depths;
   for (const Vector3<double>& p : inside) depths.push_back(p.z());
@@ -56,18 +56,18 @@ bool plane_from_inside_points(const TextOptions& options, const std::vector<Vect
   const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad)), centre = depth * ray;
   const Vector3<double> guess = frontal_plane(ray, depth);
   const Matrix3<double> doubt = detail::guessed(guess, centre, options.surface_guess_turn, options.surface_guess_depth);
-  double sigma = 0.02 * depth;
+  std::vector<SurfacePoint> points;
+  for (const Vector3<double>& p : inside) points.push_back({p, 0.02 * depth, 0});
+  TextOptions fit = options;
+  fit.surface_min_points = 0.5 * options.min_corners;
+  std::vector<double> off(inside.size());
   for (int round = 0; round < options.plane_rounds; ++round) {
-    std::vector<SurfacePoint> points;
-    for (const Vector3<double>& p : inside) points.push_back({p, sigma, 0});
     *theta = guess;
-    *covariance = doubt;
-    TextOptions all = options;
-    all.surface_min_points = 0.5 * options.min_corners;
-    if (!fit_to_surface(points, centre, all, theta, covariance)) return false;
-    std::vector<double> off;
-    for (const Vector3<double>& p : inside) off.push_back(std::abs(1 - theta->dot(p)) / theta->norm());
-    sigma = std::clamp(1.4826 * median(off), 1e-4 * depth, 0.05 * depth);
+    Matrix3<double> covariance = doubt;
+    if (!fit_to_surface(points, centre, fit, theta, &covariance)) return false;
+    for (std::size_t i = 0; i < inside.size(); ++i) off[i] = std::abs(1 - theta->dot(inside[i])) / theta->norm();
+    const double sigma = std::clamp(1.4826 * median_in_place(off), 1e-4 * depth, 0.05 * depth);
+    for (SurfacePoint& point : points) point.sigma = sigma;
   }
   return is_plausible_plane(options, patch.camera, patch.quad, *theta);
 }

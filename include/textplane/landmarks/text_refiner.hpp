@@ -90,10 +90,7 @@ class BasicTextRefiner {
     for (const Estimate& e : estimates) mean += e.theta / n;
     for (const Estimate& e : estimates)
       covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
-    TextObject refined;
-    refined.patch.quad = text.patch.quad;
-    refined.patch.camera = text.patch.camera;
-    refined.theta = mean;
+    TextObject refined = outline_of(text.patch, mean);
     refined.covariance = covariance;
     if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
     const bool uncertain = is_uncertain(refined, options_);

@@ -207,10 +207,7 @@ bool plane_from_surface(const TextOptions& options, const PointLookup& points, c
 
   // A guess: across the ray to the text, at the depth of what is seen there.
   const Vector3<double> ray = camera.unproject(middle), centre = median(depths) * ray;
-  TextObject guess;
-  guess.patch.quad = text.patch.quad;
-  guess.patch.camera = camera;
-  guess.theta = centre / centre.squaredNorm();
+  TextObject guess = outline_of(text.patch, centre / centre.squaredNorm());
   guess.covariance = detail::guessed(guess.theta, centre, options.surface_guess_turn, options.surface_guess_depth);
   if (!fit_to_surface(points_beside(options, points, T_w_h, guess), centre, options, &guess.theta, &guess.covariance) ||
       !(normal_sigma(guess) <= detail::radians(options.surface_max_sigma)))

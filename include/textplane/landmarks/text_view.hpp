@@ -27,6 +27,15 @@ inline double degrees_between(const Vector3<double>& a, const Vector3<double>& b
 }
 }  // namespace detail
 
+/// A text that has its patch's quad and camera and this plane, and no more: what the functions below look at.
+inline TextObject outline_of(const TextPatch& patch, const Vector3<double>& theta) {
+  TextObject text;
+  text.patch.quad = patch.quad;
+  text.patch.camera = patch.camera;
+  text.theta = theta;
+  return text;
+}
+
 /// The text's quad as seen by the camera; false where a corner is behind it.
 inline bool project_text(const TextObject& text, const SE3d& T_t_h, const Pinhole<double>& camera,
                          Quad<double>* quad) noexcept {

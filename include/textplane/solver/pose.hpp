@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "textplane/geometry/quad_projection.hpp"
 #include "textplane/solver/pose_problem.hpp"
@@ -31,6 +32,15 @@ struct PoseResult {
   Path path = Path::kernel;  ///< Path::reference where the slow reference evaluated any text.
   Status status = Status::invalid_argument;  ///< Why it ended: see above.
 };
+
+/// Standard deviation of the camera's position by PoseResult::information: the square root of the covariance's trace.
+/// Infinite where the information leaves a direction open.
+inline double position_sigma(const FixedMatrix<double, 6, 6>& information) noexcept {
+  const Ldlt<double, 6> ldlt(information);
+  if (!ldlt.ok()) return std::numeric_limits<double>::infinity();
+  const FixedMatrix<double, 6, 6> covariance = ldlt.inverse();
+  return std::sqrt(covariance(0, 0) + covariance(1, 1) + covariance(2, 2));
+}
 
 /// Result of refine_pose().
 struct PoseFit : PoseResult {

@@ -36,6 +36,33 @@ bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const Pinhole<S>&
   return is_finite((*e)[0]) && is_finite((*e)[1]) && valid_sigma(term.sigma);
 }
 
+/// Adds a point's part to the lower triangle of H, to b and to the cost. False where reproject() is.
+inline bool add_point(const PosePointTerm& term, const SE3d& T_t_w, const Pinhole<double>& camera, const Robust& robust,
+                      PoseSystem& system) noexcept {
+  Vector3<double> p;
+  Vector2<double> e;
+  if (!reproject(term, T_t_w, camera, &p, &e)) return false;
+  const double information = 1.0 / (term.sigma * term.sigma), r2 = e.squaredNorm() * information;
+  const double weight = robust.weight(r2) * information;
+  const double iz = 1.0 / p[2], u = p[0] * iz, v = p[1] * iz, fx = camera.fx, fy = camera.fy;
+  // d e / d xi from dp = v + omega x p.
+  const double jx[6] = {fx * iz, 0, -fx * u * iz, -fx * u * v, fx * (1 + u * u), -fx * v};
+  const double jy[6] = {0, fy * iz, -fy * v * iz, -fy * (1 + v * v), fy * u * v, fy * u};
+  for (int i = 0; i < 6; ++i) {
+    const double wx = weight * jx[i], wy = weight * jy[i];
+    system.b[i] += wx * e[0] + wy * e[1];
+    for (int j = 0; j <= i; ++j) system.H(i, j) += wx * jx[j] + wy * jy[j];
+  }
+  system.cost += robust.rho(r2);
+  return true;
+}
+
+/// H's upper triangle becomes its lower one.
+inline void mirror(PoseSystem& system) noexcept {
+  for (int i = 0; i < 6; ++i)
+    for (int j = i + 1; j < 6; ++j) system.H(i, j) = system.H(j, i);
+}
+
 template <class View>
 class PoseProblem {
  public:
@@ -74,12 +101,11 @@ class PoseProblem {
       ++active_texts_;
     }
     for (int i = 0; i < point_count_; ++i) {
-      const bool active = add_point(points_[i], T_t_w, system);
+      const bool active = add_point(points_[i], T_t_w, camera_, options_.point_robust, system);
       memory_.points_[static_cast<std::size_t>(i)] = active;
       active_points_ += active;
     }
-    for (int i = 0; i < 6; ++i)
-      for (int j = i + 1; j < 6; ++j) system.H(i, j) = system.H(j, i);
+    mirror(system);
     system.status = active_texts_ + active_points_ > 0 ? Status::ok : trouble;
     return system;
   }
@@ -160,25 +186,6 @@ class PoseProblem {
     }
     system.cost += state.weight * n.cost;
     return Status::ok;
-  }
-
-  bool add_point(const PosePointTerm& term, const SE3d& T_t_w, PoseSystem& system) noexcept {
-    Vector3<double> p;
-    Vector2<double> e;
-    if (!reproject(term, T_t_w, camera_, &p, &e)) return false;
-    const double information = 1.0 / (term.sigma * term.sigma), r2 = e.squaredNorm() * information;
-    const double weight = options_.point_robust.weight(r2) * information;
-    const double iz = 1.0 / p[2], u = p[0] * iz, v = p[1] * iz, fx = camera_.fx, fy = camera_.fy;
-    // d e / d xi from dp = v + omega x p.
-    const double jx[6] = {fx * iz, 0, -fx * u * iz, -fx * u * v, fx * (1 + u * u), -fx * v};
-    const double jy[6] = {0, fy * iz, -fy * v * iz, -fy * (1 + v * v), fy * u * v, fy * u};
-    for (int i = 0; i < 6; ++i) {
-      const double wx = weight * jx[i], wy = weight * jy[i];
-      system.b[i] += wx * e[0] + wy * e[1];
-      for (int j = 0; j <= i; ++j) system.H(i, j) += wx * jx[j] + wy * jy[j];
-    }
-    system.cost += options_.point_robust.rho(r2);
-    return true;
   }
 
   const PoseTextTerm* texts_;
