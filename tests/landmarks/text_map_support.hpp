@@ -78,13 +78,16 @@ class TextMapTest : public testing::Test {
     }
     return out;
   }
-  // `map` after key frames 0 to last.
-  void walk(TextMap& map, int last, bool with_points = true) const {
+  // `map` after key frames 0 to last, which tell it points_at(pose).
+  template <class PointsAt>
+  void walk(TextMap& map, int last, PointsAt points_at) const {
     for (int id = 0; id <= last; ++id) {
       const SE3d T = pose(id);
-      const auto seen = with_points ? points(T, 0.1) : std::vector<TextPoint>();
-      ASSERT_EQ(map.add_keyframe(id, image(T), T, quads(T), seen), Status::ok);
+      ASSERT_EQ(map.add_keyframe(id, image(T), T, quads(T), points_at(T)), Status::ok);
     }
+  }
+  void walk(TextMap& map, int last) const {
+    walk(map, last, [&](const SE3d& T) { return points(T, 0.1); });
   }
   static int mapped(const TextMap& map) {
     int n = 0;

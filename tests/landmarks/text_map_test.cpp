@@ -17,32 +17,29 @@ TEST_F(TextMapTest, MapsTextsFromKeyFramesWithPoints) {
 
 TEST_F(TextMapTest, MapsTextsWithoutAnyPoint) {
   TextMap map(scene.camera);
-  walk(map, 7, false);
+  walk(map, 7, [](const SE3d&) { return std::vector<TextPoint>(); });
   EXPECT_EQ(mapped(map), 3);
   EXPECT_LT(largest_angle(map), 1.5);
 }
 
 TEST_F(TextMapTest, MapsTextsFromTracksOfUnknownDepth) {
   TextMap map(scene.camera);
-  for (int id = 0; id <= 6; ++id) {
-    const SE3d T = pose(id);
-    std::vector<TextPoint> tracks;
-    for (const TextPoint& point : points(T, 0.1)) tracks.push_back(TextPoint::track(point.px, point.id));
-    ASSERT_EQ(map.add_keyframe(id, image(T), T, quads(T), tracks), Status::ok);
-  }
+  walk(map, 6, [&](const SE3d& T) {
+    auto tracks = points(T, 0.1);
+    for (TextPoint& point : tracks) point = TextPoint::track(point.px, point.id);
+    return tracks;
+  });
   EXPECT_EQ(mapped(map), 3);
   EXPECT_LT(largest_angle(map), 1.0);
 }
 
 TEST_F(TextMapTest, MapsTextsFromPixelsWithDepth) {
   TextMap map(scene.camera);
-  for (int id = 0; id <= 6; ++id) {
-    const SE3d T = pose(id);
-    std::vector<TextPoint> depths;
-    for (const TextPoint& point : points(T, 0.0))
-      depths.push_back(TextPoint::with_depth(point.px, (T * point.p_w).z()));
-    ASSERT_EQ(map.add_keyframe(id, image(T), T, quads(T), depths), Status::ok);
-  }
+  walk(map, 6, [&](const SE3d& T) {
+    auto depths = points(T, 0.0);
+    for (TextPoint& point : depths) point = TextPoint::with_depth(point.px, (T * point.p_w).z());
+    return depths;
+  });
   EXPECT_EQ(mapped(map), 3);
   EXPECT_LT(largest_angle(map), 1.0);
 }
@@ -58,6 +55,12 @@ TEST_F(TextMapTest, TracksBetterThanNoisyPoints) {
     const TextFit fit = map.track(image(truth), start, seen);
     ASSERT_TRUE(fit.refined) << textplane::to_string(fit.status);
     EXPECT_EQ(fit.texts, 3);
+    double shares = 0;
+    for (const auto& report : fit.reports) {
+      EXPECT_GT(report.share, 0);
+      shares += report.share;
+    }
+    EXPECT_LT(shares, 1) << "the points know the rest";
     by_both += shift(fit.T_c_w, truth) / 8;
     textplane::TextPose pose_of_points;
     std::vector<textplane::PosePointTerm> terms;
