@@ -67,10 +67,8 @@ class SlidingWindow {
     Pose T_w_c = known ? *known : last_ * velocity_;
     const bool is_found = known || locate(&T_w_c);
     found_ += is_found;
-    textplane::Pyramid pyramid(textplane::ImageView8(image.data, image.cols, image.rows));            // text
-    if (const auto fit = texts_.track(pyramid, inverse_of(T_w_c), text_points(tracks_, landmarks_));  // text
-        fit.refined && !known)                                                                        // text
-      T_w_c = inverse_of(fit.T_c_w);                                                                  // text
+    textplane::Pyramid pyramid(textplane::ImageView8(image.data, image.cols, image.rows));     // text
+    if (!known) T_w_c = with_texts(texts_, pyramid, T_w_c, text_points(tracks_, landmarks_));  // text
     Pose before = last_;
     last_ = T_w_c;
     ++since_key_frame_;
