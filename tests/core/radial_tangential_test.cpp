@@ -120,6 +120,21 @@ TEST(RadialTangentialTest, TheDomainEndsWhereTheLensFolds) {
   EXPECT_TRUE(folded.in_domain({0, 1.154, 2}));
   EXPECT_FALSE(folded.in_domain({0, 1.156, 2}));
   EXPECT_TRUE(kLenses[3].in_domain({0, 1.156, 2}));
+  // r (1 - r^4 / 5) and r (1 - r^6 / 7) grow up to r = 1.
+  for (const tp::RadialTangential<double>& lens :
+       {tp::RadialTangential<double>{{}, 0, -1. / 5, 0, 0, 0}, {{}, 0, 0, 0, 0, -1. / 7}}) {
+    EXPECT_TRUE(lens.in_domain({0.999, 0, 1}));
+    EXPECT_FALSE(lens.in_domain({1.001, 0, 1}));
+  }
+  // r (1 - r^2 / 2 + r^4 / 10) falls from r^2 = 1 to 2, and then takes the same values again.
+  const tp::RadialTangential<double> wave{{}, -0.5, 0.1, 0, 0, 0};
+  EXPECT_TRUE(wave.in_domain({0.999, 0, 1}));
+  for (const double r : {1.001, 1.2, 1.5, 1.6, 3.0}) EXPECT_FALSE(wave.in_domain({r, 0, 1})) << r;
+  Eigen::Vector2d m(7, 8);
+  EXPECT_EQ(wave.undistort({0.61, 0}, &m), tp::Status::degenerate) << "r = 1.66 has it";
+  EXPECT_EQ(m, Eigen::Vector2d(7, 8));
+  ASSERT_EQ(wave.undistort({0, 0.59}, &m), tp::Status::ok);
+  EXPECT_LT(m[1], 1);
 }
 
 TEST(RadialTangentialTest, IsPinhole) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <opencv2/core/affine.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 namespace {
@@ -56,6 +57,44 @@ TEST(OpencvAdapter, OtherImagesAreRefused) {
   tp::ImageViewF view;
   EXPECT_EQ(ad::view(cv::Mat(9, 9, CV_8UC1), &view), tp::Status::invalid_argument);
   EXPECT_TRUE(ad::to_mat(tp::ImageView8()).empty());
+}
+
+void expect_level_0(const tp::Pyramid& pyramid, const cv::Mat& grey) {
+  ASSERT_GT(pyramid.levels(), 0);
+  EXPECT_EQ(cv::countNonZero(ad::to_mat(pyramid.level(0)) != grey), 0);
+}
+
+TEST(OpencvAdapter, PyramidsOfGreyAndColour) {
+  cv::Mat colour(40, 51, CV_8UC3), with_alpha, grey;
+  cv::randu(colour, 0, 256);
+  cv::cvtColor(colour, with_alpha, cv::COLOR_BGR2BGRA);
+  cv::cvtColor(colour, grey, cv::COLOR_BGR2GRAY);
+  expect_level_0(ad::pyramid_from_cv(colour), grey);
+  expect_level_0(ad::pyramid_from_cv(with_alpha), grey);
+  expect_level_0(ad::pyramid_from_cv(grey), grey);
+  const cv::Rect part(7, 5, 21, 17);  // Rows with gaps.
+  expect_level_0(ad::pyramid_from_cv(colour(part)), grey(part));
+  expect_level_0(ad::pyramid_from_cv(with_alpha(part)), grey(part));
+  tp::Pyramid pyramid;
+  EXPECT_EQ(ad::pyramid_from_cv(grey(part), &pyramid, 2), tp::Status::ok);
+  expect_level_0(pyramid, grey(part));
+  EXPECT_EQ(pyramid.levels(), 2);
+  EXPECT_EQ(ad::pyramid_from_cv(grey).levels(), 4);
+  EXPECT_EQ(pyramid.level(1)(3, 2), tp::Pyramid(pyramid.level(0), 2).level(1)(3, 2));
+}
+
+TEST(OpencvAdapter, PyramidsOfOtherImagesAreRefused) {
+  const int sizes[3] = {4, 5, 6};
+  for (const cv::Mat& image :
+       {cv::Mat(), cv::Mat(9, 9, CV_16UC1), cv::Mat(9, 9, CV_8SC1), cv::Mat(9, 9, CV_32FC1), cv::Mat(9, 9, CV_8UC2),
+        cv::Mat(9, 9, CV_16UC3), cv::Mat(3, sizes, CV_8UC1), cv::Mat(3, sizes, CV_8UC3)}) {
+    tp::Pyramid pyramid = ad::pyramid_from_cv(cv::Mat(9, 9, CV_8UC1, cv::Scalar(5)));
+    EXPECT_EQ(ad::pyramid_from_cv(image, &pyramid), tp::Status::invalid_argument);
+    EXPECT_EQ(pyramid.levels(), 0);
+    EXPECT_EQ(ad::pyramid_from_cv(image).levels(), 0);
+  }
+  tp::Pyramid pyramid;
+  EXPECT_EQ(ad::pyramid_from_cv(cv::Mat::zeros(9, 9, CV_8UC3), &pyramid, 0), tp::Status::invalid_argument);
 }
 
 TEST(OpencvAdapter, PointsAndCameras) {

@@ -36,12 +36,20 @@ struct Scene {
 
   tp::Image<T> image;
   tp::Pinhole<double> host_camera{210, 205, 98.3, 79.6}, target_camera{190, 195, 101.2, 77.4};
+  const tp::LensMap* lens = nullptr;
   tp::Vector3<double> theta;
   tp::SE3d T_w_h, T_w_t, T_t_h;
   std::vector<float> x, y, intensity;
   tp::PhotometricWorkspace workspace;
 
-  explicit Scene(unsigned seed, int pixels = 120) : image(texture<T>(kWidth, kHeight, seed)) {
+  explicit Scene(unsigned seed, int pixels = 120) : Scene(seed, pixels, nullptr, 1) {}
+  /// Before the target a lens, which must outlive the scene; focal lengths of `zoom` times those above.
+  Scene(unsigned seed, int pixels, const tp::LensMap* target_lens, double zoom)
+      : image(texture<T>(kWidth, kHeight, seed)), lens(target_lens) {
+    for (tp::Pinhole<double>* camera : {&host_camera, &target_camera}) {
+      camera->fx *= zoom;
+      camera->fy *= zoom;
+    }
     Random random(seed * 7919 + 1);
     const tp::Vector3<double> normal(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), -1);
     theta = -normal.normalized() / random.uniform(1.0, 3.0);
@@ -69,7 +77,9 @@ struct Scene {
 
   tp::Vector2<double> project(double px, double py) const {
     const tp::Vector3<double> m = host_camera.unproject({px, py});
-    return target_camera.project(T_t_h.R * m + T_t_h.t * theta.dot(m));
+    const tp::Vector3<double> q = T_t_h.R * m + T_t_h.t * theta.dot(m);
+    if (!lens) return target_camera.project(q);
+    return target_camera.pixel(lens->distort({q[0] / q[2], q[1] / q[2]}));
   }
 
   tp::BasicPhotometricInput<T> input() const {
@@ -78,6 +88,7 @@ struct Scene {
     in.host_camera = host_camera;
     in.target_camera = target_camera;
     in.target = view();
+    in.lens = lens;
     return in;
   }
   tp::ResidualRequest<T> request(const tp::PhotometricOptions& options = {}) const {

@@ -19,7 +19,9 @@ struct PolicyScene : Scene<std::uint8_t> {
   std::vector<float> gx, gy;
   std::vector<std::uint8_t> mask;
 
-  explicit PolicyScene(unsigned seed, int pixels) : Scene<std::uint8_t>(seed, pixels) {
+  explicit PolicyScene(unsigned seed, int pixels) : PolicyScene(seed, pixels, nullptr, 1) {}
+  PolicyScene(unsigned seed, int pixels, const tp::LensMap* target_lens, double zoom)
+      : Scene<std::uint8_t>(seed, pixels, target_lens, zoom) {
     Random random(seed + 77);
     for (int i = 0; i < pixels; ++i) {
       gx.push_back(static_cast<float>(random.uniform(-40, 40)));

@@ -1,7 +1,7 @@
-// OpenCV: images without copies, points, cameras and poses, and the boxes of text detectors as quads.
+// OpenCV: images without copies and as pyramids, points, cameras and poses, and the boxes of text detectors as quads.
 //
 // Both libraries put the centre of the top-left pixel at (0, 0) and order distortion as k1 k2 p1 p2 k3, so only types
-// are converted. Needs OpenCV's core module alone. No function throws; any number of threads.
+// are converted. Needs OpenCV's core module alone. No function throws but for memory; any number of threads.
 #ifndef TEXTPLANE_ADAPTERS_OPENCV_HPP
 #define TEXTPLANE_ADAPTERS_OPENCV_HPP
 
@@ -14,11 +14,12 @@
 #include <vector>
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/cameras/any_camera.hpp"
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/core/status.hpp"
 #include "textplane/geometry/quad.hpp"
+#include "textplane/photometry/pyramid.hpp"
 #endif
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -52,6 +53,44 @@ cv::Mat to_mat(const ImageView<T>& view) {
   if (!view.valid()) return {};
   return {view.height(), view.width(), std::is_same<Pixel, float>::value ? CV_32FC1 : CV_8UC1,
           const_cast<Pixel*>(view.data()), static_cast<std::size_t>(view.stride())};
+}
+
+namespace detail {
+// BT.601 as OpenCV rounds it: the image of one channel that cv::cvtColor makes of 8-bit BGR or BGRA.
+inline void grey_of(const cv::Mat& image, std::uint8_t* grey) noexcept {
+  constexpr int blue = 3735, green = 19235, red = 9798, bits = 15;
+  const int channels = image.channels();
+  for (int y = 0; y < image.rows; ++y) {
+    const std::uint8_t* from = image.ptr<std::uint8_t>(y);
+    for (int x = 0; x < image.cols; ++x, from += channels)
+      *grey++ =
+          static_cast<std::uint8_t>((blue * from[0] + green * from[1] + red * from[2] + (1 << (bits - 1))) >> bits);
+  }
+}
+}  // namespace detail
+
+/// The pyramid of an image, which may go afterwards. CV_8UC1 is copied once, into the pyramid. CV_8UC3 and CV_8UC4 are
+/// taken for BGR and BGRA, as cv::imread gives them, and become grey as by cv::cvtColor. Regions of interest and
+/// padded rows are fine. invalid_argument, and a pyramid without levels, for an empty image, more than two dimensions,
+/// `levels` outside [1, kMaxPyramidLevels], or any other type: what black and white are in 16 bits only its owner knows
+/// (cv::Mat::convertTo).
+inline Status pyramid_from_cv(const cv::Mat& image, Pyramid* pyramid, int levels = 4) {
+  ImageView8 grey;
+  std::vector<std::uint8_t> pixels;
+  if (!image.empty() && image.dims == 2 && (image.type() == CV_8UC3 || image.type() == CV_8UC4)) {
+    pixels.resize(image.total());
+    detail::grey_of(image, pixels.data());
+    grey = ImageView8(pixels.data(), image.cols, image.rows);
+  } else {
+    view(image, &grey);
+  }
+  return pyramid->build(grey, levels);
+}
+/// The same, for add_keyframe() of a TextMap, which refuses a pyramid without levels.
+inline Pyramid pyramid_from_cv(const cv::Mat& image, int levels = 4) {
+  Pyramid pyramid;
+  pyramid_from_cv(image, &pyramid, levels);
+  return pyramid;
 }
 
 /// A point of OpenCV.
@@ -90,6 +129,33 @@ inline Status camera_from_cv(const cv::Mat& K, Pinhole<double>* camera) noexcept
   const Pinhole<double> out(at(0, 0), at(1, 1), at(0, 2), at(1, 2));
   const bool plain = at(0, 1) == 0 && at(1, 0) == 0 && at(2, 0) == 0 && at(2, 1) == 0 && at(2, 2) == 1;
   if (!plain || !out.valid()) return Status::invalid_argument;
+  *camera = out;
+  return Status::ok;
+}
+
+/// The same with a lens: D has 0, 4, 5 or 8 coefficients, or, of cv::fisheye, 4; CV_64F or CV_32F, a row or a column.
+/// invalid_argument, and *camera untouched, also for other coefficients of OpenCV (thin prism, tilt) that are not 0.
+inline Status camera_from_cv(const cv::Mat& K, const cv::Mat& D, bool fisheye, AnyCamera<double>* camera) noexcept {
+  Pinhole<double> pinhole;
+  if (!is_ok(camera_from_cv(K, &pinhole))) return Status::invalid_argument;
+  double d[14] = {};
+  const std::size_t n = D.total();
+  if (n > 0 && (D.dims != 2 || (D.rows != 1 && D.cols != 1) || (D.type() != CV_64FC1 && D.type() != CV_32FC1)))
+    return Status::invalid_argument;
+  if (fisheye ? n != 4 : (n != 0 && n != 4 && n != 5 && n != 8 && n != 12 && n != 14)) return Status::invalid_argument;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int k = static_cast<int>(i), row = D.rows > 1 ? k : 0, column = D.rows > 1 ? 0 : k;
+    d[i] = D.type() == CV_64FC1 ? D.at<double>(row, column) : static_cast<double>(D.at<float>(row, column));
+    if (i >= 8 && d[i] != 0) return Status::invalid_argument;
+  }
+  AnyCamera<double> out = pinhole;
+  if (fisheye)
+    out = KannalaBrandt<double>{pinhole, d[0], d[1], d[2], d[3]};
+  else if (d[5] != 0 || d[6] != 0 || d[7] != 0)
+    out = Rational<double>{pinhole, d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7]};
+  else if (n > 0)
+    out = RadialTangential<double>{pinhole, d[0], d[1], d[2], d[3], d[4]};
+  if (!out.valid()) return Status::invalid_argument;
   *camera = out;
   return Status::ok;
 }

@@ -227,12 +227,11 @@ void select_spread(const std::vector<Corner>& corners, int width, int height, in
 }
 
 /// The patch of a text object: pixels selected on each of options.levels levels of its host image (fewer where the
-/// pyramid has fewer), with their intensities. `quad`: px of level 0; `camera`: the host's. Status of
-/// patch_from_pixels(), or of select_pixels() where the finest level fails: a patch without level 0 is of no use; with
-/// options that are not valid() it is empty.
-/// Allocates.
+/// pyramid has fewer), with their intensities. `quad`: px of level 0 of the image as it was taken; `camera`: the
+/// host's. Status of patch_from_pixels(), or of select_pixels() where the finest level fails: a patch without level 0
+/// is of no use; with options that are not valid() it is empty. Allocates.
 TEXTPLANE_DEFERRED
-TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, const Quad<double>& quad,
+TextPatch make_patch(const PyramidView& host, const CameraView& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {
   if (!options.valid()) return {};
   const int levels = (std::min)({options.levels, host.levels, kMaxPyramidLevels});
@@ -250,7 +249,7 @@ TextPatch make_patch(const PyramidView& host, const Pinhole<double>& camera, con
 
 /// The same from an image, of which a pyramid is built.
 TEXTPLANE_DEFERRED
-TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, const Quad<double>& quad,
+TextPatch make_patch(const ImageView8& host, const CameraView& camera, const Quad<double>& quad,
                      const SelectOptions& options = {}) {
   const Pyramid pyramid(host, (std::min)((std::max)(options.levels, 1), kMaxPyramidLevels));
   return make_patch(pyramid.view(), camera, quad, options);
@@ -258,9 +257,9 @@ TextPatch make_patch(const ImageView8& host, const Pinhole<double>& camera, cons
 
 TEXTPLANE_INSTANCE(Status select_pixels<void>(const ImageView8&, const Quad<double>&, const SelectOptions&,
                                               std::vector<Vector2<float>>&));
-TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const PyramidView&, const Pinhole<double>&, const Quad<double>&,
+TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const PyramidView&, const CameraView&, const Quad<double>&,
                                               const SelectOptions&));
-TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const ImageView8&, const Pinhole<double>&, const Quad<double>&,
+TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const ImageView8&, const CameraView&, const Quad<double>&,
                                               const SelectOptions&));
 
 TEXTPLANE_END_NAMESPACE

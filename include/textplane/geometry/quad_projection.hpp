@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/cameras/camera_view.hpp"
 #include "textplane/core/numeric.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/core/status.hpp"
@@ -43,6 +43,22 @@ Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S
     if (!all_finite(projected.corner[i])) return Status::non_finite;
   }
   *out = projected;
+  return Status::ok;
+}
+
+/// The same in a target that may have a lens; out_of_view where it has no pixel for a corner.
+inline Status project_quad(const Quad<double>& quad, const Pinhole<double>& host, const Vector3<double>& theta,
+                           const SE3d& T_t_h, const CameraView& target, Quad<double>* out) noexcept {
+  Quad<double> rays;
+  const Status status =
+      project_quad<double>(quad, host, theta, T_t_h, target.lens ? Pinhole<double>() : target.pinhole, &rays);
+  if (!is_ok(status)) return status;
+  for (Vector2<double>& corner : rays.corner) {
+    if (!target.lens) break;
+    if (!target.in_domain({corner[0], corner[1], 1.0})) return Status::out_of_view;
+    corner = target.pixel(corner);
+  }
+  *out = rays;
   return Status::ok;
 }
 

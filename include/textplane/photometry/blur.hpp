@@ -156,15 +156,16 @@ class BlurFilter {
     return Status::ok;
   }
 
-  /// The intensities of a patch's level, taken anew from the filtered host image; gradients stay. Its positions must be
-  /// whole pixels of `host`, as select_pixels() gives them; those outside keep their intensity.
+  /// The intensities of a patch's level, taken anew from the filtered host image; gradients stay. It must have
+  /// been taken at whole pixels of `host`, as select_pixels() gives them; those outside keep their intensity.
   Status operator()(const ImageView8& host, const BlurKernel& kernel, PatchLevel* level) {
     if (!host.valid()) return Status::invalid_argument;
     const std::size_t n = level->x.size();
     int x0 = host.width(), y0 = host.height(), x1 = 0, y1 = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      if (!host.contains(level->x[i], level->y[i])) continue;
-      const int x = static_cast<int>(level->x[i]), y = static_cast<int>(level->y[i]);
+      const Vector2<float> px = level->taken(i);
+      if (!host.contains(px[0], px[1])) continue;
+      const int x = static_cast<int>(px[0]), y = static_cast<int>(px[1]);
       x0 = (std::min)(x0, x), y0 = (std::min)(y0, y), x1 = (std::max)(x1, x + 1), y1 = (std::max)(y1, y + 1);
     }
     if (x0 >= x1) return Status::ok;
@@ -175,8 +176,9 @@ class BlurFilter {
       for (int x = 0; x < across; x += kBlock)
         block(kernel, x, y - y0, &filtered_[static_cast<std::size_t>((y - y0) * across + x)]);
     for (std::size_t i = 0; i < n; ++i) {
-      if (!host.contains(level->x[i], level->y[i])) continue;
-      const int x = static_cast<int>(level->x[i]) - x0, y = static_cast<int>(level->y[i]) - y0;
+      const Vector2<float> px = level->taken(i);
+      if (!host.contains(px[0], px[1])) continue;
+      const int x = static_cast<int>(px[0]) - x0, y = static_cast<int>(px[1]) - y0;
       level->intensity[i] = filtered_[static_cast<std::size_t>(y * across + x)];
     }
     return Status::ok;

@@ -26,11 +26,25 @@ Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta,
   if (!is_ok(status)) return status;
   request.options.robust = Robust{RobustKind::l2, 1.0};
 
-  const bool fast =
-      prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(request, workspace);
+  simd::LensFit fit;
+  bool fast = prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(request, workspace);
+  // One fit for all candidates; where they see the patch in too many places, each has its own, in evaluate().
+  if (fast && in.lens) {
+    detail::RayBox all;
+    const simd::PointBounds& bounds = prepared->model().bounds;
+    for (int i = 0; i < count && fast; ++i) {
+      detail::RayBox box;
+      fast = detail::ray_box(bounds, in.host_camera, plane_homography(theta, T_t_h[i]), &box);
+      if (i == 0) all = box;
+      all.add(box);
+    }
+    all.middle = 0.5 * (all.low + all.high);
+    fast = fast && detail::fit_lens(*in.lens, all, &fit);
+  }
   if (fast) {
     simd::ZnccArgs args;
     args.base = detail::kernel_args(request, workspace, nullptr, nullptr);
+    if (in.lens) args.base.lens = &fit;
     static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
     args.model = &prepared->model();
     args.pose = count > 0 ? T_t_h->R.data() : nullptr;

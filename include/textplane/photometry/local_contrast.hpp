@@ -73,12 +73,16 @@ class LocalContrast {
   }
 
   /// The intensities and gradients of a patch's level taken anew from an image that begins at (x0, y0) of the level, as
-  /// the operator fills it. Pixels outside of it keep what they had.
-  static void take(const ImageView8& image, int x0, int y0, PatchLevel* level) noexcept {
+  /// the operator fills it. Pixels outside of it keep what they had. `camera`: of the level, for its lens.
+  static void take(const ImageView8& image, int x0, int y0, PatchLevel* level, const CameraView& camera = {}) noexcept {
     for (std::size_t i = 0; i < level->x.size(); ++i) {
-      const float x = level->x[i] - static_cast<float>(x0), y = level->y[i] - static_cast<float>(y0);
+      const Vector2<float> px = level->taken(i);
+      const float x = px[0] - static_cast<float>(x0), y = px[1] - static_cast<float>(y0);
       if (!sample_bilinear(image, x, y, &level->intensity[i])) continue;
-      if (i < level->gx.size() && i < level->gy.size()) host_gradient(image, x, y, &level->gx[i], &level->gy[i]);
+      if (i >= level->gx.size() || i >= level->gy.size()) continue;
+      host_gradient(image, x, y, &level->gx[i], &level->gy[i]);
+      float straight_x = px[0], straight_y = px[1];
+      if (camera.lens) (void)detail::straighten(camera, &straight_x, &straight_y, &level->gx[i], &level->gy[i]);
     }
   }
 

@@ -110,8 +110,9 @@ NoiseEstimate estimate_noise(const ImageView8& image, const NoiseOptions& option
 /// is noise alone, or an argument is not a number.
 inline double expected_zncc(double contrast_a, double noise_a, double contrast_b, double noise_b) noexcept {
   const auto reliability = [](double contrast, double noise) {
+    if (!(contrast > 0)) return 0.0;
     const double share = noise / contrast;
-    return contrast > 0 && share * share < 1 ? 1 - share * share : 0.0;
+    return share * share < 1 ? 1 - share * share : 0.0;
   };
   return std::sqrt(reliability(contrast_a, noise_a) * reliability(contrast_b, noise_b));
 }

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/cameras/camera_view.hpp"
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/numeric.hpp"
 #include "textplane/photometry/patch.hpp"
@@ -29,6 +29,11 @@ struct BasicPhotometricInput {
   Pinhole<double> target_camera;  ///< Of the level that `target` is.
   ImageView<const T> target;      ///< Image of one level.
   PairView pairs = {};            ///< Optional, for an 8-bit target: PreparedTarget of the same image.
+  const LensMap* lens = nullptr;  ///< Before the target camera, on all levels the same; null: none.
+  /// How host and target move while their rows are taken (geometry/row_warp.hpp); null: all at once.
+  const PatchRows* host_rows = nullptr;
+  const RowMotion* rows = nullptr;  ///< Of the target.
+  int level = 0;                    ///< Of the target's pyramid.
 };
 using PhotometricInput = BasicPhotometricInput<std::uint8_t>;  ///< Of an 8-bit target.
 using PhotometricInputF = BasicPhotometricInput<float>;        ///< Of a float target.
@@ -40,7 +45,7 @@ using PixelOf = std::remove_const_t<typename std::decay_t<decltype(std::declval<
 // photometric_input() for PyramidView and anything like it.
 template <class View>
 BasicPhotometricInput<PixelOf<View>> level_input(const TextPatch& patch, int level, const View& target,
-                                                 const Pinhole<double>& target_camera, int scale_shift) noexcept {
+                                                 const CameraView& target_camera, int scale_shift) noexcept {
   BasicPhotometricInput<PixelOf<View>> in;
   if (level < 0 || level >= kMaxPyramidLevels || scale_shift < -kMaxPyramidLevels || scale_shift > kMaxPyramidLevels)
     return in;
@@ -50,7 +55,11 @@ BasicPhotometricInput<PixelOf<View>> level_input(const TextPatch& patch, int lev
     return in;
   in.patch = patch.levels[static_cast<std::size_t>(host_level)].view();
   in.host_camera = patch.camera.at_level(host_level);
-  in.target_camera = target_camera.at_level(target_level);
+  in.target_camera = target_camera.pinhole.at_level(target_level);
+  in.lens = target_camera.lens;
+  in.host_rows = &patch.rows;
+  in.rows = target_camera.rows;
+  in.level = target_level;
   in.target = target.level[static_cast<std::size_t>(target_level)];
   return in;
 }
@@ -63,7 +72,7 @@ BasicPhotometricInput<PixelOf<View>> level_input(const TextPatch& patch, int lev
 /// its pixels, which would alias. See scale_shift(). A level that patch or target lacks gives an input that every
 /// kernel answers with Status::invalid_argument.
 inline PhotometricInput photometric_input(const TextPatch& patch, int level, const PyramidView& target,
-                                          const Pinhole<double>& target_camera, int scale_shift = 0) noexcept {
+                                          const CameraView& target_camera, int scale_shift = 0) noexcept {
   return detail::level_input(patch, level, target, target_camera, scale_shift);
 }
 

@@ -24,6 +24,7 @@
 
 #include "textplane/photometry/residual_kernels.hpp"
 #include "textplane/photometry/residual_reference.hpp"
+#include "textplane/photometry/residual_rows.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -36,6 +37,12 @@ NormalEquations<dof(Unknowns)> linearise(const ResidualRequest<T>& request, Phot
   if constexpr (Unknowns == Parameters::host_target_plane) {
     detail::world_parameters(linearise<Parameters::pose_plane>(request, workspace), request, &out);
   } else {
+    if (detail::has_rows(request.input)) {
+      const detail::RowForm<ResidualRequest<T>> still(request);
+      out = linearise<Unknowns>(still.request(), workspace);
+      still.template pull_back<Unknowns>(&out);
+      return out;
+    }
     bool taken = false;
     if constexpr (std::is_same<T, std::uint8_t>::value)
       taken = detail::kernel_linearise<Unknowns>(request, workspace, &out);
@@ -53,6 +60,8 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
 template <class T>
 PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace& workspace,
                          const std::uint8_t* on_set = nullptr) noexcept {
+  if (detail::has_rows(request.input))
+    return evaluate(detail::RowForm<ResidualRequest<T>>(request).request(), workspace, on_set);
   if constexpr (std::is_same<T, std::uint8_t>::value) {
     PhotometricCost out;
     if (detail::kernel_evaluate(request, workspace, on_set, &out)) return out;

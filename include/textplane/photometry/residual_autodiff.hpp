@@ -41,8 +41,13 @@ Status residuals_t(const BasicPhotometricInput<T>& in, const Vector3<S>& theta, 
     const S rho = theta[0] * m[0] + theta[1] * m[1] + theta[2];
     const Vector3<S> q = T_t_h.R * m + T_t_h.t * rho;
     if (!(rho > S(0)) || !(q[2] > S(0))) return Status::behind_camera;
-    const S x = S(in.target_camera.fx) * q[0] / q[2] + S(in.target_camera.cx);
-    const S y = S(in.target_camera.fy) * q[1] / q[2] + S(in.target_camera.cy);
+    Vector2<S> m_d(q[0] / q[2], q[1] / q[2]);
+    if (in.lens) {
+      if (!(m_d[0] * m_d[0] + m_d[1] * m_d[1] <= S(in.lens->max_r2()))) return Status::out_of_view;
+      m_d = in.lens->distort_as(m_d);
+    }
+    const S x = S(in.target_camera.fx) * m_d[0] + S(in.target_camera.cx);
+    const S y = S(in.target_camera.fy) * m_d[1] + S(in.target_camera.cy);
     if (!sample_bilinear(in.target, x, y, &r[i])) return Status::out_of_view;
     sum = sum + r[i];
   }

@@ -5,6 +5,7 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 
+#include "textplane/photometry/lens/lens_fit.hpp"
 #include "textplane/photometry/residual_passes.hpp"
 #include "textplane/simd/residual.hpp"
 
@@ -55,6 +56,7 @@ TEXTPLANE_SIMD_INLINE simd::ResidualArgs kernel_args(const KernelRequest& q, Pho
           {q.theta[0], q.theta[1], q.theta[2]},
           {h.fx, h.fy, h.cx, h.cy},
           {c.fx, c.fy, c.cx, c.cy},
+          nullptr,
           q.options.normalisation == Normalisation::exact,
           q.options.robust.kind,
           q.options.robust.delta,
@@ -84,12 +86,25 @@ inline bool take_info(const simd::ResidualInfo& info, int min_visible, ResidualS
   return true;
 }
 
+/// Sets args->lens to `fit` where the request's target has a lens. False where no fit holds it, and the reference must
+/// take the call.
+inline bool fit_request(const KernelRequest& q, simd::ResidualArgs* args, simd::LensFit* fit) noexcept {
+  const PatchView& p = q.input.patch;
+  const simd::PointBounds bounds = p.bounds.n == p.n ? p.bounds : simd::point_bounds(p.x, p.y, p.n);
+  RayBox box;
+  if (!ray_box(bounds, q.input.host_camera, plane_homography(q.theta, q.T_t_h), &box)) return false;
+  args->lens = fit;
+  return fit_lens(*q.input.lens, box, fit);
+}
+
 /// linearise() by the kernels; false where they do not take the request or declined.
 template <Parameters Unknowns>
 bool kernel_linearise(const KernelRequest& q, PhotometricWorkspace& workspace,
                       NormalEquations<dof(Unknowns)>* out) noexcept {
   if (!kernels_take(q, workspace)) return false;
-  const simd::ResidualArgs args = kernel_args(q, workspace, workspace.visible_flags(), nullptr);
+  simd::ResidualArgs args = kernel_args(q, workspace, workspace.visible_flags(), nullptr);
+  simd::LensFit fit;
+  if (q.input.lens && !fit_request(q, &args, &fit)) return false;
   double *H = out->H.data(), *b = out->b.data();
   simd::ResidualInfo info;
   if constexpr (Unknowns == Parameters::plane) simd::linearise_plane(args, &info, H, b);
@@ -103,7 +118,10 @@ inline bool kernel_evaluate(const KernelRequest& q, PhotometricWorkspace& worksp
                             PhotometricCost* out) noexcept {
   if (!kernels_take(q, workspace)) return false;
   simd::ResidualInfo info;
-  simd::evaluate(kernel_args(q, workspace, nullptr, on_set), &info);
+  simd::ResidualArgs args = kernel_args(q, workspace, nullptr, on_set);
+  simd::LensFit fit;
+  if (q.input.lens && !fit_request(q, &args, &fit)) return false;
+  simd::evaluate(args, &info);
   if (info.status == Status::unsupported) return false;
   out->visible = info.visible;
   out->lost = on_set ? info.candidates - info.visible : 0;

@@ -30,6 +30,11 @@ inline Status check_camera(const Pinhole<double>& camera) noexcept {
   return camera.valid() ? Status::ok : Status::invalid_argument;
 }
 
+inline Status check_camera(const CameraView& camera) noexcept {
+  const Status status = check_camera(camera.pinhole);
+  return is_ok(status) && !camera.valid() ? Status::invalid_argument : status;
+}
+
 // What is wrong with a request, if anything.
 template <class T>
 Status check_request(const ResidualRequest<T>& q, const PhotometricWorkspace& workspace) noexcept {
@@ -40,6 +45,7 @@ Status check_request(const ResidualRequest<T>& q, const PhotometricWorkspace& wo
     const Status status = check_camera(*camera);
     if (!is_ok(status)) return status;
   }
+  if (q.input.lens && !(q.input.lens->max_r2() > 0)) return Status::invalid_argument;
   return all_finite(q.T_t_h) && all_finite(q.theta) ? Status::ok : Status::non_finite;
 }
 
@@ -85,6 +91,7 @@ Collected collect(const ResidualRequest<T>& request, const std::uint8_t* on_set,
   const Pinhole<double> h = request.input.host_camera, c = request.input.target_camera;
   const PatchView patch = request.input.patch;
   const ImageView<const T> image = request.input.target;
+  const LensMap* lens = request.input.lens;
   const double ifx = 1.0 / h.fx, ify = 1.0 / h.fy, x_max = image.width() - 1, y_max = image.height() - 1;
   double *host = workspace.residuals(), *target = workspace.intensities(), *row = workspace.rows();
 
@@ -102,7 +109,13 @@ Collected collect(const ResidualRequest<T>& request, const std::uint8_t* on_set,
       continue;
     }
     const double iz = 1.0 / q[2], u = q[0] * iz, v = q[1] * iz;
-    const double x = c.fx * u + c.cx, y = c.fy * v + c.cy;
+    Vector2<double> m(u, v);
+    FixedMatrix<double, 2, 2> D;
+    if (lens) {
+      if (!(m.squaredNorm() <= lens->max_r2())) continue;
+      m = lens->distort(m, &D);
+    }
+    const double x = c.fx * m[0] + c.cx, y = c.fy * m[1] + c.cy;
     if (!is_finite(x) || !is_finite(y) || !(x >= 0.0 && y >= 0.0 && x <= x_max && y <= y_max)) continue;
     double value, gx, gy;
     sample_inside(image, x, y, &value, &gx, &gy);
@@ -110,7 +123,12 @@ Collected collect(const ResidualRequest<T>& request, const std::uint8_t* on_set,
     if (!is_finite(value) || !is_finite(host_value)) continue;
 
     if constexpr (P > 0) {
-      const double au = gx * c.fx * iz, av = gy * c.fy * iz;
+      double au = gx * c.fx * iz, av = gy * c.fy * iz;
+      if (lens) {
+        const double bent = au * D(0, 0) + av * D(1, 0);
+        av = au * D(0, 1) + av * D(1, 1);
+        au = bent;
+      }
       const double a[3] = {au, av, -(au * u + av * v)};
       intensity_row<P>(mx, my, q, rho, a, t, row + static_cast<std::ptrdiff_t>(visible) * P);
     }

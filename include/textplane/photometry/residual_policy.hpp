@@ -18,8 +18,10 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
   const PatchView& patch = q.input.patch;
   if ((!esm && q.policy != LinearisePolicy::template_jacobian) || !patch.gx || !patch.gy || !kernels_take(q, workspace))
     return false;
-  const simd::EsmArgs args{kernel_args(q, workspace, workspace.visible_flags(), nullptr), patch.gx, patch.gy, esm,
-                           workspace.more_scratch()};
+  simd::EsmArgs args{kernel_args(q, workspace, workspace.visible_flags(), nullptr), patch.gx, patch.gy, esm,
+                     workspace.more_scratch()};
+  simd::LensFit fit;
+  if (q.input.lens && !fit_request(q, &args.base, &fit)) return false;
   // The kernels give all of (v, omega, theta).
   double all_H[81], all_b[9];
   double *H = P == 9 ? out->H.data() : all_H, *b = P == 9 ? out->b.data() : all_b;
@@ -52,6 +54,12 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
   if constexpr (Unknowns == Parameters::host_target_plane) {
     detail::world_parameters(linearise<Parameters::pose_plane>(request, workspace), request, &out);
   } else {
+    if (detail::has_rows(request.input)) {
+      const detail::RowForm<PolicyRequest<T>> still(request);
+      out = linearise<Unknowns>(still.request(), workspace);
+      still.template pull_back<Unknowns>(&out);
+      return out;
+    }
     bool taken = false;
     if constexpr (std::is_same<T, std::uint8_t>::value)
       taken = request.policy == LinearisePolicy::forward

@@ -7,6 +7,7 @@
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 
 #include "textplane/photometry/residual_passes.hpp"
+#include "textplane/photometry/residual_rows.hpp"
 #include "textplane/photometry/world_parameters.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -96,6 +97,10 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
   if constexpr (Unknowns == Parameters::host_target_plane) {
     detail::world_parameters(reference::linearise<Parameters::pose_plane>(request, workspace), request, &out);
     if (!is_ok(out.status)) out.clear();
+  } else if (detail::has_rows(request.input)) {
+    const detail::RowForm<PolicyRequest<T>> still(request);
+    out = reference::linearise<Unknowns>(still.request(), workspace);
+    still.template pull_back<Unknowns>(&out);
   } else {
     constexpr int P = dof(Unknowns);
     Matrix3<double> inverse;
@@ -141,6 +146,8 @@ NormalEquations<dof(Unknowns)> linearise(const ResidualRequest<T>& request, Phot
 template <class T>
 PhotometricCost evaluate(const ResidualRequest<T>& request, PhotometricWorkspace& workspace,
                          const std::uint8_t* on_set = nullptr) noexcept {
+  if (detail::has_rows(request.input))
+    return reference::evaluate(detail::RowForm<ResidualRequest<T>>(request).request(), workspace, on_set);
   PhotometricCost out;
   const auto start = detail::begin<0>(request, on_set, nullptr, workspace);
   const detail::Collected& seen = start.seen;
@@ -166,6 +173,12 @@ ResidualSummary residuals(const ResidualRequest<T>& request, PhotometricWorkspac
   constexpr int P = dof(Unknowns);
   ResidualSummary out;
   const int pixels = request.input.patch.n;
+  if (detail::has_rows(request.input)) {
+    const detail::RowForm<ResidualRequest<T>> still(request);
+    out = residuals<Unknowns>(still.request(), workspace, r, J);
+    for (int i = 0; J && r && i < pixels; ++i) still.template pull_back_row<P>(J + static_cast<std::ptrdiff_t>(i) * P);
+    return out;
+  }
   if (!r || pixels < 0) return out;
   for (int i = 0; i < pixels; ++i) r[i] = 0.0;
   if (J)

@@ -85,7 +85,7 @@ template <class T>
 struct ResidualRequest {
   BasicPhotometricInput<T> input;                   ///< Patch, target and cameras.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
-  SE3d T_t_h = {};                                  ///< Host to target.
+  SE3d T_t_h = {};                                  ///< Host to target; where rows move, between the time stamps.
   PhotometricOptions options = {};                  ///< Of every pixel.
   SE3d T_w_t = {};                                  ///< Target to world; see world_request().
   PerturbationSide side = PerturbationSide::right;  ///< Of both world poses; see world_request().

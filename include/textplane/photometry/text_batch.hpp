@@ -2,8 +2,7 @@
 // once: verification of all signs of a map in one frame, or normal equations of all of them.
 //
 // One object fills one lane of the vectors, so 15 pixels cost no more a pixel than thousands do; objects that lie
-// wholly behind a camera or outside the image cost a few dozen cycles. Objects of very different size waste lanes: sort
-// them by size.
+// wholly behind a camera or outside the image cost a few dozen cycles. Objects of very different size waste lanes.
 #ifndef TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
 #define TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP
 
@@ -13,8 +12,9 @@
 #include <vector>
 
 #include "textplane/core/cache_line.hpp"
-#include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/cameras/camera_view.hpp"
 #include "textplane/core/se3.hpp"
+#include "textplane/photometry/photometric_workspace.hpp"
 #include "textplane/photometry/residual_request.hpp"
 #include "textplane/photometry/residual_result.hpp"
 #include "textplane/simd/batch.hpp"
@@ -154,17 +154,18 @@ class TextBatchResult {
     const auto objects = static_cast<std::size_t>(batch.size());
     if (number_count(out_) < floats(batch)) out_ = cache_lines<float>(floats(batch));
     if (status_.size() < objects) status_.resize(objects);
+    workspace_.reserve(batch.max_pixels());
     const std::size_t scratch = simd::batch_scratch(batch.max_pixels());
     if (number_count(scratch_) < scratch) scratch_ = cache_lines<float>(scratch);
   }
   /// Whether reserve() was called for a batch of this size.
   bool fits(const TextBatch& batch) const noexcept {
     return number_count(out_) >= floats(batch) && status_.size() >= static_cast<std::size_t>(batch.size()) &&
-           number_count(scratch_) >= simd::batch_scratch(batch.max_pixels());
+           number_count(scratch_) >= simd::batch_scratch(batch.max_pixels()) &&
+           workspace_.capacity() >= batch.max_pixels();
   }
 
-  /// Of object i of the batch, as reference::linearise() would say it; all zero, `visible` excepted, unless
-  /// is_ok(status).
+  /// Of object i, as reference::linearise() would say it; all zero, `visible` excepted, unless is_ok(status).
   Status status(int i) const noexcept { return status_[static_cast<std::size_t>(i)]; }
   double cost(int i) const noexcept { return tail(i, simd::BatchEntry::cost); }  ///< Robust cost of object i.
   /// E of object i: sum of r^2 over its visible pixels, in [0, 4].
@@ -194,6 +195,7 @@ class TextBatchResult {
     return n;
   }
 
+  PhotometricWorkspace& workspace() noexcept { return workspace_; }  ///< For the kernels of one object.
   /// For the kernels.
   void fill(int parameters, simd::BatchArgs* args) noexcept {
     parameters_ = parameters;
@@ -217,13 +219,20 @@ class TextBatchResult {
 
   std::vector<CacheLine<float>> out_, scratch_;
   std::vector<Status> status_;
+  PhotometricWorkspace workspace_;
   int parameters_ = 0;
 };
 
 namespace detail {
+// text_batch_lens.hpp
+template <int P>
+void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const ImageView8& target,
+                      const CameraView& camera, const SE3d* T_t_h, const PhotometricOptions& options,
+                      PhotometricWorkspace& workspace) noexcept;
+
 // Costs alone (P = 0), or with normal equations of P parameters.
 template <int P>
-Status run_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera, const SE3d* T_t_h,
+Status run_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
                  const PhotometricOptions& options, TextBatchResult& result) noexcept {
   if (!result.fits(batch)) return Status::invalid_argument;
   simd::BatchArgs args;
@@ -241,16 +250,21 @@ Status run_batch(const TextBatch& batch, const ImageView8& target, const Pinhole
   args.pose = T_t_h->R.data();
   args.pose_step = 12;
   args.t_offset = 9;
-  const double intrinsics[] = {camera.fx, camera.fy, camera.cx, camera.cy};
+  const Pinhole<double>& c = camera.pinhole;
+  const double intrinsics[] = {c.fx, c.fy, c.cx, c.cy};
   std::copy_n(intrinsics, 4, args.camera);
   args.exact = options.normalisation == Normalisation::exact;
   args.robust = options.robust.kind;
   args.delta = options.robust.delta;
   args.min_contrast = options.min_contrast;
   args.min_visible = options.min_visible;
-  if constexpr (P == 0) simd::batch_evaluate(args);
-  if constexpr (P == 6) simd::batch_linearise_pose(args);
-  if constexpr (P == 9) simd::batch_linearise_pose_plane(args);
+  if (camera.lens) {
+    run_batch_behind<P>(batch, args, target, camera, T_t_h, options, result.workspace());
+  } else {
+    if constexpr (P == 0) simd::batch_evaluate(args);
+    if constexpr (P == 6) simd::batch_linearise_pose(args);
+    if constexpr (P == 9) simd::batch_linearise_pose_plane(args);
+  }
   for (int i = 0; i < batch.size(); ++i)
     if (!batch.valid(i)) args.status[i] = Status::invalid_argument;
   return Status::ok;
@@ -263,22 +277,24 @@ Status run_batch(const TextBatch& batch, const ImageView8& target, const Pinhole
 /// Results agree with reference::evaluate() within the bounds of simd/batch.hpp. An object whose geometry overflows
 /// float (a number beyond 1e30) is non_finite. Returns ok, or invalid_argument for null poses, a target below 2 x 2, a
 /// camera that is not valid(), bad options, or a result without room; all objects then have that status. The kernels
-/// compute all of it (Path::kernel). No allocation; thread-safe for distinct results.
+/// compute all of it; behind a lens objects go one by one. No allocation; thread-safe for distinct results.
 TEXTPLANE_DEFERRED
-Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
-                      const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
+Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
+                      const PhotometricOptions& options, TextBatchResult& result) noexcept {
   return detail::run_batch<0>(batch, target, camera, T_t_h, options, result);
 }
 
 /// As evaluate_batch(), with the normal equations of every object: by Parameters::pose or Parameters::pose_plane.
 template <Parameters Unknowns>
-Status linearise_batch(const TextBatch& batch, const ImageView8& target, const Pinhole<double>& camera,
-                       const SE3d* T_t_h, const PhotometricOptions& options, TextBatchResult& result) noexcept {
+Status linearise_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
+                       const PhotometricOptions& options, TextBatchResult& result) noexcept {
   static_assert(Unknowns == Parameters::pose || Unknowns == Parameters::pose_plane,
                 "textplane: linearise_batch() is by pose or pose_plane");
   return detail::run_batch<dof(Unknowns)>(batch, target, camera, T_t_h, options, result);
 }
 
 TEXTPLANE_END_NAMESPACE
+
+#include "textplane/photometry/lens/text_batch_lens.hpp"
 
 #endif  // TEXTPLANE_PHOTOMETRY_TEXT_BATCH_HPP

@@ -25,6 +25,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "textplane/simd/lens.hpp"
 #include "textplane/simd/robust.hpp"
 #include "textplane/simd/sample.hpp"
 
@@ -47,7 +48,8 @@ struct ResidualArgs {
   double theta[3] = {};        ///< Plane in the host frame, theta^T p = 1.
   double host_camera[4] = {};  ///< fx, fy, cx, cy.
   double target_camera[4] = {};
-  bool exact = true;  ///< Derivatives through mean and s; else both are held.
+  const LensFit* lens = nullptr;  ///< Of the target camera, near this patch; null where it has none.
+  bool exact = true;              ///< Derivatives through mean and s; else both are held.
   RobustKind robust = RobustKind::huber;
   double delta = 0.5;             ///< Of the robust cost, on r sqrt(N).
   double min_contrast = 0;        ///< Least standard deviation of either side, in intensity units.
@@ -87,14 +89,16 @@ enum : int {
 
 // The geometry of one call. (c, d) is the target's principal point relative to the origin.
 struct ResidualFrame {
-  simd::Warp8 warp;
-  SampleFrame sample;
-  ImageTiles tiles;       // used where its guess is likely
-  float rho[3];           // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
-  double inverse[9];      // H^-1, row-major
-  double q[3];            // theta^T H^-1
-  double c, d, ifx, ify;  // ifx, ify: 1 / focal lengths of the target
-  bool inside;            // if true, every pixel of the patch is visible
+  simd::Warp8 warp;    // to the image, or behind a lens to m - m0
+  SampleFrame sample;  // around (ox, oy)
+  ImageTiles tiles;    // used where its guess is likely
+  LensFrame lens;
+  int ox, oy;                     // origin of image positions; without a lens that of the warp
+  float rho[3];                   // rho = theta^T m~ of a host pixel: rho0 u + rho1 v + rho2
+  double inverse[9];              // H^-1, row-major
+  double q[3];                    // theta^T H^-1
+  double c, d, fx, fy, ifx, ify;  // focal lengths of the target: of its image, or behind a lens 1; their inverses
+  bool inside;                    // if true, every pixel of the patch is visible
 };
 
 // The caller's scratch: one array of each.

@@ -79,6 +79,8 @@ struct TemplateModel {
 
 TEXTPLANE_END_NAMESPACE
 
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/template_cells.inl"
+#include "textplane/simd/foreach_target.inl"
 #define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/template.inl"
 #include "textplane/simd/foreach_target.inl"
 #define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/template_model.inl"

@@ -3,10 +3,7 @@
 #ifndef TEXTPLANE_CORE_CAMERAS_RADIAL_TANGENTIAL_HPP
 #define TEXTPLANE_CORE_CAMERAS_RADIAL_TANGENTIAL_HPP
 
-#include <cmath>
-#include <limits>
-
-#include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/cameras/lens.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -14,7 +11,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// m_d = m (1 + k1 r^2 + k2 r^4 + k3 r^6) + (2 p1 x y + p2 (r^2 + 2 x^2), p1 (r^2 + 2 y^2) + 2 p2 x y).
 template <class S>
 struct RadialTangential {
-  static constexpr int kParameters = 9;  ///< fx fy cx cy k1 k2 p1 p2 k3.
+  static constexpr int kParameters = 9;                      ///< fx fy cx cy k1 k2 p1 p2 k3.
+  static constexpr const char* kName = "radial_tangential";  ///< Of the model.
 
   Pinhole<S> intrinsics;  ///< Of the undistorted image.
   S k1 = S(0);            ///< Radial, of r^2.
@@ -36,25 +34,27 @@ struct RadialTangential {
 
   /// Finite, with positive focal lengths.
   bool valid() const noexcept { return intrinsics.valid() && all_finite(parameters()); }
-  /// In front of the camera, where the lens does not fold over (see undistort()).
+  /// In front of the camera, where one_to_one() holds.
   bool in_domain(const Vector3<S>& p) const noexcept {
     if (!(p[2] > S(0))) return false;
+    const Vector2<S> m(p[0] / p[2], p[1] / p[2]);
     FixedMatrix<S, 2, 2> J;
-    distort({p[0] / p[2], p[1] / p[2]}, &J);
-    return J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0) > min_determinant();
+    distort(m, &J);
+    return one_to_one(m, J);
+  }
+  /// Whether the lens has not folded over between the centre and m: the radial part of m_d rises all the way, and the
+  /// determinant of J = d m_d / d m, which distort() gives, is above 1e-6.
+  bool one_to_one(const Vector2<S>& m, const FixedMatrix<S, 2, 2>& J) const noexcept {
+    const S slope[] = {S(1), S(3) * k1, S(5) * k2, S(7) * k3};  // d (r radial) / d r, of r^2
+    return J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0) > S(1e-6) &&
+           detail::positive_up_to<3>(slope, S(m[0] * m[0] + m[1] * m[1]));
   }
 
-  /// Pixel of the camera-frame point p, which is in the domain. If J is given it receives d pixel / d p (2 x 3).
-  Vector2<S> project(const Vector3<S>& p, FixedMatrix<S, 2, 3>* J = nullptr) const noexcept {
-    const Vector2<S> m(p[0] / p[2], p[1] / p[2]);
-    if (!J) return intrinsics.pixel(distort(m));
-    FixedMatrix<S, 2, 2> D;
-    const Vector2<S> distorted = distort(m, &D);
-    D.row(0) *= intrinsics.fx;
-    D.row(1) *= intrinsics.fy;
-    Pinhole<S>().project(p, J);  // d m / d p
-    *J = product(D, *J);
-    return intrinsics.pixel(distorted);
+  /// Pixel of the camera-frame point p, which is in the domain. What is given receives d pixel / d p (2 x 3) and
+  /// d pixel / d parameters (2 x 9).
+  Vector2<S> project(const Vector3<S>& p, FixedMatrix<S, 2, 3>* J_p = nullptr,
+                     FixedMatrix<S, 2, 9>* J_parameters = nullptr) const noexcept {
+    return detail::project_through(*this, p, J_p, J_parameters);
   }
 
   /// Ray m~ = (m, 1) of a pixel: see undistort().
@@ -64,42 +64,45 @@ struct RadialTangential {
     if (is_ok(status)) *ray = {m[0], m[1], S(1)};
     return status;
   }
+  /// The same as a unit vector.
+  Status unproject_ray(const Vector2<S>& px, Vector3<S>* ray) const noexcept {
+    Vector3<S> m;
+    const Status status = unproject(px, &m);
+    return is_ok(status) ? detail::bearing_of(m, ray) : status;
+  }
+
+  /// m_d of the camera-frame point p. If they are given, together, they receive its derivatives by p (2 x 3) and by
+  /// k1 k2 p1 p2 k3 (2 x 5).
+  Vector2<S> lens(const Vector3<S>& p, FixedMatrix<S, 2, 3>* D_p = nullptr,
+                  FixedMatrix<S, 2, 5>* D_k = nullptr) const noexcept {
+    const Vector2<S> m(p[0] / p[2], p[1] / p[2]);
+    if (!D_p) return distort(m);
+    FixedMatrix<S, 2, 2> J;
+    const Vector2<S> distorted = distort(m, &J);
+    detail::chain_to_point(p, J, D_p);
+    detail::tangential_columns(m, 2, D_k);
+    const S r2 = m[0] * m[0] + m[1] * m[1];
+    for (int i = 0; i < 2; ++i) {
+      (*D_k)(i, 0) = m[i] * r2;
+      (*D_k)(i, 1) = m[i] * r2 * r2;
+      (*D_k)(i, 4) = m[i] * r2 * r2 * r2;
+    }
+    return distorted;
+  }
 
   /// Distorted normalised point of m. If J is given it receives d m_d / d m (2 x 2).
   Vector2<S> distort(const Vector2<S>& m, FixedMatrix<S, 2, 2>* J = nullptr) const noexcept {
-    const S x = m[0], y = m[1], r2 = x * x + y * y;
+    const S r2 = m[0] * m[0] + m[1] * m[1];
     const S radial = S(1) + r2 * (k1 + r2 * (k2 + r2 * k3));
-    if (J) {
-      const S slope = S(2) * (k1 + r2 * (S(2) * k2 + r2 * S(3) * k3));  // d radial / d r^2, times 2
-      const S cross = x * y * slope + S(2) * (p1 * x + p2 * y);
-      *J << radial + x * x * slope + S(2) * p1 * y + S(6) * p2 * x, cross,  //
-          cross, radial + y * y * slope + S(6) * p1 * y + S(2) * p2 * x;
-    }
-    return {x * radial + S(2) * p1 * x * y + p2 * (r2 + S(2) * x * x),
-            y * radial + p1 * (r2 + S(2) * y * y) + S(2) * p2 * x * y};
+    const S slope = S(2) * (k1 + r2 * (S(2) * k2 + r2 * S(3) * k3));
+    return detail::bend(m, radial, slope, p1, p2, J);
   }
 
-  /// Inverse of distort() by Newton's method. It stops one step after the residual falls below 1e-12 (float: 1e-6), so
-  /// that the derivative of a dual number has settled too. Status::degenerate where the lens model folds over (its
-  /// Jacobian is singular or reversed) or the iteration does not converge, non_finite for NaN; then `m` is untouched.
+  /// Inverse of distort() by Newton's method, where one_to_one() holds. It stops one step after the residual falls
+  /// below 1e-12 (float: 1e-6), so that the derivative of a dual number has settled too. Status::degenerate where no
+  /// such point is found, non_finite for NaN; then `m` is untouched.
   Status undistort(const Vector2<S>& distorted, Vector2<S>* m) const noexcept {
-    using std::abs;
-    if (!all_finite(distorted)) return Status::non_finite;
-    const S tolerance = std::numeric_limits<S>::epsilon() < S(1e-10) ? S(1e-12) : S(1e-6);
-    Vector2<S> x = distorted;
-    for (int i = 0; i < 20; ++i) {
-      FixedMatrix<S, 2, 2> J;
-      const Vector2<S> e = distort(x, &J) - distorted;
-      const S det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
-      if (!(det > min_determinant()) || !all_finite(e)) return Status::degenerate;
-      x[0] -= (J(1, 1) * e[0] - J(0, 1) * e[1]) / det;
-      x[1] -= (J(0, 0) * e[1] - J(1, 0) * e[0]) / det;
-      if (abs(e[0]) < tolerance && abs(e[1]) < tolerance) {
-        *m = x;
-        return Status::ok;
-      }
-    }
-    return Status::degenerate;
+    return detail::invert_lens(*this, distorted, m);
   }
 
   const Pinhole<S>& pinhole() const noexcept { return intrinsics; }  ///< The camera behind the lens.
@@ -114,9 +117,6 @@ struct RadialTangential {
   RadialTangential<U> cast() const noexcept {
     return {intrinsics.template cast<U>(), U(k1), U(k2), U(p1), U(p2), U(k3)};
   }
-
- private:
-  static S min_determinant() noexcept { return S(1e-6); }
 };
 
 static_assert(is_camera_model<RadialTangential<double>>::value, "textplane: RadialTangential is no camera model");

@@ -10,7 +10,7 @@ TEXTPLANE_SIMD_INLINE bool prepare_points(const simd::PointArgs& a, simd::Warp8*
   simd::PointBounds bounds = a.bounds;
   if (a.n > 0 && bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
   if (!make_warp(a.h, middle_x(bounds), middle_y(bounds), a.image.width, a.image.height, warp)) return false;
-  make_sample_frame(a.image, *warp, frame);
+  make_sample_frame(a.image, warp->ox, warp->oy, frame);
   result->ox = warp->ox;
   result->oy = warp->oy;
   result->inside = 0;

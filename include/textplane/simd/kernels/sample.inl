@@ -49,15 +49,14 @@ TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { retu
 TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
 
 // The homography that takes (u, v), relative to the host centre (hx, hy), to a target pixel, h row-major, around the
-// target pixel nearest to the projected centre, or the middle of the image if the centre is behind. False where it
-// cannot be written in float.
-TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
-                                             simd::Warp8* w) noexcept {
-  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
+// target pixel (ox, oy). False where it cannot be written in float.
+TEXTPLANE_SIMD_INLINE bool make_warp_around(const double* h, float hx, float hy, int origin_x, int origin_y,
+                                            simd::Warp8* w) noexcept {
+  const double x = h[2], y = h[5], z = h[8];
   w->hx = hx;
   w->hy = hy;
-  w->ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
-  w->oy = !(z > 0) ? (height - 1) / 2 : !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
+  w->ox = origin_x;
+  w->oy = origin_y;
   // Any positive scale will do; this one keeps the divisor of a patch of 100 px near 1.
   const double size = (z < 0 ? -z : z) + 50 * ((h[6] < 0 ? -h[6] : h[6]) + (h[7] < 0 ? -h[7] : h[7]));
   const double scale = size > 0 ? 1 / size : 1, ox = w->ox, oy = w->oy;
@@ -77,6 +76,18 @@ TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy
   return finite_d(size) && finite_d(squares) && !(squares > 1e60);
 }
 
+// The same around the pixel of the image nearest to the projected centre, or its middle if the centre is behind.
+TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
+                                             simd::Warp8* w) noexcept {
+  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
+  const int ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
+  const int oy = !(z > 0)          ? (height - 1) / 2
+                 : !(py > 0)       ? 0
+                 : py < height - 1 ? static_cast<int>(py + 0.5)
+                                   : height - 1;
+  return make_warp_around(h, hx, hy, ox, oy, w);
+}
+
 // The same for h from host pixel to target pixel.
 TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
                                      simd::Warp8* w) noexcept {
@@ -86,19 +97,19 @@ TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int wi
   return make_centred_warp(centred, hx, hy, width, height, w);
 }
 
-// How `image` is read around the origin of `warp`.
-TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, const simd::Warp8& warp,
+// How `image` is read around the pixel (origin_x, origin_y).
+TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, int origin_x, int origin_y,
                                              SampleFrame* f) noexcept {
-  const long long ox = warp.ox, oy = warp.oy;
+  const long long ox = origin_x, oy = origin_y;
   f->pairs = image.pairs ? image.pairs + (oy * image.pair_stride + ox) : nullptr;
   f->bytes = image.data + (oy * image.stride + ox);
   f->stride = image.pairs ? image.pair_stride : image.stride;
-  f->x_low = static_cast<float>(-warp.ox);
-  f->y_low = static_cast<float>(-warp.oy);
-  f->x_high = static_cast<float>(image.width - 2 - warp.ox);
-  f->y_high = static_cast<float>(image.height - 2 - warp.oy);
-  f->x_last = static_cast<float>(image.width - 1 - warp.ox);
-  f->y_last = static_cast<float>(image.height - 1 - warp.oy);
+  f->x_low = static_cast<float>(-origin_x);
+  f->y_low = static_cast<float>(-origin_y);
+  f->x_high = static_cast<float>(image.width - 2 - origin_x);
+  f->y_high = static_cast<float>(image.height - 2 - origin_y);
+  f->x_last = static_cast<float>(image.width - 1 - origin_x);
+  f->y_last = static_cast<float>(image.height - 1 - origin_y);
 }
 
 // The constants of a warp in all lanes. Made before a loop, since g++ would make them again inside.

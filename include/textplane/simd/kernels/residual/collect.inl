@@ -58,6 +58,7 @@ TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFr
     const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
     const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
     const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
+    if (f.lens.on) lens_or_outside(f.lens, x, y, &x, &y);
     const vm finite = le(abs_(h), set1(3.0e38F));
     const unsigned in_front = b & bits_from_mask(ahead),
                    seen = in_front & bits_from_mask(and_(inside_vector(f.sample, x, y, divisor), finite));
@@ -110,10 +111,11 @@ TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::
                                        const HostPixels& host, ResidualFrame* f) noexcept {
   const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
   if (!f->inside || a.target.pairs) return;
-  const TileGuess guess = guess_tiles(host.x, host.y, host.n, (g[0] - x * g[6]) * z, (g[1] - x * g[7]) * z,
-                                      (g[3] - y * g[6]) * z, (g[4] - y * g[7]) * z);
+  float a0 = (g[0] - x * g[6]) * z, b0 = (g[1] - x * g[7]) * z, c0 = (g[3] - y * g[6]) * z, d0 = (g[4] - y * g[7]) * z;
+  if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
+  const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
   const simd::Image8& t = a.target;
-  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->warp.ox, f->warp.oy, &f->tiles)) return;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
   SampleFrame inner = f->sample;
   inner.x_last = static_cast<float>(f->tiles.x_high);
   inner.y_last = static_cast<float>(f->tiles.y_high);
@@ -158,11 +160,47 @@ TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFra
   }
   zero_tail(s.i + begin, n);
 }
+
+// The same behind a lens: rays, intensities, gradients by them.
+TEXTPLANE_SIMD_INLINE void collect_behind(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
+                                          const ResidualArrays& s, SampleStrip* strip) noexcept {
+  LensStrip lens;
+  float *x = s.x + begin, *y = s.y + begin;
+  const int held = kInt16Tiles != 0 && f.tiles.guess.likely ? n / k16Lanes * k16Lanes : 0;
+  lens_strip(f.warp, f.sample, f.lens, !values, f.tiles, held, host.x + begin, host.y + begin, n, x, y, strip, &lens);
+  if (held > 0) fetch_tiles(f.tiles, held, strip);
+  fetch_taps(f.sample, held, n, strip);
+  const bool paired = f.sample.pairs != nullptr;
+  if (values) {
+    interpolate_values(*strip, n, paired, s.i + begin);
+  } else {
+    if (f.lens.tangential)
+      interpolate_behind(f.lens, true, paired, *strip, lens, x, y, n, s.i + begin, s.a + begin, s.b + begin);
+    else
+      interpolate_behind(f.lens, false, paired, *strip, lens, x, y, n, s.i + begin, s.a + begin, s.b + begin);
+    zero_tail(x, n);
+    zero_tail(y, n);
+    zero_tail(s.a + begin, n);
+    zero_tail(s.b + begin, n);
+  }
+  zero_tail(s.i + begin, n);
+}
+TEXTPLANE_SIMD_ENTRY void collect_lens_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n,
+                                             const ResidualArrays& s, SampleStrip* strip) noexcept {
+  collect_behind(host, f, begin, n, false, s, strip);
+}
+TEXTPLANE_SIMD_ENTRY void collect_lens_values(const HostPixels& host, const ResidualFrame& f, int begin, int n,
+                                              const ResidualArrays& s, SampleStrip* strip) noexcept {
+  collect_behind(host, f, begin, n, true, s, strip);
+}
+
 TEXTPLANE_SIMD_ENTRY void collect_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n,
                                         const ResidualArrays& s, SampleStrip* strip) noexcept {
+  if (f.lens.on) return collect_lens_strip(host, f, begin, n, s, strip);
   collect_any(host, f, begin, n, false, s, strip);
 }
 TEXTPLANE_SIMD_ENTRY void collect_values(const HostPixels& host, const ResidualFrame& f, int begin, int n,
                                          const ResidualArrays& s, SampleStrip* strip) noexcept {
+  if (f.lens.on) return collect_lens_values(host, f, begin, n, s, strip);
   collect_any(host, f, begin, n, true, s, strip);
 }

@@ -82,7 +82,7 @@ TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedS
 // parameters. Rows 0 to 7 of the result hold columns 0 to 7; row 8 holds column 8.
 TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f,
                                            double (*M)[8]) noexcept {
-  const double fx = a.target_camera[0], fy = a.target_camera[1], ix = 1 / fx, iy = 1 / fy, c = f.c, d = f.d;
+  const double fx = f.fx, fy = f.fy, ix = 1 / fx, iy = 1 / fy, c = f.c, d = f.d;
   const double fxy = fx * iy, fyx = fy * ix, cx = c * ix, dy = d * iy;
   for (int k = 0; k < 9; ++k) {
     // The generator dH H^-1 of this parameter is left^T right, or [e]x.

@@ -1,4 +1,4 @@
-// Geometry of one residual call, in double (simd/residual.hpp). Include before: kernels/sample.inl.
+// Geometry of one residual call, in double (simd/residual.hpp). Include before: kernels/sample.inl, kernels/lens.inl.
 
 TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
 
@@ -23,11 +23,47 @@ TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFr
 // The patch is visible if the corners of its box are: every quantity that must be positive is affine in u and v.
 TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
                                       const simd::PointBounds& bounds) noexcept {
+  if (f.lens.on) {
+    const float *box = f.lens.box, margin = 1e-3F;
+    return box[0] <= box[2] && box[0] > sample.x_low + margin && box[1] > sample.y_low + margin &&
+           box[2] < sample.x_last - margin && box[3] < sample.y_last - margin;
+  }
   const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
   bool inside = true;
   for (int k = 0; k < 4; k += kLanes)
     inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
   return inside;
+}
+
+// Bounds of the patch's image positions behind a lens, from the border of its box, to the frame.
+TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
+  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
+  float u[kAll], v[kAll], x[kAll], y[kAll];
+  for (int k = 0; k < kAll; ++k) {
+    const int side = k / kBorderSide % 4;
+    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
+    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
+    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
+  }
+  const WarpVectors warp = broadcast_warp(f->warp);
+  float* box = f->lens.box;
+  box[0] = box[1] = 1;
+  box[2] = box[3] = -1;
+  for (int k = 0; k < kAll; k += kLanes) {
+    const vf pu = load(u + k), pv = load(v + k);
+    const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
+    const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
+    const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
+             py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
+    vf at_x, at_y;
+    lens_or_outside(f->lens, px, py, &at_x, &at_y);
+    store(x + k, at_x);
+    store(y + k, at_y);
+    const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
+    if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
+  }
+  bound_border(x, y, box);
 }
 
 // H^-1 and theta^T H^-1, to the frame. (Arguments one by one: arrays would pass through memory.)
@@ -54,6 +90,25 @@ TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, do
   return true;
 }
 
+// The warp to the target, its lens, and how its image is read.
+TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
+                                       ResidualFrame* f) noexcept {
+  f->lens.on = false;
+  if (!a.lens) {
+    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
+    f->ox = f->warp.ox;
+    f->oy = f->warp.oy;
+  } else {
+    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
+        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
+      return false;
+    f->ox = f->lens.ox;
+    f->oy = f->lens.oy;
+  }
+  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  return true;
+}
+
 // False where the numbers exceed float, or H has no inverse.
 TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
                                      ResidualFrame* f) noexcept {
@@ -73,7 +128,9 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
   const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
                mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
-  const double fx = a.target_camera[0], fy = a.target_camera[1], cx = a.target_camera[2], cy = a.target_camera[3];
+  // Behind a lens the target is the plane z = 1, around m0.
+  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
+  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
   const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
   const double G[9] = {fx * (h0 * ifx) + cx * s6,
                        fx * (h1 * ify) + cx * s7,
@@ -84,10 +141,11 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
                        s6,
                        s7,
                        s8};
-  if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
-  make_sample_frame(a.target, f->warp, &f->sample);
+  if (!make_target(a, G, hx, hy, f)) return false;
   f->c = cx - f->warp.ox;
   f->d = cy - f->warp.oy;
+  f->fx = fx;
+  f->fy = fy;
   f->ifx = 1 / fx;
   f->ify = 1 / fy;
   const double r0 = p0 * ifx, r1 = p1 * ify, r2 = p2 + p0 * mu + p1 * mv;
@@ -97,6 +155,7 @@ TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::Po
   if (!(abs_d(r0) < 1e30 && abs_d(r1) < 1e30 && abs_d(r2) < 1e30)) return false;
 
   if (!invert(h0, h1, h2, h3, h4, h5, h6, h7, h8, a.theta, f)) return false;
+  if (a.lens) bound_lens(bounds, f);
   f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
   f->tiles.guess.likely = false;
   return true;

@@ -27,7 +27,7 @@ struct RowConstants {
 };
 TEXTPLANE_SIMD_ENTRY void make_row_constants(const simd::ResidualArgs& a, const ResidualFrame& f,
                                              RowConstants* k) noexcept {
-  const double fx = a.target_camera[0], fy = a.target_camera[1], ix = f.ifx, iy = f.ify, mu = -f.c * ix, mv = -f.d * iy;
+  const double fx = f.fx, fy = f.fy, ix = f.ifx, iy = f.ify, mu = -f.c * ix, mv = -f.d * iy;
   k->fx = static_cast<float>(fx);
   k->fy = static_cast<float>(fy);
   k->ifx = static_cast<float>(ix);

@@ -1,4 +1,4 @@
-// Sampling and sums of simd/template.hpp. Include before: kernels/sample.inl.
+// Sampling and sums of simd/template.hpp. Include before: residual/template_cells.inl.
 //
 // A strip of pixels passes through short loops, each near the limit of its ports: divisors | positions, offsets and
 // fractions | taps and interpolation | products. One long loop would exceed what the CPU schedules at once.
@@ -6,20 +6,6 @@
 // Range of the sums: a product is at most 8191 * 8160, two of them go to a lane, and a strip has 16 vectors: 2.14e9 <
 // 2^31. After a strip the lanes are split into low and high halves, which add up for kTemplateChunk pixels without
 // overflow.
-
-enum : int {
-  kTemplateStrip = 16 * k16Lanes,
-  kTemplateChunk = 512 * kTemplateStrip,
-  kTemplateSums = 11,
-};
-
-// Between the loops: divisors, then offsets or, for tiles, cells, and fractions.
-struct TemplateStrip {
-  float inverse[kTemplateStrip];
-  std::int32_t offset[kTemplateStrip];
-  std::int16_t x[kTemplateStrip], y[kTemplateStrip];
-  std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
-};
 
 // 1 / w of two vectors by one division.
 TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
@@ -41,7 +27,7 @@ TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const Ima
   const float scale = 32768.0f;
   const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
   const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
-  const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset), fraction = seti(32767);
+  const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset);
   const v16 x_high = set16(tiles ? tiles->x_high : 0), y_high = set16(tiles ? tiles->y_high : 0);
   const float *u = a.u + from, *v = a.v + from;
   for (int i = 0; i < n; i += k16Lanes) {
@@ -51,16 +37,7 @@ TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const Ima
     const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
     const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
     const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
-    if (tiles) {
-      store16(s.x + i, min_unsigned16(pack16(shr(x0, 15), shr(x1, 15)), x_high));
-      store16(s.y + i, min_unsigned16(pack16(shr(y0, 15), shr(y1, 15)), y_high));
-    } else {
-      const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
-      storei(s.offset + i, mini(maxi(o0, low), high));
-      storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
-    }
-    store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
-    store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
+    template_store(tiles != nullptr, rows, low, high, x_high, y_high, x0, y0, x1, y1, i, s);
   }
 }
 
@@ -222,8 +199,8 @@ TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const st
   template_flush(c7, first, low + 10, high + 10);
 }
 
-TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const ImageTiles* tiles, bool derivatives,
-                                        simd::TemplateSums& out) noexcept {
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const ImageTiles* tiles, const LensFrame* lens,
+                                        bool derivatives, simd::TemplateSums& out) noexcept {
   const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
   const int used = derivatives ? kTemplateSums : 3;
   const bool paired = a.target.pairs != nullptr;
@@ -242,11 +219,12 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const Image
       const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
       const std::int16_t* ahead = derivatives ? rows : nullptr;
       template_divide(a, from, n, strip);
+      if (lens) template_lens_cells(a, *lens, tiles, from, stride, low_offset, high_offset, n, strip);
       if (kInt16Tiles != 0 && tiles) {
-        template_tile_cells(a, *tiles, from, n, strip);
+        if (!lens) template_tile_cells(a, *tiles, from, n, strip);
         template_tiles(*tiles, n, strip, ahead, values);
       } else {
-        template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
+        if (!lens) template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
         if (paired)
           template_pairs(a, n, strip, ahead, values);
         else
@@ -273,9 +251,9 @@ TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const Image
 }
 
 TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, nullptr, true, out);
+  template_run(a, nullptr, nullptr, true, out);
 }
 
 TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
-  template_run(a, nullptr, false, out);
+  template_run(a, nullptr, nullptr, false, out);
 }

@@ -1,6 +1,27 @@
 // Costs and normal equations from the exact sums of template.inl, in double (simd/template.hpp). Include before:
 // residual/template.inl, residual/weights.inl, residual/finish.inl, residual/host_basis.inl.
 
+// The origin above and to the left of image positions between (x_low, y_low) and (x_high, y_high), relative to the
+// frame's; and tiles, where pixels that move by (a du + b dv, c du + d dv) are likely to take them. False where 16 bits
+// do not hold the positions.
+TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low, double y_low, double x_high,
+                                           double y_high, simd::TemplateArgs* t, int* dx, int* dy) noexcept {
+  if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
+  *dx = static_cast<int>(x_low + 65536.0) - 65537;
+  *dy = static_cast<int>(y_low + 65536.0) - 65537;
+  t->ox = f.ox + *dx;
+  t->oy = f.oy + *dy;
+  return true;
+}
+TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
+                                              double y_low, double x_high, double y_high, ImageTiles* tiles) noexcept {
+  // One pixel clear of the borders where a tile would leave the image, so that no cell is clamped.
+  const simd::Image8& target = t.target;
+  return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
+         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
+         y_high + f.oy < target.height - 3;
+}
+
 // The warp with divisor 1 at the centre, and an origin above and to the left of all pixels. False where not all are
 // visible.
 TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
@@ -20,8 +41,8 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
     x_high = x > x_high ? x : x_high;
     y_high = y > y_high ? y : y_high;
   }
-  if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
-  const int dx = static_cast<int>(x_low + 65536.0) - 65537, dy = static_cast<int>(y_low + 65536.0) - 65537;
+  int dx, dy;
+  if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
   for (int k = 0; k < 3; ++k) {
     const double w = k < 2 ? g[6 + k] : 1.0;
     t->g[k] = static_cast<float>(g[k] - dx * w);
@@ -29,16 +50,33 @@ TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const Re
   }
   t->g[6] = static_cast<float>(g[6]);
   t->g[7] = static_cast<float>(g[7]);
-  t->ox = f.warp.ox + dx;
-  t->oy = f.warp.oy + dy;
-  // One pixel clear of the borders where a tile would leave the image, so that no cell is clamped.
-  const simd::Image8& target = t->target;
-  if (make_tiles(target.data, target.stride, target.width, target.height, t->ox, t->oy, tiles) && !target.pairs &&
-      x_low + f.warp.ox >= 1 && y_low + f.warp.oy >= 1 && x_high + f.warp.ox < target.width - 16 &&
-      y_high + f.warp.oy < target.height - 3) {
+  if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
     const float* k = t->g;
     tiles->guess =
         guess_tiles(m.u, m.v, m.n, k[0] - k[2] * k[6], k[1] - k[2] * k[7], k[3] - k[5] * k[6], k[4] - k[5] * k[7]);
+  }
+  return true;
+}
+
+// The same behind a lens: the warp to rays, and the lens relative to that origin.
+TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, const ResidualFrame& f,
+                                              simd::TemplateArgs* t, LensFrame* lens, ImageTiles* tiles) noexcept {
+  if (!f.inside) return false;
+  const float* box = f.lens.box;
+  const double x_low = static_cast<double>(box[0]), y_low = static_cast<double>(box[1]),
+               x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
+  int dx, dy;
+  if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
+  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
+  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  *lens = f.lens;
+  lens->ax -= static_cast<float>(dx);
+  lens->ay -= static_cast<float>(dy);
+  if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
+    const float* k = t->g;
+    float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
+    lens_turn(f.lens, &a, &b, &c, &d);
+    tiles->guess = guess_tiles(m.u, m.v, m.n, a, b, c, d);
   }
   return true;
 }
@@ -155,8 +193,9 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   simd::TemplateArgs t;
   t.target = a.target;
   ImageTiles tiles;
+  LensFrame lens;
   info->status = Status::unsupported;
-  if (!template_frame(m, f, &t, &tiles)) return;
+  if (f.lens.on ? !template_lens_frame(m, f, &t, &lens, &tiles) : !template_frame(m, f, &t, &tiles)) return;
   info->candidates = info->visible = m.n;
   if (a.flags) set_all(a.flags, a.n);
   info->status = Status::too_few;
@@ -167,7 +206,7 @@ TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd
   t.n = m.n;
   t.values = values;
   simd::TemplateSums exact;
-  template_run(t, tiles.guess.likely ? &tiles : nullptr, derivatives, exact);
+  template_run(t, tiles.guess.likely ? &tiles : nullptr, f.lens.on ? &lens : nullptr, derivatives, exact);
 
   Residual r;
   double mean, norm;
