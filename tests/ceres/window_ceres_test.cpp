@@ -114,5 +114,25 @@ TEST_F(WindowAgainstCeres, UnusableObservationsAreLeftOut) {
   EXPECT_EQ(broken.problem().NumResidualBlocks(), 0);
 }
 
+// What only solve_window() adjusts is refused rather than taken for something else.
+TEST_F(WindowAgainstCeres, RowsRigsAndUnknownCamerasAreUnsupported) {
+  const tp::RowMotion rows{tp::Vector6<double>::Constant(0.1), {0.03, 119.5, kHeight}};
+  const tp::CameraView other(scene.camera);
+  tp::WindowCalibration calibration;
+  calibration.camera = scene.camera;
+  calibration.hold();
+  make(false);
+  for (int what = 0; what < 4; ++what) {
+    tp::Window w = start;
+    if (what == 0) w.frames[1].rows = &rows;
+    if (what == 1) w.frames[1].base = 0;
+    if (what == 2) w.frames[1].camera = &other;
+    if (what == 3) w.calibration = &calibration;
+    tp::adapters::WindowProblem problem(w, options);
+    EXPECT_EQ(problem.status(), tp::Status::unsupported) << what;
+    EXPECT_EQ(problem.problem().NumResidualBlocks(), 0) << what;
+  }
+}
+
 }  // namespace
 }  // namespace textplane_test

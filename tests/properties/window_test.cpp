@@ -107,7 +107,7 @@ RC_GTEST_PROP(Windows, TheUnitOfLengthIsNotSeen, ()) {
 RC_GTEST_PROP(Windows, TheReducedSystemIsTheFullOne, ()) {
   tp::Window w = points_window(false);
   const tp::WindowOptions options;
-  RC_PRE(tp::detail::WindowStructure::check(w, options) == tp::Status::ok);
+  RC_PRE(tp::detail::check_window(w, options) == tp::Status::ok);
   tp::detail::WindowStructure s;
   RC_PRE(s.build(w, options) == tp::Status::ok);
   Random random(seed());

@@ -105,21 +105,33 @@ struct Scene {
   static constexpr int kWidth = 320, kHeight = 240, kLevels = 3;
   Pinhole<double> camera{260, 255, 160.3, 118.9};
   std::vector<Sign> signs;
+  const textplane::LensMap* lens = nullptr;  // of the targets; hosts are pinholes
+
+  textplane::CameraView view() const { return {camera, lens}; }
 
   // What the camera at T_t_w sees on one level; multiples of 2^-10, so that gains and biases can be applied without
   // rounding.
   FloatPyramid render(const SE3d& T_t_w) const {
     FloatPyramid out;
     for (int l = 0; l < kLevels; ++l) {
-      const Pinhole<double> c = camera.at_level(l);
+      const textplane::CameraView c = view().at_level(l);
       Image<float> image(kWidth >> l, kHeight >> l, 128.0F);
+      std::vector<Vec3> rays;
+      for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+          Vec3 ray(0, 0, -1);
+          (void)c.unproject(Vec2(x, y), &ray);
+          rays.push_back(ray);
+        }
       for (const Sign& sign : signs) {
         const SE3d T_h_t = (T_t_w * sign.T_w_h).inverse();
         const Texture texture(sign.seed);
         for (int y = 0; y < image.height(); ++y)
           for (int x = 0; x < image.width(); ++x) {
             // Point o + s d on the plane theta of the host frame.
-            const Vec3 d = T_h_t.R * c.unproject({x, y});
+            const Vec3& ray = rays[static_cast<std::size_t>(y * image.width() + x)];
+            if (!(ray[2] > 0)) continue;
+            const Vec3 d = T_h_t.R * ray;
             const double s = (1 - sign.theta.dot(T_h_t.t)) / sign.theta.dot(d);
             if (!(s > 0)) continue;
             const Vec3 p = T_h_t.t + s * d;
@@ -170,9 +182,10 @@ struct Scene {
     const SE3d T_t_h = T_t_w * sign.T_w_h;
     for (int l = 0; l < kLevels; ++l) {
       textplane::PatchLevel& level = out.levels[static_cast<std::size_t>(l)];
-      const Pinhole<double> c = camera.at_level(l);
+      const Pinhole<double> host = camera.at_level(l);
+      const textplane::CameraView c = view().at_level(l);
       for (std::size_t i = 0; i < level.x.size(); ++i) {
-        const Vec3 m = c.unproject({level.x[i], level.y[i]});
+        const Vec3 m = host.unproject({level.x[i], level.y[i]});
         const Vec2 px = c.project(T_t_h * Vec3(m / sign.theta.dot(m)));
         const textplane::ImageViewF view = target.levels[static_cast<std::size_t>(l)].view();
         double value;

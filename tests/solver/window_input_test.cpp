@@ -29,10 +29,10 @@ TEST_F(WindowInput, NanPosesAndCamerasAreRefused) {
   x.frames[3].T_w_c.t[1] = kNan;
   EXPECT_EQ(tp::solve_window(x, o).status, tp::Status::non_finite);
   x = w;
-  x.camera.fx = kNan;
+  x.camera.pinhole.fx = kNan;
   EXPECT_EQ(tp::solve_window(x, o).status, tp::Status::non_finite);
   x = w;
-  x.camera.fy = -1;
+  x.camera.pinhole.fy = -1;
   EXPECT_EQ(tp::solve_window(x, o).status, tp::Status::invalid_argument);
   x = w;
   x.point_observations[5].frame = 5;

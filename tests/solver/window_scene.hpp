@@ -49,6 +49,8 @@ inline double texture(double x, double y, int text) {
 /// The truth and what is rendered from it. The Window points into it.
 struct Scene {
   tp::Pinhole<double> camera{260, 262, 161.3, 118.6};
+  const tp::LensMap* lens = nullptr;  // of all frames; texts are given in px of the undistorted image
+  tp::CameraView view() const { return {camera, lens}; }
   std::vector<tp::SE3d> T_w_c;
   std::vector<SceneText> texts;
   std::vector<std::unique_ptr<tp::Pyramid>> pyramids;
@@ -74,7 +76,7 @@ struct Scene {
   }
 
   tp::Window& finish() {
-    truth.camera = camera;
+    truth.camera = view();
     render();
     for (std::size_t f = 0; f < T_w_c.size(); ++f) {
       tp::WindowFrame frame;
@@ -85,8 +87,9 @@ struct Scene {
     for (int f = 0; f < static_cast<int>(T_w_c.size()); ++f)
       for (int p = 0; p < static_cast<int>(truth.points.size()); ++p) {
         const auto c = T_w_c[static_cast<std::size_t>(f)].inverse() * truth.points[static_cast<std::size_t>(p)].p_w;
-        const tp::Vector2<double> px = camera.project(c);
-        if (c[2] < 0.1 || px[0] < 0 || px[1] < 0 || px[0] > kWidth - 1 || px[1] > kHeight - 1) continue;
+        if (c[2] < 0.1 || !view().in_domain(c)) continue;
+        const tp::Vector2<double> px = view().project(c);
+        if (px[0] < 0 || px[1] < 0 || px[0] > kWidth - 1 || px[1] > kHeight - 1) continue;
         tp::WindowPointObservation o;
         o.frame = f;
         o.point = p;
@@ -122,7 +125,9 @@ struct Scene {
         const tp::Matrix3<double> back = tp::plane_homography<double>(t.theta, T).inverse();
         for (int y = 0; y < kHeight; ++y)
           for (int x = 0; x < kWidth; ++x) {
-            const tp::Vector3<double> q = back * camera.unproject({static_cast<double>(x), static_cast<double>(y)});
+            tp::Vector3<double> ray;
+            if (!tp::is_ok(view().unproject({static_cast<double>(x), static_cast<double>(y)}, &ray))) continue;
+            const tp::Vector3<double> q = back * ray;
             const tp::Vector2<double> host = camera.pixel({q[0] / q[2], q[1] / q[2]});
             // A margin, so that the patch never samples the edge.
             if (host[0] < t.x0 - 8 || host[0] > t.x1 + 8 || host[1] < t.y0 - 8 || host[1] > t.y1 + 8) continue;
@@ -140,12 +145,21 @@ struct Scene {
             pixels[static_cast<std::size_t>(l)].push_back({static_cast<float>(std::floor((x + 0.5) * k - 0.5)),
                                                            static_cast<float>(std::floor((y + 0.5) * k - 0.5))});
       }
+      // As the image with its lens has them.
+      for (std::size_t l = 0; l < 3 && lens; ++l)
+        for (tp::Vector2<float>& px : pixels[l])
+          px = taken(view().at_level(static_cast<int>(l)), px.cast<double>()).cast<float>();
       tp::Quad<double> quad;
       quad.corner = {tp::Vector2<double>(t.x0, t.y0), tp::Vector2<double>(t.x1, t.y0), tp::Vector2<double>(t.x1, t.y1),
                      tp::Vector2<double>(t.x0, t.y1)};
+      for (tp::Vector2<double>& corner : quad.corner)
+        if (lens) corner = taken(view(), corner);
       patches.push_back(std::make_unique<tp::TextPatch>(
-          tp::patch_from_pixels(pyramids[static_cast<std::size_t>(t.host)]->view(), camera, quad, pixels)));
+          tp::patch_from_pixels(pyramids[static_cast<std::size_t>(t.host)]->view(), view(), quad, pixels)));
     }
+  }
+  static tp::Vector2<double> taken(const tp::CameraView& camera, const tp::Vector2<double>& px) {
+    return camera.pixel(camera.pinhole.unproject(px).head<2>());
   }
 };
 

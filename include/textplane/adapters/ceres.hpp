@@ -142,15 +142,16 @@ class TextCost : public detail::TextRowsCost<Parameters::pose_plane> {
 template <PoseOrder Order = PoseOrder::quaternion_translation>
 class PointCost : public ceres::SizedCostFunction<2, kPoseSize, 3> {
  public:
-  /// px: undistorted, level 0; sigma: its standard deviation in px; min_depth in the unit of the world.
-  PointCost(const Pinhole<double>& camera, const Vector2<double>& px, double sigma = 1, double min_depth = 1e-6)
+  /// px: level 0, of the image as the camera sees it; sigma: its standard deviation in px; min_depth in the unit of the
+  /// world.
+  PointCost(const CameraView& camera, const Vector2<double>& px, double sigma = 1, double min_depth = 1e-6)
       : camera_(camera), px_(px), scale_(1 / sigma), min_depth_(min_depth) {}
 
-  /// As ceres::CostFunction; false where z <= min_depth.
+  /// As ceres::CostFunction; false where z <= min_depth, or the lens has no pixel.
   bool Evaluate(const double* const* blocks, double* residuals, double** jacobians) const override {
     const SE3d T = pose_from_block<Order>(blocks[0]);
     const Vector3<double> p = T.R.transpose() * (Eigen::Map<const Vector3<double>>(blocks[1]) - T.t);
-    if (!(p[2] > min_depth_)) return false;
+    if (!(p[2] > min_depth_) || !camera_.in_domain(p)) return false;
     FixedMatrix<double, 2, 3> J;
     Eigen::Map<Vector2<double>>{residuals} = scale_ * (camera_.project(p, &J) - px_);
     if (!jacobians) return true;
@@ -165,7 +166,7 @@ class PointCost : public ceres::SizedCostFunction<2, kPoseSize, 3> {
   }
 
  private:
-  const Pinhole<double> camera_;
+  const CameraView camera_;
   const Vector2<double> px_;
   const double scale_, min_depth_;
 };

@@ -29,6 +29,7 @@
 #include "ceres.hpp"
 
 #ifndef TEXTPLANE_SINGLE_HEADER
+#include "textplane/solver/window_check.hpp"
 #include "textplane/solver/window_problem.hpp"
 #include "textplane/solver/window_structure.hpp"
 #endif
@@ -48,7 +49,8 @@ class WindowProblem {
     text_.sigma_rep = options.sigma_rep;
     text_.sigma_photo = options.sigma_photo;
     text_.rows = rows;
-    status_ = textplane::detail::WindowStructure::check(window, options);
+    status_ = textplane::detail::check_window(window, options);
+    if (is_ok(status_) && !is_supported(window)) status_ = Status::unsupported;
     if (!is_ok(status_)) return;
     if (options_.point_robust.kind != RobustKind::l2) loss_ = std::make_unique<Loss>(options_.point_robust);
     poses_.resize(window.frames.size());
@@ -63,7 +65,8 @@ class WindowProblem {
   WindowProblem(const WindowProblem&) = delete;
   WindowProblem& operator=(const WindowProblem&) = delete;
 
-  /// ok, or solve_window()'s status for an invalid window or options; the problem is then empty.
+  /// ok; solve_window()'s status for an invalid window or options; or unsupported where the rows of a frame move, for
+  /// rigs, and where the camera is an unknown. The problem is empty where this is not ok.
   Status status() const noexcept { return status_; }
   ceres::Problem& problem() noexcept { return problem_; }  ///< Add your own costs to it.
   /// The block of a frame's pose.
@@ -95,6 +98,13 @@ class WindowProblem {
   }
 
  private:
+  // One camera that is known, with a shutter that takes all rows at once.
+  static bool is_supported(const Window& window) noexcept {
+    for (const WindowFrame& frame : window.frames)
+      if ((frame.rows && frame.rows->active()) || frame.base != -1 || frame.camera) return false;
+    return !window.calibration;
+  }
+
   static ceres::Problem::Options ownership() {
     ceres::Problem::Options out;
 #if TEXTPLANE_CERES_HAS_MANIFOLD

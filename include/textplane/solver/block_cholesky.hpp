@@ -35,6 +35,18 @@ void subtract_outer(const S* a, const S* b, int n, S* c) noexcept {
   }
 }
 
+// c += a^T b for column-major a (2 x Rows), b (2 x Columns) and c (Rows x Columns), down the columns of c.
+template <int Rows, int Columns, class S>
+void add_two_rows(const S* a, const S* b, S* c) noexcept {
+  S first[kLength<Rows>], second[kLength<Rows>];
+  for (int r = 0; r < Rows; ++r) {
+    first[r] = a[2 * r];
+    second[r] = a[2 * r + 1];
+  }
+  for (int k = 0; k < Columns; ++k)
+    for (int r = 0; r < Rows; ++r) c[Rows * k + r] += first[r] * b[2 * k] + second[r] * b[2 * k + 1];
+}
+
 /// Lower block triangle of an n x n block matrix, blocks column-major. S is double, see BasicWindowSchur.
 template <class S>
 class BasicBlockCholesky {

@@ -34,7 +34,7 @@ struct PlaneRefinement {
 namespace detail {
 template <class View>
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta,
-                             const BasicPlaneTarget<View>* targets, int count, const Pinhole<double>& camera,
+                             const BasicPlaneTarget<View>* targets, int count, const CameraView& camera,
                              const PlaneOptions& options, PlaneWorkspace& workspace) noexcept {
   PlaneRefinement fit;
   fit.theta = theta;
@@ -81,7 +81,7 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 /// workspaces.
 TEXTPLANE_DEFERRED
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTarget* targets,
-                             int count, const Pinhole<double>& camera, const PlaneOptions& options,
+                             int count, const CameraView& camera, const PlaneOptions& options,
                              PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
@@ -89,7 +89,7 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 /// The same on float images.
 TEXTPLANE_DEFERRED
 PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& theta, const PlaneTargetF* targets,
-                             int count, const Pinhole<double>& camera, const PlaneOptions& options,
+                             int count, const CameraView& camera, const PlaneOptions& options,
                              PlaneWorkspace& workspace) noexcept {
   return detail::refine_plane(patch, theta, targets, count, camera, options, workspace);
 }
@@ -97,8 +97,7 @@ PlaneRefinement refine_plane(const TextPatch& patch, const Vector3<double>& thet
 /// refine_plane() with one target and a workspace of its own (allocates).
 TEXTPLANE_DEFERRED
 PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                            const PyramidView& target, const Pinhole<double>& camera,
-                            const PlaneOptions& options = {}) {
+                            const PyramidView& target, const CameraView& camera, const PlaneOptions& options = {}) {
   const PlaneTarget one{target, T_t_h};
   PlaneWorkspace workspace;
   workspace.reserve(patch, 1);
@@ -106,13 +105,13 @@ PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta
 }
 
 TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
-                                                      const Pinhole<double>&, const PlaneOptions&,
+                                                      const CameraView&, const PlaneOptions&,
                                                       PlaneWorkspace&) noexcept);
 TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
-                                                      int, const Pinhole<double>&, const PlaneOptions&,
+                                                      int, const CameraView&, const PlaneOptions&,
                                                       PlaneWorkspace&) noexcept);
 TEXTPLANE_INSTANCE(PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                     const PyramidView&, const Pinhole<double>&, const PlaneOptions&));
+                                                     const PyramidView&, const CameraView&, const PlaneOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

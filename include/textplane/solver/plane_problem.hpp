@@ -20,13 +20,13 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A target image and its pose relative to the host. View: PyramidView, or PyramidViewF for float images.
 template <class View>
 struct BasicPlaneTarget {
-  View image;           ///< Pyramid of the undistorted image.
+  View image;           ///< Pyramid of the image, which the camera says how to see.
   SE3d T_t_h;           ///< Host to target.
   int scale_shift = 0;  ///< Of photometric_input(), for targets that see the object at another size.
   /// The host's patch for this target alone (blur.hpp), or null for the patch of refine_plane(). A target whose patch
   /// differs from that one in levels or numbers of pixels is not used.
   const TextPatch* patch = nullptr;
-  const Pinhole<double>* camera = nullptr;  ///< Of level 0, or null for the camera of refine_plane().
+  const CameraView* camera = nullptr;  ///< Of level 0, or null for the camera of refine_plane().
 };
 using PlaneTarget = BasicPlaneTarget<PyramidView>;    ///< Of 8-bit images.
 using PlaneTargetF = BasicPlaneTarget<PyramidViewF>;  ///< Of float images.
@@ -88,7 +88,7 @@ class PlaneProblem {
   using State = Vector3<double>;
   static constexpr int kParameters = 3;
 
-  PlaneProblem(const TextPatch& patch, const BasicPlaneTarget<View>* targets, int count, const Pinhole<double>& camera,
+  PlaneProblem(const TextPatch& patch, const BasicPlaneTarget<View>* targets, int count, const CameraView& camera,
                const PlaneOptions& options, PlaneWorkspace& workspace) noexcept
       : patch_(patch), targets_(targets), count_(count), camera_(camera), options_(options), memory_(workspace) {}
 
@@ -176,7 +176,7 @@ class PlaneProblem {
   const TextPatch& patch_;
   const BasicPlaneTarget<View>* targets_;
   int count_;
-  const Pinhole<double>& camera_;
+  CameraView camera_;  // may have been made of a pinhole for this call
   const PlaneOptions& options_;
   PlaneWorkspace& memory_;
   int level_ = 0;

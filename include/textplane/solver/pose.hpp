@@ -1,4 +1,5 @@
-// Camera pose from text objects and points: refine_pose() for a tracker's frame, align_pose() for one object.
+// Camera pose from text objects and points: refine_pose() for a tracker's frame, also of a rig of several cameras,
+// align_pose() for one object.
 //
 // The cost is in pose_problem.hpp, the iteration in gauss_newton.hpp. It runs once a pyramid level, coarse to fine.
 // Points count on every level, in px of level 0. Points alone and text alone both work.
@@ -11,6 +12,7 @@
 
 #include "textplane/geometry/quad_projection.hpp"
 #include "textplane/solver/pose_problem.hpp"
+#include "textplane/solver/pose_rig.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -75,63 +77,118 @@ inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int tar
   return range.coarsest >= range.finest ? range : LevelRange{options.finest_level, options.finest_level};
 }
 
+// What there is to check of a rig's cameras and of the terms that name them.
+template <class View>
+Status check_rig(const BasicPoseCamera<View>* cameras, int camera_count) noexcept {
+  if (!cameras || camera_count <= 0) return Status::invalid_argument;
+  for (int c = 0; c < camera_count; ++c) {
+    const Status status = check_camera(cameras[c].camera);
+    if (!is_ok(status)) return status;
+    if (!all_finite(cameras[c].T_r_c)) return Status::non_finite;
+  }
+  return Status::ok;
+}
+template <class Term>
+bool cameras_known(const Term* terms, int count, int camera_count) noexcept {
+  for (int i = 0; i < count; ++i)
+    if (terms[i].camera < 0 || terms[i].camera >= camera_count) return false;
+  return true;
+}
+
+// The inputs of refine_pose() that one camera and a rig have in common, and its results for a problem of either.
+struct PoseRequest {
+  const PoseTextTerm* texts;
+  int text_count;
+  const PosePointTerm* points;
+  int point_count;
+  const PoseOptions& options;
+  float *text_zncc, *point_chi2;
+
+  bool valid(const PoseWorkspace& workspace, int camera_count) const noexcept {
+    if (text_count < 0 || point_count < 0 || (text_count > 0 && !texts) || (point_count > 0 && !points)) return false;
+    for (int i = 0; text_zncc && i < text_count; ++i) text_zncc[i] = -1.0F;
+    for (int i = 0; point_chi2 && i < point_count; ++i) point_chi2[i] = -1.0F;
+    return detail::valid(options) && workspace.fits(texts, text_count, point_count) &&
+           cameras_known(texts, text_count, camera_count) && cameras_known(points, point_count, camera_count);
+  }
+
+  template <class Problem>
+  void solve(Problem& problem, int target_levels, PoseFit& fit) const noexcept {
+    const LevelRange range = pose_levels(texts, text_count, target_levels, options);
+    PoseSystem system;
+    minimise_levels(problem, fit.T_t_w, range, options.solve, &system, &fit);
+
+    const double scale = 1.0 / (options.sigma_rep * options.sigma_rep);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) fit.information(i, j) = scale * system.H(i, j);
+    if (is_ok(system.status)) {
+      fit.texts = problem.active_texts();
+      fit.visible_pixels = problem.visible_pixels();
+      for (int i = 0; i < text_count; ++i) {
+        const PoseTextState& state = problem.text_state(i);
+        if (state.visible == 0) continue;
+        fit.zncc += state.zncc / fit.texts;
+        if (text_zncc) text_zncc[i] = static_cast<float>(state.zncc);
+      }
+    }
+    problem.for_each_error(fit.T_t_w, [&](int i, const Vector2<double>& e) {
+      const double chi2 = e.squaredNorm() * scale / (points[i].sigma * points[i].sigma);
+      fit.inlier_points += chi2 <= kChiSquare95TwoDof;
+      if (point_chi2) point_chi2[i] = static_cast<float>((std::min)(chi2, 1e30));
+    });
+  }
+};
+
 template <class View>
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-                    const View& target, const Pinhole<double>& camera, const SE3d& T_t_w, const PoseOptions& options,
+                    const View& target, const CameraView& camera, const SE3d& T_t_w, const PoseOptions& options,
                     PoseWorkspace& workspace, float* text_zncc, float* point_chi2) noexcept {
   PoseFit fit;
   fit.T_t_w = T_t_w;
-  if (text_count < 0 || point_count < 0 || (text_count > 0 && !texts) || (point_count > 0 && !points)) return fit;
-  for (int i = 0; text_zncc && i < text_count; ++i) text_zncc[i] = -1.0F;
-  for (int i = 0; point_chi2 && i < point_count; ++i) point_chi2[i] = -1.0F;
-  if (!valid(options) || !workspace.fits(texts, text_count, point_count)) return fit;
+  const PoseRequest request{texts, text_count, points, point_count, options, text_zncc, point_chi2};
+  if (!request.valid(workspace, 1)) return fit;
   fit.status = check_camera(camera);
   if (is_ok(fit.status) && !all_finite(T_t_w)) fit.status = Status::non_finite;
   if (!is_ok(fit.status)) return fit;
-
   PoseProblem<View> problem(texts, text_count, points, point_count, target, camera, options, workspace);
-  const LevelRange range = pose_levels(texts, text_count, target.levels, options);
-  PoseSystem system;
-  minimise_levels(problem, fit.T_t_w, range, options.solve, &system, &fit);
+  request.solve(problem, target.levels, fit);
+  return fit;
+}
 
-  const double scale = 1.0 / (options.sigma_rep * options.sigma_rep);
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) fit.information(i, j) = scale * system.H(i, j);
-  if (is_ok(system.status)) {
-    fit.texts = problem.active_texts();
-    fit.visible_pixels = problem.visible_pixels();
-    for (int i = 0; i < text_count; ++i) {
-      const PoseTextState& state = problem.text_state(i);
-      if (state.visible == 0) continue;
-      fit.zncc += state.zncc / fit.texts;
-      if (text_zncc) text_zncc[i] = static_cast<float>(state.zncc);
-    }
-  }
-  for (int i = 0; i < point_count; ++i) {
-    Vector3<double> p;
-    Vector2<double> e;
-    if (!reproject(points[i], fit.T_t_w, camera, &p, &e)) continue;
-    const double chi2 = e.squaredNorm() * scale / (points[i].sigma * points[i].sigma);
-    fit.inlier_points += chi2 <= kChiSquare95TwoDof;
-    if (point_chi2) point_chi2[i] = static_cast<float>((std::min)(chi2, 1e30));
-  }
+template <class View>
+PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
+                    const BasicPoseCamera<View>* cameras, int camera_count, const SE3d& T_r_w,
+                    const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc,
+                    float* point_chi2) noexcept {
+  PoseFit fit;
+  fit.T_t_w = T_r_w;
+  const PoseRequest request{texts, text_count, points, point_count, options, text_zncc, point_chi2};
+  if (!request.valid(workspace, camera_count)) return fit;
+  fit.status = check_rig(cameras, camera_count);
+  if (is_ok(fit.status) && !all_finite(T_r_w)) fit.status = Status::non_finite;
+  if (!is_ok(fit.status)) return fit;
+  int levels = 0;
+  for (int c = 0; c < camera_count; ++c) levels = (std::max)(levels, cameras[c].target.levels);
+  PoseProblem<View> problem(texts, text_count, points, point_count, cameras, camera_count, options, workspace);
+  request.solve(problem, levels, fit);
   return fit;
 }
 
 // The shift of the levels for the size at which the target shows the object at this pose, as far as both have levels.
 template <class View>
 int pose_scale_shift(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const View& target,
-                     const Pinhole<double>& camera, int finest_level) noexcept {
+                     const CameraView& camera, int finest_level) noexcept {
   Quad<double> seen;
-  if (finest_level < 0 || !is_ok(project_quad<double>(patch.quad, patch.camera, theta, T_t_h, camera, &seen))) return 0;
-  const int shift = scale_shift(std::abs(area(patch.quad)), std::abs(area(seen)), kMaxPyramidLevels);
+  if (finest_level < 0 || !is_ok(project_quad(patch.quad, patch.camera, theta, T_t_h, camera, &seen))) return 0;
+  const double area_in_host = patch.area > 0 ? patch.area : std::abs(area(patch.quad));
+  const int shift = scale_shift(area_in_host, std::abs(area(seen)), kMaxPyramidLevels);
   const auto room = [finest_level](int levels) { return (std::max)(levels - 1 - finest_level, 0); };
   return (std::min)((std::max)(shift, -room(patch.level_count())), room(target.levels));
 }
 
 template <class View>
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const View& target,
-                         const Pinhole<double>& camera, const PoseOptions& options) {
+                         const CameraView& camera, const PoseOptions& options) {
   const int shift = pose_scale_shift(patch, theta, T_t_h, target, camera, options.finest_level);
   const PoseTextTerm term{&patch, theta, SE3d(), 1, shift};
   PoseWorkspace workspace;
@@ -149,17 +206,17 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
 
 /// Refines the pose T_t_w (world to target) of one image from text objects and points, coarse to fine.
 ///
-/// `texts`, `points`: may be null where their count is 0. `target`: pyramid of the undistorted image; may have no level
-/// where there are no texts. `camera`: of the target, level 0. `text_zncc` (text_count values) and `point_chi2`
-/// (point_count values, |e|^2 / (sigma sigma_rep)^2) may be null; they receive the final values, -1 for skipped terms.
-/// Every linearisation skips texts that are out of view, behind a camera, without contrast, on a missing level or not
-/// finite, and points that are behind the camera or not finite. No allocation: reserve `workspace` for these terms.
-/// Thread-safe for distinct workspaces.
+/// `texts`, `points`: may be null where their count is 0. `target`: pyramid of the image; may have no level where
+/// there are no texts. `camera`: of the target, level 0, with its lens where the image is not undistorted, and its rows
+/// where they are not taken at once (those of hosts are in their patches). `text_zncc`
+/// (text_count values) and `point_chi2` (point_count values, |e|^2 / (sigma sigma_rep)^2) may be null; they receive the
+/// final values, -1 for skipped terms. Every linearisation skips texts that are out of view, behind a camera, without
+/// contrast, on a missing level or not finite, and points that are behind the camera or not finite. No allocation:
+/// reserve `workspace` for these terms. Thread-safe for distinct workspaces.
 TEXTPLANE_DEFERRED
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-                    const PyramidView& target, const Pinhole<double>& camera, const SE3d& T_t_w,
-                    const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
-                    float* point_chi2 = nullptr) noexcept {
+                    const PyramidView& target, const CameraView& camera, const SE3d& T_t_w, const PoseOptions& options,
+                    PoseWorkspace& workspace, float* text_zncc = nullptr, float* point_chi2 = nullptr) noexcept {
   return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace,
                              text_zncc, point_chi2);
 }
@@ -167,11 +224,32 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 /// The same on float images.
 TEXTPLANE_DEFERRED
 PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-                    const PyramidViewF& target, const Pinhole<double>& camera, const SE3d& T_t_w,
-                    const PoseOptions& options, PoseWorkspace& workspace, float* text_zncc = nullptr,
-                    float* point_chi2 = nullptr) noexcept {
+                    const PyramidViewF& target, const CameraView& camera, const SE3d& T_t_w, const PoseOptions& options,
+                    PoseWorkspace& workspace, float* text_zncc = nullptr, float* point_chi2 = nullptr) noexcept {
   return detail::refine_pose(texts, text_count, points, point_count, target, camera, T_t_w, options, workspace,
                              text_zncc, point_chi2);
+}
+
+/// Refines the pose T_r_w (world to rig) of `camera_count` cameras that took their images at the same time, from the
+/// terms of all of them; each term names its camera. The result's T_t_w is T_r_w, and its information is by xi of
+/// T_r_w <- Exp(xi) T_r_w. Extrinsics are held. Status::invalid_argument also where there is no camera, or a term names
+/// none of them; non_finite also for NaN extrinsics. All else is as for one camera, with the levels of the camera that
+/// has most.
+TEXTPLANE_DEFERRED
+PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
+                    const PoseCamera* cameras, int camera_count, const SE3d& T_r_w, const PoseOptions& options,
+                    PoseWorkspace& workspace, float* text_zncc = nullptr, float* point_chi2 = nullptr) noexcept {
+  return detail::refine_pose<PyramidView>(texts, text_count, points, point_count, cameras, camera_count, T_r_w, options,
+                                          workspace, text_zncc, point_chi2);
+}
+
+/// The same on float images.
+TEXTPLANE_DEFERRED
+PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
+                    const PoseCameraF* cameras, int camera_count, const SE3d& T_r_w, const PoseOptions& options,
+                    PoseWorkspace& workspace, float* text_zncc = nullptr, float* point_chi2 = nullptr) noexcept {
+  return detail::refine_pose<PyramidViewF>(texts, text_count, points, point_count, cameras, camera_count, T_r_w,
+                                           options, workspace, text_zncc, point_chi2);
 }
 
 /// Pose T_t_h (host to target) of one text object with the plane `theta` (host frame), from the guess T_t_h. As
@@ -180,27 +258,33 @@ PoseFit refine_pose(const PoseTextTerm* texts, int text_count, const PosePointTe
 /// found a minimum, but not this object. Allocates its own workspace.
 TEXTPLANE_DEFERRED
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                         const PyramidView& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
+                         const PyramidView& target, const CameraView& camera, const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
 /// The same on a float image.
 TEXTPLANE_DEFERRED
 PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h,
-                         const PyramidViewF& target, const Pinhole<double>& camera, const PoseOptions& options = {}) {
+                         const PyramidViewF& target, const CameraView& camera, const PoseOptions& options = {}) {
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
 TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
-                                             const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
-                                             float*, float*) noexcept);
+                                             const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
+                                             float*) noexcept);
 TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
-                                             const Pinhole<double>&, const SE3d&, const PoseOptions&, PoseWorkspace&,
-                                             float*, float*) noexcept);
+                                             const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
+                                             float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCamera*,
+                                             int, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
+                                             float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCameraF*,
+                                             int, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
+                                             float*) noexcept);
 TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidView&, const Pinhole<double>&, const PoseOptions&));
+                                                  const PyramidView&, const CameraView&, const PoseOptions&));
 TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidViewF&, const Pinhole<double>&, const PoseOptions&));
+                                                  const PyramidViewF&, const CameraView&, const PoseOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

@@ -4,7 +4,9 @@
 //
 // c is the robust photometric cost of a text object (residual.hpp); weighting.hpp has lambda_w. This is the paper's
 // E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega), and with it
-// every T_t_h = T_t_w T_w_h.
+// every T_t_h = T_t_w T_w_h. Of a rig, the pose is the rig's, and each term is one of its camera (pose_rig.hpp). Behind
+// a rolling shutter (CameraView::rows) poses are those at the time stamp, and each point counts at the pose of the row
+// that shows it.
 #ifndef TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 #define TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 
@@ -13,50 +15,12 @@
 
 #include "textplane/photometry/residual_policy.hpp"
 #include "textplane/solver/levels.hpp"
-#include "textplane/solver/pose_terms.hpp"
+#include "textplane/solver/pose_points.hpp"
+#include "textplane/solver/pose_rig.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-struct PoseSystem {
-  FixedMatrix<double, 6, 6> H = FixedMatrix<double, 6, 6>::Zero();
-  Vector6<double> b = Vector6<double>::Zero();
-  double cost = 0;
-  Status status = Status::too_few;
-};
-
-/// Reprojection error e (px) of p_w. False for a point that is not finite or over 89.9 degrees off the optical axis.
-template <class S>
-bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const Pinhole<S>& camera, Vector3<S>* p,
-               Vector2<S>* e) noexcept {
-  *p = T_t_w * term.p_w;
-  const double z = (*p)[2];
-  if (!(z > 0) || !(z * z > 1e-6 * p->squaredNorm())) return false;
-  *e = camera.project(*p) - term.px;
-  return is_finite((*e)[0]) && is_finite((*e)[1]) && valid_sigma(term.sigma);
-}
-
-/// Adds a point's part to the lower triangle of H, to b and to the cost. False where reproject() is.
-inline bool add_point(const PosePointTerm& term, const SE3d& T_t_w, const Pinhole<double>& camera, const Robust& robust,
-                      PoseSystem& system) noexcept {
-  Vector3<double> p;
-  Vector2<double> e;
-  if (!reproject(term, T_t_w, camera, &p, &e)) return false;
-  const double information = 1.0 / (term.sigma * term.sigma), r2 = e.squaredNorm() * information;
-  const double weight = robust.weight(r2) * information;
-  const double iz = 1.0 / p[2], u = p[0] * iz, v = p[1] * iz, fx = camera.fx, fy = camera.fy;
-  // d e / d xi from dp = v + omega x p.
-  const double jx[6] = {fx * iz, 0, -fx * u * iz, -fx * u * v, fx * (1 + u * u), -fx * v};
-  const double jy[6] = {0, fy * iz, -fy * v * iz, -fy * (1 + v * v), fy * u * v, fy * u};
-  for (int i = 0; i < 6; ++i) {
-    const double wx = weight * jx[i], wy = weight * jy[i];
-    system.b[i] += wx * e[0] + wy * e[1];
-    for (int j = 0; j <= i; ++j) system.H(i, j) += wx * jx[j] + wy * jy[j];
-  }
-  system.cost += robust.rho(r2);
-  return true;
-}
-
 /// H's upper triangle becomes its lower one.
 inline void mirror(PoseSystem& system) noexcept {
   for (int i = 0; i < 6; ++i)
@@ -70,16 +34,31 @@ class PoseProblem {
   static constexpr int kParameters = 6;
 
   PoseProblem(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
-              const View& target, const Pinhole<double>& camera, const PoseOptions& options,
+              const View& target, const CameraView& camera, const PoseOptions& options,
               PoseWorkspace& workspace) noexcept
       : texts_(texts),
         points_(points),
         text_count_(text_count),
         point_count_(point_count),
-        target_(target),
-        camera_(camera),
+        one_{camera, SE3d(), target},
         options_(options),
-        memory_(workspace) {}
+        memory_(workspace) {
+    set_rows();
+  }
+  /// Of a rig. The terms' cameras are in [0, camera_count).
+  PoseProblem(const PoseTextTerm* texts, int text_count, const PosePointTerm* points, int point_count,
+              const BasicPoseCamera<View>* rig, int camera_count, const PoseOptions& options,
+              PoseWorkspace& workspace) noexcept
+      : texts_(texts),
+        points_(points),
+        text_count_(text_count),
+        point_count_(point_count),
+        rig_(rig),
+        camera_count_(camera_count),
+        options_(options),
+        memory_(workspace) {
+    set_rows();
+  }
 
   void set_level(int level) noexcept { level_ = level; }
 
@@ -87,23 +66,17 @@ class PoseProblem {
     PoseSystem system;
     Status trouble = Status::too_few;
     visible_pixels_ = active_points_ = active_texts_ = 0;
-    std::size_t offset = 0;
-    for (int i = 0; i < text_count_; ++i) {
-      PoseTextState& state = text(i);
-      state = PoseTextState{offset, 0, 0, 0};
-      const Status status = add_text(texts_[i], T_t_w, state, system);
-      if (!is_ok(status)) {
-        if (trouble == Status::too_few) trouble = status;
-        continue;
+    offset_ = 0;
+    for (int c = 0; c < camera_count_; ++c) {
+      if (!rig_) {
+        add_terms(c, T_t_w, system, trouble);
+      } else {
+        const SE3d T_c_r = rig_[c].T_r_c.inverse();
+        PoseSystem seen;
+        add_terms(c, T_c_r * T_t_w, seen, trouble);
+        mirror(seen);
+        add_moved(seen, T_c_r, system);
       }
-      offset += static_cast<std::size_t>(texts_[i].patch->max_pixels());
-      visible_pixels_ += state.visible;
-      ++active_texts_;
-    }
-    for (int i = 0; i < point_count_; ++i) {
-      const bool active = add_point(points_[i], T_t_w, camera_, options_.point_robust, system);
-      memory_.points_[static_cast<std::size_t>(i)] = active;
-      active_points_ += active;
     }
     mirror(system);
     system.status = active_texts_ + active_points_ > 0 ? Status::ok : trouble;
@@ -113,32 +86,24 @@ class PoseProblem {
   Evaluation evaluate(const SE3d& T_t_w) noexcept {
     Evaluation e;
     int lost_pixels = 0, lost_points = 0;
-    for (int i = 0; i < text_count_; ++i) {
-      const PoseTextState& state = text(i);
-      if (state.visible == 0) continue;
-      const PhotometricCost c =
-          textplane::evaluate(request(texts_[i], T_t_w), memory_.photometric_, memory_.visible_.data() + state.offset);
-      path_ = (std::max)(path_, c.path);
-      // An object that fails as a whole costs as much as an uncorrelated patch.
-      e.cost += state.weight * (is_ok(c.status) ? c.cost : options_.photometric.robust.rho(2.0));
-      lost_pixels += is_ok(c.status) ? c.lost : state.visible;
-    }
-    for (int i = 0; i < point_count_; ++i) {
-      if (!memory_.points_[static_cast<std::size_t>(i)]) continue;
-      Vector3<double> p;
-      Vector2<double> r;
-      if (reproject(points_[i], T_t_w, camera_, &p, &r)) {
-        e.cost += options_.point_robust.rho(r.squaredNorm() / (points_[i].sigma * points_[i].sigma));
-      } else {
-        // Behind the camera: the largest error in an image about as wide as the focal length.
-        e.cost += options_.point_robust.rho(camera_.fx * camera_.fx / (points_[i].sigma * points_[i].sigma));
-        ++lost_points;
-      }
-    }
+    for (int c = 0; c < camera_count_; ++c)
+      e.cost += cost(c, rig_ ? rig_[c].T_r_c.inverse() * T_t_w : T_t_w, lost_pixels, lost_points);
     const double pixels = visible_pixels_ > 0 ? static_cast<double>(lost_pixels) / visible_pixels_ : 0.0;
     const double points = active_points_ > 0 ? static_cast<double>(lost_points) / active_points_ : 0.0;
     e.lost_fraction = (std::max)(pixels, points);
     return e;
+  }
+
+  /// Calls f(point index, its error in px) for the points that have a projection at this pose.
+  template <class F>
+  void for_each_error(const SE3d& T_t_w, const F& f) const noexcept {
+    for (int c = 0; c < camera_count_; ++c) {
+      const SE3d T_c_w = rig_ ? rig_[c].T_r_c.inverse() * T_t_w : T_t_w;
+      Vector3<double> p;
+      Vector2<double> e;
+      for (int i = 0; i < point_count_; ++i)
+        if (points_[i].camera == c && reproject(points_[i], T_c_w, camera(c).camera, row(i), &p, &e)) f(i, e);
+    }
   }
 
   SE3d retract(const SE3d& T_t_w, const Vector6<double>& xi) const noexcept { return se3_exp(xi) * T_t_w; }
@@ -152,10 +117,76 @@ class PoseProblem {
  private:
   using Pixel = PixelOf<View>;
 
-  PolicyRequest<Pixel> request(const PoseTextTerm& term, const SE3d& T_t_w) const noexcept {
+  const BasicPoseCamera<View>& camera(int c) const noexcept { return rig_ ? rig_[c] : one_; }
+
+  void set_rows() noexcept {
+    for (int i = 0; i < point_count_; ++i) {
+      const CameraView& seen = camera(points_[i].camera).camera;
+      if (seen.rows) memory_.rows_[static_cast<std::size_t>(i)] = row_increment(points_[i], seen);
+    }
+  }
+  // Of a point, as reproject() takes it.
+  const SE3d* row(int i) const noexcept {
+    return camera(points_[i].camera).camera.rows ? memory_.rows_.data() + static_cast<std::size_t>(i) : nullptr;
+  }
+
+  // The terms of camera c with the pose T_c_w: to the lower triangle of H, to b and to the cost.
+  void add_terms(int c, const SE3d& T_c_w, PoseSystem& system, Status& trouble) noexcept {
+    for (int i = 0; i < text_count_; ++i) {
+      if (texts_[i].camera != c) continue;
+      PoseTextState& state = text(i);
+      state = PoseTextState{offset_, 0, 0, 0};
+      const Status status = add_text(texts_[i], T_c_w, state, system);
+      if (!is_ok(status)) {
+        if (trouble == Status::too_few) trouble = status;
+        continue;
+      }
+      offset_ += static_cast<std::size_t>(texts_[i].patch->max_pixels());
+      visible_pixels_ += state.visible;
+      ++active_texts_;
+    }
+    for (int i = 0; i < point_count_; ++i) {
+      if (points_[i].camera != c) continue;
+      const bool active = add_point(points_[i], T_c_w, camera(c).camera, row(i), options_.point_robust, system);
+      memory_.points_[static_cast<std::size_t>(i)] = active;
+      active_points_ += active;
+    }
+  }
+
+  // Their cost on the residuals of the last linearisation.
+  double cost(int c, const SE3d& T_c_w, int& lost_pixels, int& lost_points) noexcept {
+    double sum = 0;
+    for (int i = 0; i < text_count_; ++i) {
+      const PoseTextState& state = text(i);
+      if (texts_[i].camera != c || state.visible == 0) continue;
+      const PhotometricCost found =
+          textplane::evaluate(request(texts_[i], T_c_w), memory_.photometric_, memory_.visible_.data() + state.offset);
+      path_ = (std::max)(path_, found.path);
+      // An object that fails as a whole costs as much as an uncorrelated patch.
+      sum += state.weight * (is_ok(found.status) ? found.cost : options_.photometric.robust.rho(2.0));
+      lost_pixels += is_ok(found.status) ? found.lost : state.visible;
+    }
+    const CameraView& view = camera(c).camera;
+    for (int i = 0; i < point_count_; ++i) {
+      if (points_[i].camera != c || !memory_.points_[static_cast<std::size_t>(i)]) continue;
+      Vector3<double> p;
+      Vector2<double> r;
+      if (reproject(points_[i], T_c_w, view, row(i), &p, &r)) {
+        sum += options_.point_robust.rho(r.squaredNorm() / (points_[i].sigma * points_[i].sigma));
+      } else {
+        // Behind the camera: the largest error in an image about as wide as the focal length.
+        sum += options_.point_robust.rho(view.pinhole.fx * view.pinhole.fx / (points_[i].sigma * points_[i].sigma));
+        ++lost_points;
+      }
+    }
+    return sum;
+  }
+
+  PolicyRequest<Pixel> request(const PoseTextTerm& term, const SE3d& T_c_w) const noexcept {
     const int host_level = term.scale_shift < 0 ? level_ - term.scale_shift : level_;
-    PolicyRequest<Pixel> q{{level_input(*term.patch, level_, target_, camera_, term.scale_shift), term.theta,
-                            T_t_w * term.T_w_h, options_.photometric},
+    const BasicPoseCamera<View>& seen = camera(term.camera);
+    PolicyRequest<Pixel> q{{level_input(*term.patch, level_, seen.target, seen.camera, term.scale_shift), term.theta,
+                            T_c_w * term.T_w_h, options_.photometric},
                            policy_at_level(options_.policy, level_, options_.finest_level),
                            term.prepared ? term.prepared + host_level : nullptr};
     if (!q.input.patch.gx || !q.input.patch.gy) q.policy = LinearisePolicy::forward;
@@ -164,10 +195,10 @@ class PoseProblem {
 
   PoseTextState& text(int i) noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
 
-  Status add_text(const PoseTextTerm& term, const SE3d& T_t_w, PoseTextState& state, PoseSystem& system) noexcept {
+  Status add_text(const PoseTextTerm& term, const SE3d& T_c_w, PoseTextState& state, PoseSystem& system) noexcept {
     if (!term.patch || !(term.weight > 0) || !is_finite(term.weight)) return Status::invalid_argument;
     PhotometricWorkspace& workspace = memory_.photometric_;
-    const PolicyRequest<Pixel> q = request(term, T_t_w);
+    const PolicyRequest<Pixel> q = request(term, T_c_w);
     NormalEquations<6> n = textplane::linearise<Parameters::pose>(q, workspace);
     path_ = (std::max)(path_, n.path);
     if (!is_ok(n.status)) return n.status;
@@ -191,11 +222,13 @@ class PoseProblem {
   const PoseTextTerm* texts_;
   const PosePointTerm* points_;
   int text_count_, point_count_;
-  const View& target_;
-  const Pinhole<double>& camera_;
+  BasicPoseCamera<View> one_;  // where there is no rig
+  const BasicPoseCamera<View>* rig_ = nullptr;
+  int camera_count_ = 1;
   const PoseOptions& options_;
   PoseWorkspace& memory_;
   int level_ = 0;
+  std::size_t offset_ = 0;  // of the next text's visible set
   int visible_pixels_ = 0, active_points_ = 0, active_texts_ = 0;
   Path path_ = Path::kernel;
 };

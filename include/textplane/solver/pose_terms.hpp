@@ -24,13 +24,15 @@ struct PoseTextTerm {
   int scale_shift = 0;  ///< Of photometric_input(), for targets that see it at another size.
   /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian, or null.
   const TemplatePatch* prepared = nullptr;
+  int camera = 0;  ///< Which camera of a rig sees it; 0 where there is one.
 };
 
 /// A known 3D point and its pixel.
 struct PosePointTerm {
   Vector3<double> p_w = Vector3<double>::Zero();  ///< In the world.
-  Vector2<double> px = Vector2<double>::Zero();   ///< Undistorted, level 0.
+  Vector2<double> px = Vector2<double>::Zero();   ///< Of the image as the camera of the solve sees it, level 0.
   double sigma = 1;  ///< Standard deviation of px as a multiple of PoseOptions::sigma_rep; see valid_sigma().
+  int camera = 0;    ///< Which camera of a rig saw it; 0 where there is one.
 };
 
 /// Settings of refine_pose() and align_pose().
@@ -86,6 +88,7 @@ class PoseWorkspace {
       texts_.resize(static_cast<std::size_t>(text_count));
     if (point_count > 0 && points_.size() < static_cast<std::size_t>(point_count))
       points_.resize(static_cast<std::size_t>(point_count));
+    if (rows_.size() < points_.size()) rows_.resize(points_.size());
   }
 
   /// Whether it has room for these terms.
@@ -110,6 +113,7 @@ class PoseWorkspace {
   std::vector<std::uint8_t> visible_;  // Visible sets of the last linearisation, text after text.
   std::vector<detail::PoseTextState> texts_;
   std::vector<std::uint8_t> points_;  // 1: took part in the last linearisation.
+  std::vector<SE3d> rows_;            // Of the points, behind a rolling shutter: increments of the pose.
 };
 
 TEXTPLANE_END_NAMESPACE

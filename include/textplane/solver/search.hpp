@@ -98,7 +98,7 @@ inline int search_level(const TextPatch& patch, int levels, const SearchOptions&
 /// allocation; `workspace` must have room for the patch.
 TEXTPLANE_DEFERRED
 SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3d& T_t_h, const PyramidView& target,
-                 const Pinhole<double>& camera, const SearchOptions& options, PhotometricWorkspace& workspace,
+                 const CameraView& camera, const SearchOptions& options, PhotometricWorkspace& workspace,
                  const TemplatePatch* prepared = nullptr, float* zncc = nullptr) noexcept {
   if (zncc) *zncc = -1.0F;
   const int level = search_level(patch, target.levels, options);
@@ -127,7 +127,7 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
 }
 
 TEXTPLANE_INSTANCE(SE3d search_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
-                                          const Pinhole<double>&, const SearchOptions&, PhotometricWorkspace&,
+                                          const CameraView&, const SearchOptions&, PhotometricWorkspace&,
                                           const TemplatePatch*, float*) noexcept);
 
 TEXTPLANE_END_NAMESPACE

@@ -2,10 +2,10 @@
 // complement.
 //
 // window_problem.hpp has the cost, the gauge and the results. Every iteration linearises all terms (window_terms.hpp),
-// damps by lambda times the diagonal (Marquardt), eliminates points and planes, and solves the cameras' system by a
-// block Cholesky factorisation (block_cholesky.hpp). lambda follows the gain ratio (Nielsen 1999). The caller fixes the
-// gauge: fixed frames keep every bit, and the distance of two frames can be held. The solver finds a missing gauge from
-// the graph of observations and reports it.
+// damps by lambda times the diagonal (Marquardt), eliminates points and planes, and solves the system of the poses, and
+// of the camera's parameters where they are unknown, by a block Cholesky factorisation (block_cholesky.hpp). lambda
+// follows the gain ratio (Nielsen 1999). The caller fixes the gauge: fixed frames keep every bit, and the distance of
+// two frames can be held. The solver finds a missing gauge from the graph of observations and reports it.
 //
 // Include this header in translation units of one instruction set only: the compiler may keep Eigen's sums of
 // fixed-size matrices and members of std::vector as weak symbols outside our ABI namespace.
@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "textplane/solver/window_check.hpp"
 #include "textplane/solver/window_problem.hpp"
 #include "textplane/solver/window_schur.hpp"
 #include "textplane/solver/window_structure.hpp"
@@ -52,9 +53,14 @@ class WindowSolver {
         system_(workspace.system) {}
 
   WindowSummary run() {
-    sum_.status = WindowStructure::check(w_, o_);
+    sum_.status = check_window(w_, o_);
     if (sum_.status != Status::ok) return sum_;
     x_.read(w_);
+    if (w_.calibration) {
+      const auto parameters = w_.calibration->camera.parameters().size();
+      w_.calibration->covariance.setZero(parameters, parameters);
+      w_.calibration->status = Status::ok;
+    }
     terms_.prepare(w_, o_, x_);
     sum_.status = structure_.build(w_, o_);
     sum_.gauge_freedom = structure_.gauge_freedom;
@@ -109,14 +115,16 @@ class WindowSolver {
   double move() {
     y_.T_w_c = x_.T_w_c;
     y_.landmark = x_.landmark;
-    double largest = 0;
+    double largest = move_camera();
     for (int c = 0; c < structure_.cameras(); ++c) {
       const Vector6<S> xi = system_.camera_step(c);
       SE3<S>& T = at(y_.T_w_c, at(structure_.frame_of_camera, c));
       T = renormalised(T * se3_exp(xi));
       largest = (std::max)({largest, xi.template head<3>().norm() / length_, xi.template tail<3>().norm()});
     }
+    largest = (std::max)(largest, move_velocities());
     if (structure_.scale_a >= 0) restore_scale();
+    y_.follow_bases(w_);
     const int points = count(w_.points);
     for (int l = 0; l < structure_.landmarks(); ++l) {
       if (!at(structure_.landmark_free, l)) continue;
@@ -125,6 +133,43 @@ class WindowSolver {
       at(y_.landmark, l) += d;
       largest = (std::max)(largest, d.norm() / size);
     }
+    return largest;
+  }
+
+  // The same of the velocities of rows; what a step moves over half the readout counts.
+  double move_velocities() {
+    y_.rows = x_.rows;
+    y_.patch_rows = x_.patch_rows;
+    double largest = 0;
+    for (int f : structure_.frame_of_velocity) {
+      const Vector6<S> step = system_.camera_step(at(structure_.velocity_of_frame, f));
+      RowMotion& rows = at(y_.rows, f);
+      rows.velocity += step;
+      const double time = 0.5 * std::abs(rows.shutter.readout);
+      largest =
+          (std::max)({largest, time * step.template head<3>().norm() / length_, time * step.template tail<3>().norm()});
+    }
+    for (int t = 0; t < count(w_.texts); ++t) {
+      const int host = at(w_.texts, t).host;
+      if (at(structure_.velocity_of_frame, host) >= 0) at(y_.patch_rows, t).velocity = at(y_.rows, host).velocity;
+    }
+    return largest;
+  }
+
+  // The same of the camera's parameters.
+  double move_camera() {
+    y_.camera = x_.camera;
+    y_.camera_possible = true;
+    const CalibrationUnknowns& unknowns = structure_.calibration;
+    if (unknowns.count() == 0) return 0;
+    AnyCamera<double>::Parameters p = x_.camera.parameters();
+    double largest = 0;
+    for (int i = 0; i < unknowns.count(); ++i) {
+      const double step = system_.camera_step(structure_.parameter_block() + i / 6)[i % 6];
+      unknowns.move(i, step, &p);
+      largest = (std::max)(largest, unknowns.relative(i, step, x_.camera.parameters()));
+    }
+    y_.camera_possible = is_ok(AnyCamera<double>::make(x_.camera.name(), p, &y_.camera));
     return largest;
   }
 
@@ -142,6 +187,9 @@ class WindowSolver {
   void accept(double step) {
     std::swap(x_.T_w_c, y_.T_w_c);
     std::swap(x_.landmark, y_.landmark);
+    std::swap(x_.rows, y_.rows);
+    std::swap(x_.patch_rows, y_.patch_rows);
+    x_.camera = y_.camera;
     sum_.last_step = step;
     ++sum_.accepted;
     terms_.linearise_texts(w_, o_, x_, structure_);
@@ -161,6 +209,7 @@ class WindowSolver {
     x_.write(w_);
     terms_.report(w_, o_, x_, structure_);
     sum_.free_frames = structure_.cameras();
+    sum_.free_parameters = structure_.calibration.count();
     for (int l = 0; l < structure_.landmarks(); ++l)
       if (at(structure_.landmark_free, l)) ++(l < count(w_.points) ? sum_.free_points : sum_.free_texts);
     for (auto active : structure_.point_active) sum_.point_observations += active;
@@ -169,6 +218,7 @@ class WindowSolver {
   }
 
   void report_certainty() {
+    report_camera();
     for (int c = 0; c < structure_.cameras(); ++c)
       if (system_.camera_deficient(c)) mark(at(w_.frames, at(structure_.frame_of_camera, c)).status);
     const int points = count(w_.points);
@@ -181,6 +231,22 @@ class WindowSolver {
       if (t.status != Status::ok) continue;
       t.covariance = system_.covariance(l);
       if (!all_finite(t.covariance)) t.covariance.setZero();
+    }
+  }
+  void report_camera() {
+    if (!w_.calibration) return;
+    WindowCalibration& out = *w_.calibration;
+    const CalibrationUnknowns& unknowns = structure_.calibration;
+    for (int b = structure_.parameter_block(); b < structure_.blocks(); ++b)
+      if (system_.camera_deficient(b) && is_ok(out.status)) mark(out.status);
+    if (!is_ok(out.status)) return;
+    for (int i = 0; i < unknowns.count(); ++i) {
+      const std::vector<double>& column = system_.covariance_column(structure_.parameter_block() + i / 6, i % 6);
+      for (int j = 0; j < unknowns.count(); ++j)
+        for (int r = 0; r < out.covariance.rows(); ++r)
+          for (int c = 0; c < out.covariance.cols(); ++c)
+            out.covariance(r, c) += unknowns.derivative(r, i) * unknowns.derivative(c, j) *
+                                    column[static_cast<std::size_t>(6 * structure_.parameter_block() + j)];
     }
   }
   void mark(Status& status) noexcept {

@@ -17,12 +17,14 @@
 
 #include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/robust.hpp"
+#include "textplane/core/row_motion.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/core/status.hpp"
 #include "textplane/photometry/patch.hpp"
 #include "textplane/photometry/pyramid.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/solver/weighting.hpp"
+#include "textplane/solver/window_calibration.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -32,10 +34,25 @@ struct WindowFrame {
   SE3<double> T_w_c;   ///< Camera to world.
   bool fixed = false;  ///< Constant: part of the gauge.
   PyramidView image;   ///< May be empty where this frame is no text's target.
+  /// How it moves while its rows are taken; null: it takes all at once. Its owner must outlive the call. T_w_c is the
+  /// pose at the time stamp. Hosts of texts have the rows of their patches.
+  const RowMotion* rows = nullptr;
+  /// Standard deviations of the velocity rows->velocity. Where all are positive the velocity of a free frame is an
+  /// unknown, and the cost gains sum_i ((velocity_i - rows->velocity_i) / sigma_i)^2; else it is known. All are
+  /// zero in a window with rigs.
+  Vector6<double> velocity_sigma = Vector6<double>::Zero();
+
+  /// Another camera of a rig: index of the frame that this one is fixed to, which has a pose of its own; -1: so has
+  /// this. T_w_c is then out, the base's times T_b_c, and `fixed` is the base's; observations act on the base. A text
+  /// seen by two cameras of a rig at a time says nothing of their pose.
+  int base = -1;
+  SE3<double> T_b_c = {};              ///< This camera to the base, held.
+  const CameraView* camera = nullptr;  ///< Of this frame; null: Window::camera. Must outlive the call.
 
   /// Out. ok: adjusted, or fixed. too_few: see above. rank_deficient: adjusted, but a direction of this pose is
   /// undetermined at the final state (damping alone moved it).
   Status status = Status::ok;
+  Vector6<double> velocity = Vector6<double>::Zero();  ///< Out: of the rows; zero without.
 };
 
 /// A point feature; needs at least two usable observations.
@@ -52,7 +69,7 @@ struct WindowPoint {
 struct WindowPointObservation {
   int frame = -1;                                ///< Index into Window::frames.
   int point = -1;                                ///< Index into Window::points.
-  Vector2<double> px = Vector2<double>::Zero();  ///< Undistorted px of level 0.
+  Vector2<double> px = Vector2<double>::Zero();  ///< px of level 0, as the camera sees it.
   /// Standard deviation, px (1.2^octave or 2^level for points from coarser levels); see valid_sigma().
   double sigma = 1;
 
@@ -93,14 +110,16 @@ struct WindowTextObservation {
   double zncc = 0;  ///< Out: at the final state; 0 where it could not be evaluated.
   int visible = 0;  ///< Out: visible pixels at the final state.
   /// Out. ok; the failure of linearise() at the start or where it dropped out later (too_few, no_contrast, ...);
-  /// degenerate: target is host; invalid_argument: no image or no patch on this level, weight not positive; too_few
-  /// also where its text or a frame was left out.
+  /// degenerate: target is host; invalid_argument: no image or no patch on this level, weight not positive, or the
+  /// camera is an unknown; too_few also where its text or a frame was left out.
   Status status = Status::ok;
 };
 
-/// The whole problem. One pinhole camera for all frames (level 0).
+/// The whole problem. One camera for all frames (level 0) that have none of their own, with its lens where images are
+/// not undistorted. With `calibration` no frame may have a base or a camera of its own.
 struct Window {
-  Pinhole<double> camera;                                  ///< Of all frames, level 0.
+  CameraView camera;                                       ///< Level 0; where `calibration` is null.
+  WindowCalibration* calibration = nullptr;                ///< The camera as an unknown; must outlive the call.
   std::vector<WindowFrame> frames;                         ///< Poses, free and fixed.
   std::vector<WindowPoint> points;                         ///< Points in the world.
   std::vector<WindowPointObservation> point_observations;  ///< Pixels of points in frames.
@@ -143,8 +162,8 @@ struct WindowOptions {
 /// - too_few: nothing to adjust (no frame, or no usable observation of anything free); window unchanged.
 /// - rank_deficient: the gauge is missing (`gauge_freedom` > 0); window unchanged.
 /// - degenerate: the two scale frames coincide; window unchanged.
-/// - non_finite: camera, an option or a frame's pose; invalid_argument: index out of range, option out of its domain;
-/// window unchanged.
+/// - non_finite: camera, an option, a frame's pose or T_b_c; invalid_argument: index out of range, option, camera or
+/// prior out of its domain; window unchanged.
 /// - diverged: no step lowered the cost although the gradient does not vanish; window holds the best state.
 struct WindowSummary {
   Status status = Status::too_few;  ///< Why it ended: see above.
@@ -161,9 +180,10 @@ struct WindowSummary {
   int free_frames = 0;         ///< Frames adjusted.
   int free_points = 0;         ///< Points solved for.
   int free_texts = 0;          ///< Texts solved for.
+  int free_parameters = 0;     ///< Parameters of the camera solved for; fx and fy are one where they keep their ratio.
   int point_observations = 0;  ///< Used.
   int text_observations = 0;   ///< Used to the end.
-  int undetermined = 0;        ///< Frames, points and texts with status rank_deficient.
+  int undetermined = 0;        ///< Frames, points, texts and the camera with status rank_deficient.
   Path path = Path::kernel;    ///< Path::reference where the slow reference evaluated any text.
 };
 

@@ -35,8 +35,8 @@ class BasicWindowSchur {
   void begin(const BasicWindowStructure<S>& structure) {
     structure_ = &structure;
     const auto slots = structure.slot_camera.size(), landmarks = static_cast<std::size_t>(structure.landmarks());
-    camera_.reset(structure.cameras());
-    camera_gradient_.assign(6 * static_cast<std::size_t>(structure.cameras()), 0.0);
+    camera_.reset(structure.blocks());
+    camera_gradient_.assign(6 * static_cast<std::size_t>(structure.blocks()), 0.0);
     coupling_.assign(slots, Matrix63::Zero());
     landmark_.assign(landmarks, Matrix3<S>::Zero());
     landmark_gradient_.assign(landmarks, Vector3<S>::Zero());
@@ -65,6 +65,11 @@ class BasicWindowSchur {
     else
       camera_.at(b, a) += H.transpose();
   }
+  /// Information and gradient of one unknown: of a prior, or 1 and 0 where its block is padded.
+  void add_unknown(int block, int i, S information, S g) noexcept {
+    camera_.at(block, block)(i, i) += information;
+    at(camera_gradient_, 6 * block + i) += g;
+  }
   void add_landmark(int landmark, const Matrix3<S>& H, const Vector3<S>& g) noexcept {
     at(landmark_, landmark) += H;
     at(landmark_gradient_, landmark) += g;
@@ -74,15 +79,19 @@ class BasicWindowSchur {
   /// The same from two residuals e with derivatives `rows`. `weighted`: derivatives times weight, by the camera for a
   /// coupling.
   void add_camera(int camera, const Matrix26& weighted, const Matrix26& rows, const Vector2<S>& e) noexcept {
-    add_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
-    add_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
+    add_two_rows<6, 6>(weighted.data(), rows.data(), camera_.at(camera, camera).data());
+    add_two_rows<6, 1>(weighted.data(), e.data(), camera_gradient_.data() + 6 * static_cast<std::ptrdiff_t>(camera));
+  }
+  /// a > b.
+  void add_cameras(int a, int b, const Matrix26& weighted_a, const Matrix26& rows_b) noexcept {
+    add_two_rows<6, 6>(weighted_a.data(), rows_b.data(), camera_.at(a, b).data());
   }
   void add_landmark(int landmark, const Matrix23& weighted, const Matrix23& rows, const Vector2<S>& e) noexcept {
-    add_rows<3, 3>(weighted.data(), rows.data(), at(landmark_, landmark).data());
-    add_rows<3, 1>(weighted.data(), e.data(), at(landmark_gradient_, landmark).data());
+    add_two_rows<3, 3>(weighted.data(), rows.data(), at(landmark_, landmark).data());
+    add_two_rows<3, 1>(weighted.data(), e.data(), at(landmark_gradient_, landmark).data());
   }
   void add_coupling(int slot, const Matrix26& weighted, const Matrix23& rows) noexcept {
-    add_rows<6, 3>(weighted.data(), rows.data(), at(coupling_, slot).data());
+    add_two_rows<6, 3>(weighted.data(), rows.data(), at(coupling_, slot).data());
   }
 
   /// Builds and factorises S of the system, damped by lambda times its diagonal. False where numbers overflow. With
@@ -90,11 +99,11 @@ class BasicWindowSchur {
   /// those directions.
   bool reduce(double lambda) {
     const BasicWindowStructure<S>& s = *structure_;
-    const int cameras = s.cameras(), landmarks = s.landmarks();
+    const int blocks = s.blocks(), landmarks = s.landmarks();
     lambda_ = lambda;
     reduced_ = camera_;
-    read_diagonal(cameras);
-    for (int c = 0; c < cameras; ++c)
+    read_diagonal(blocks);
+    for (int c = 0; c < blocks; ++c)
       for (int i = 0; i < 6; ++i) reduced_.at(c, c)(i, i) += lambda * at(diagonal_, 6 * c + i);
     camera_step_.resize(camera_gradient_.size());
     for (std::size_t i = 0; i < camera_step_.size(); ++i) camera_step_[i] = -camera_gradient_[i];
@@ -125,11 +134,8 @@ class BasicWindowSchur {
   bool solve() {
     const BasicWindowStructure<S>& s = *structure_;
     reduced_.solve(camera_step_.data());
-    if (!scale_row_.empty()) {
-      scale_solution_ = scale_row_;
-      reduced_.solve(scale_solution_.data());
-      apply_scale_row(camera_step_.data());
-    }
+    solve_scale();
+    apply_scale_row(camera_step_.data());
     for (double x : camera_step_)
       if (!is_finite(x)) return false;
     for (int l = 0; l < s.landmarks(); ++l) {
@@ -176,16 +182,13 @@ class BasicWindowSchur {
     const BasicWindowStructure<S>& s = *structure_;
     const int begin = at(s.slot_begin, landmark), end = at(s.slot_begin, landmark + 1);
     Matrix3<S> out = at(inverse_, landmark);
-    if (!scale_row_.empty()) {
-      scale_solution_ = scale_row_;
-      reduced_.solve(scale_solution_.data());
-    }
+    solve_scale();
     for (int c = 0; c < 3; ++c) {
       column_.assign(camera_gradient_.size(), 0.0);
       for (int i = begin; i < end; ++i)
         for (int k = 0; k < 6; ++k) at(column_, 6 * at(s.slot_camera, i) + k) = at(eliminated_, i)(k, c);
       reduced_.solve(column_.data());
-      if (!scale_row_.empty()) apply_scale_row(column_.data());
+      apply_scale_row(column_.data());
       for (int i = begin; i < end; ++i) {
         const Vector3<S> part = transposed_product(at(eliminated_, i), six(column_, at(s.slot_camera, i)));
         for (int r = 0; r < 3; ++r) out(r, c) += part[r];
@@ -196,19 +199,17 @@ class BasicWindowSchur {
     return out;
   }
 
- private:
-  // c += a^T b for column-major a (2 x Rows), b (2 x Columns) and c (Rows x Columns), down the columns of c.
-  template <int Rows, int Columns>
-  static void add_rows(const S* a, const S* b, S* c) noexcept {
-    S first[kLength<Rows>], second[kLength<Rows>];
-    for (int r = 0; r < Rows; ++r) {
-      first[r] = a[2 * r];
-      second[r] = a[2 * r + 1];
-    }
-    for (int k = 0; k < Columns; ++k)
-      for (int r = 0; r < Rows; ++r) c[Rows * k + r] += first[r] * b[2 * k] + second[r] * b[2 * k + 1];
+  /// After reduce(0): the column of the blocks' covariance that belongs to unknown i of `block`, under the scale gauge.
+  const std::vector<double>& covariance_column(int block, int i) {
+    solve_scale();
+    column_.assign(camera_gradient_.size(), 0.0);
+    at(column_, 6 * block + i) = 1;
+    reduced_.solve(column_.data());
+    apply_scale_row(column_.data());
+    return column_;
   }
 
+ private:
   static Vector6<S> six(const std::vector<double>& all, int camera) noexcept {
     Vector6<S> v;
     for (int i = 0; i < 6; ++i) v[i] = at(all, 6 * camera + i);
@@ -216,10 +217,10 @@ class BasicWindowSchur {
   }
 
   // The cameras' Marquardt diagonal, never zero.
-  void read_diagonal(int cameras) {
-    diagonal_.resize(6 * static_cast<std::size_t>(cameras));
+  void read_diagonal(int blocks) {
+    diagonal_.resize(6 * static_cast<std::size_t>(blocks));
     double largest = 0;
-    for (int c = 0; c < cameras; ++c)
+    for (int c = 0; c < blocks; ++c)
       for (int i = 0; i < 6; ++i) {
         at(diagonal_, 6 * c + i) = reduced_.at(c, c)(i, i);
         largest = (std::max)(largest, at(diagonal_, 6 * c + i));
@@ -263,7 +264,11 @@ class BasicWindowSchur {
               reduced_.at(a, b)(i, j) += weight * at(scale_row_, 6 * a + i) * at(scale_row_, 6 * b + j);
   }
 
-  // x <- x - S^-1 n (n.x) / (n.S^-1 n), so that n.x = 0.
+  void solve_scale() {
+    scale_solution_ = scale_row_;
+    if (!scale_row_.empty()) reduced_.solve(scale_solution_.data());
+  }
+  // x <- x - S^-1 n (n.x) / (n.S^-1 n), so that n.x = 0, where there is a scale gauge.
   void apply_scale_row(double* x) const noexcept {
     double nx = 0, nn = 0;
     for (std::size_t i = 0; i < scale_row_.size(); ++i) {

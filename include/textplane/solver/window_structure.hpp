@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "textplane/solver/window_check.hpp"
 #include "textplane/solver/window_problem.hpp"
 #include "textplane/solver/window_state.hpp"
 
@@ -23,47 +24,32 @@ class BasicWindowStructure {
   std::vector<std::uint8_t> landmark_free;  ///< Used and not fixed.
   std::vector<int> camera_of_frame;         ///< Index among the free cameras, or -1.
   std::vector<int> frame_of_camera;
-  /// Landmark l couples to the cameras slot_camera[slot_begin[l] .. slot_begin[l + 1]), ascending.
+  std::vector<int> velocity_of_frame;  ///< Block of the velocity, or -1 where it is no unknown.
+  std::vector<int> frame_of_velocity;
+  /// Landmark l couples to the blocks slot_camera[slot_begin[l] .. slot_begin[l + 1]), ascending.
   std::vector<int> slot_begin;
   std::vector<int> slot_camera;
   std::vector<int> point_slot;  ///< A slot each point observation, -1 where landmark or camera is not free.
   std::vector<int> host_slot;   ///< A slot each text observation, as above.
   std::vector<int> target_slot;
+  std::vector<int> point_velocity_slot;  ///< The same for the velocities of the frames.
+  std::vector<int> host_velocity_slot;
+  std::vector<int> target_velocity_slot;
   int scale_a = -1, scale_b = -1;  ///< Frames whose distance is held, or -1.
   double scale_distance = 0;
   int gauge_freedom = 0;
+  CalibrationUnknowns calibration;
 
   int cameras() const noexcept { return count(frame_of_camera); }
-  int landmarks() const noexcept { return count(landmark_free); }
-
-  /// ok, or the status for an index or option outside its domain, or a non-finite camera or pose.
-  static Status check(const Window& w, const WindowOptions& o) noexcept {
-    const auto inside = [](int i, std::size_t n) { return i >= 0 && static_cast<std::size_t>(i) < n; };
-    for (const WindowPointObservation& k : w.point_observations)
-      if (!inside(k.frame, w.frames.size()) || !inside(k.point, w.points.size())) return Status::invalid_argument;
-    for (const WindowTextObservation& k : w.text_observations)
-      if (!inside(k.frame, w.frames.size()) || !inside(k.text, w.texts.size())) return Status::invalid_argument;
-    for (const WindowText& t : w.texts)
-      if (!inside(t.host, w.frames.size())) return Status::invalid_argument;
-    if (o.scale_frame_a != -1 || o.scale_frame_b != -1)
-      if (!inside(o.scale_frame_a, w.frames.size()) || !inside(o.scale_frame_b, w.frames.size()) ||
-          o.scale_frame_a == o.scale_frame_b)
-        return Status::invalid_argument;
-    for (double x : {o.sigma_rep, o.sigma_photo, o.initial_lambda, o.max_lambda, o.min_depth, o.cost_tolerance,
-                     o.step_tolerance, o.max_lost_fraction})
-      if (!is_finite(x)) return Status::non_finite;
-    if (!o.point_robust.valid() || !valid_sigma(o.sigma_rep) || !valid_sigma(o.sigma_photo) ||
-        !(o.initial_lambda > 0) || !(o.max_lambda >= o.initial_lambda) || !(o.min_depth > 0) || o.max_iterations < 0 ||
-        !(o.cost_tolerance >= 0) || !(o.step_tolerance >= 0) || !(o.max_lost_fraction >= 0) || o.text_level < 0 ||
-        o.text_level >= kMaxPyramidLevels)
-      return Status::invalid_argument;
-    for (const WindowFrame& f : w.frames)
-      if (!all_finite(f.T_w_c)) return Status::non_finite;
-    if (!all_finite(Vector2<double>(w.camera.fx, w.camera.fy)) ||
-        !all_finite(Vector2<double>(w.camera.cx, w.camera.cy)))
-      return Status::non_finite;
-    return w.camera.valid() ? Status::ok : Status::invalid_argument;
+  /// Of six unknowns: the free cameras' poses, the velocities of their rows, then the parameters of the camera, which
+  /// all free points couple to.
+  int blocks() const noexcept { return parameter_block() + calibration.blocks(); }
+  int parameter_block() const noexcept { return cameras() + count(frame_of_velocity); }  ///< The first of them.
+  /// The slot of a landmark's coupling to block b of the camera's parameters.
+  int calibration_slot(int landmark, int b) const noexcept {
+    return at(slot_begin, landmark + 1) - calibration.blocks() + b;
   }
+  int landmarks() const noexcept { return count(landmark_free); }
 
   /// Leaves out what the observations with status ok do not determine (and writes statuses), measures the gauge and
   /// lays out the blocks. Allocates where the window exceeds every earlier one.
@@ -84,16 +70,25 @@ class BasicWindowStructure {
     for (int t = 0; t < count(w.texts); ++t)
       if (at(w.texts, t).fixed) at(landmark_free, count(w.points) + t) = 0;
     for (int f = 0; f < count(w.frames); ++f)
-      if (!at(w.frames, f).fixed && at(w.frames, f).status == Status::ok) {
+      if (base_of(w, f) == f && !at(w.frames, f).fixed && at(w.frames, f).status == Status::ok) {
         at(camera_of_frame, f) = cameras();
         frame_of_camera.push_back(f);
       }
+    for (int f = 0; f < count(w.frames); ++f) at(camera_of_frame, f) = at(camera_of_frame, base_of(w, f));
+    velocity_of_frame.assign(w.frames.size(), -1);
+    frame_of_velocity.clear();
+    for (int f : frame_of_camera)
+      if (has_unknown_velocity(at(w.frames, f))) {
+        at(velocity_of_frame, f) = parameter_block();
+        frame_of_velocity.push_back(f);
+      }
+    calibration.set(w.calibration);
     measure_gauge(w, o);
     lay_out(w);
     if (scale_a >= 0 && !(scale_distance > 0)) return Status::degenerate;
     if (gauge_freedom > 0) return Status::rank_deficient;
     const bool any_free = std::find(landmark_free.begin(), landmark_free.end(), 1) != landmark_free.end();
-    return cameras() > 0 || any_free ? Status::ok : Status::too_few;
+    return blocks() > 0 || any_free ? Status::ok : Status::too_few;
   }
 
  private:
@@ -106,19 +101,21 @@ class BasicWindowStructure {
       if (!at(point_active, k)) continue;
       const WindowPointObservation& o = at(w.point_observations, k);
       ++at(observations_, o.point);
-      at(equations_, o.frame) += 2;
+      count_equations(w, o.frame, 2);
     }
     for (int k = 0; k < count(text_active); ++k) {
       if (!at(text_active, k)) continue;
       const WindowTextObservation& o = at(w.text_observations, k);
       ++at(observations_, points + o.text);
-      at(equations_, o.frame) += 6;
-      at(equations_, at(w.texts, o.text).host) += 6;
+      if (base_of(w, o.frame) == base_of(w, at(w.texts, o.text).host)) continue;
+      count_equations(w, o.frame, 6);
+      count_equations(w, at(w.texts, o.text).host, 6);
     }
     for (int f = 0; f < count(w.frames); ++f) {
       WindowFrame& frame = at(w.frames, f);
-      if (!frame.fixed && at(equations_, f) < 6) frame.status = Status::too_few;
+      if (base_of(w, f) == f && !frame.fixed && at(equations_, f) < 6) frame.status = Status::too_few;
     }
+    for (int f = 0; f < count(w.frames); ++f) at(w.frames, f).status = at(w.frames, base_of(w, f)).status;
     for (int p = 0; p < points; ++p) {
       WindowPoint& point = at(w.points, p);
       if (!point.fixed && at(observations_, p) < 2 && point.status == Status::ok) point.status = Status::too_few;
@@ -151,6 +148,12 @@ class BasicWindowStructure {
     return changed;
   }
 
+  // Of a frame, and of what it is fixed to.
+  void count_equations(const Window& w, int frame, int n) noexcept {
+    at(equations_, frame) += n;
+    if (base_of(w, frame) != frame) at(equations_, base_of(w, frame)) += n;
+  }
+
   int root(int i) noexcept {
     while (at(parent_, i) != i) i = at(parent_, i) = at(parent_, at(parent_, i));
     return i;
@@ -165,17 +168,24 @@ class BasicWindowStructure {
     const int frames = count(w.frames), points = count(w.points);
     parent_.resize(static_cast<std::size_t>(frames) + landmark_used.size());
     for (int i = 0; i < count(parent_); ++i) at(parent_, i) = i;
-    anchors_.assign(static_cast<std::size_t>(frames), Anchor());
+    anchors_.assign(static_cast<std::size_t>(frames), WindowAnchor());
     for (int k = 0; k < count(point_active); ++k)
       if (at(point_active, k) && at(landmark_free, at(w.point_observations, k).point))
         join(at(w.point_observations, k).frame, frames + at(w.point_observations, k).point);
     for (int k = 0; k < count(text_active); ++k)
       if (at(text_active, k)) join(at(w.text_observations, k).frame, at(w.texts, at(w.text_observations, k).text).host);
 
+    for (int f = 0; f < frames; ++f) join(f, base_of(w, f));
+
     // A root is the smallest index of its set. Every set of interest holds a frame, so roots index frames.
     for (int f = 0; f < frames; ++f) {
-      Anchor& anchor = at(anchors_, root(f));
+      WindowAnchor& anchor = at(anchors_, root(f));
       if (at(camera_of_frame, f) >= 0) anchor.free = true;
+      // Two cameras of a rig that are apart know the scale.
+      if (base_of(w, f) != f) {
+        anchor.scale = anchor.scale || (at(equations_, f) > 0 && at(w.frames, f).T_b_c.t.norm() > 0);
+        continue;
+      }
       if (!at(w.frames, f).fixed || at(equations_, f) == 0) continue;
       if (anchor.fixed_frame >= 0) {
         const Vector3<S>& a = at(w.frames, anchor.fixed_frame).T_w_c.t;
@@ -202,7 +212,7 @@ class BasicWindowStructure {
       at(anchors_, root(a)).scale = true;
     }
     gauge_freedom = 0;
-    for (const Anchor& anchor : anchors_) {
+    for (const WindowAnchor& anchor : anchors_) {
       if (!anchor.free || anchor.fixed_points >= 3) continue;
       if (anchor.fixed_frame >= 0)
         gauge_freedom += anchor.scale || anchor.fixed_points > 0 ? 0 : 1;
@@ -218,6 +228,9 @@ class BasicWindowStructure {
     point_slot.assign(point_active.size(), -1);
     host_slot.assign(text_active.size(), -1);
     target_slot.assign(text_active.size(), -1);
+    point_velocity_slot.assign(point_active.size(), -1);
+    host_velocity_slot.assign(text_active.size(), -1);
+    target_velocity_slot.assign(text_active.size(), -1);
 
     // Counts and fills the ranges with duplicates, then sorts each, removes duplicates and closes the gaps.
     for_each_coupling(w, points, [&](int landmark, int, int&) { ++at(slot_begin, landmark + 1); });
@@ -244,13 +257,18 @@ class BasicWindowStructure {
     });
   }
 
-  // Calls f(landmark, camera, its slot) for each active observation of a free landmark by a free camera.
+  // Calls f(landmark, block, its slot) for each active observation of a free landmark by a free camera, for the
+  // velocity of its rows, and for the blocks of the camera's parameters, whose slots are calibration_slot().
   template <class F>
   void for_each_coupling(const Window& w, int points, F f) {
     for (int k = 0; k < count(point_active); ++k) {
       const WindowPointObservation& o = at(w.point_observations, k);
       const int camera = at(camera_of_frame, o.frame);
-      if (at(point_active, k) && at(landmark_free, o.point) && camera >= 0) f(o.point, camera, at(point_slot, k));
+      if (!at(point_active, k) || !at(landmark_free, o.point)) continue;
+      if (camera >= 0) f(o.point, camera, at(point_slot, k));
+      const int velocity = at(velocity_of_frame, o.frame);
+      if (velocity >= 0) f(o.point, velocity, at(point_velocity_slot, k));
+      for (int b = parameter_block(), known = 0; b < blocks(); ++b) f(o.point, b, known);
     }
     for (int k = 0; k < count(text_active); ++k) {
       const WindowTextObservation& o = at(w.text_observations, k);
@@ -259,26 +277,14 @@ class BasicWindowStructure {
       const int host = at(camera_of_frame, at(w.texts, o.text).host), target = at(camera_of_frame, o.frame);
       if (host >= 0) f(landmark, host, at(host_slot, k));
       if (target >= 0) f(landmark, target, at(target_slot, k));
+      const int of_host = at(velocity_of_frame, at(w.texts, o.text).host), of_target = at(velocity_of_frame, o.frame);
+      if (of_host >= 0) f(landmark, of_host, at(host_velocity_slot, k));
+      if (of_target >= 0) f(landmark, of_target, at(target_velocity_slot, k));
     }
   }
 
-  // What holds one connected set of frames in place.
-  struct Anchor {
-    bool free = false;
-    bool scale = false;
-    int fixed_frame = -1;
-    int fixed_points = 0;
-    int seen[2] = {-1, -1};
-
-    void note_fixed_point(int p) noexcept {
-      if (fixed_points >= 3 || p == seen[0] || p == seen[1]) return;
-      if (fixed_points < 2) seen[fixed_points] = p;
-      ++fixed_points;
-    }
-  };
-
   std::vector<int> observations_, equations_, parent_, cursor_, slot_unique_;
-  std::vector<Anchor> anchors_;
+  std::vector<WindowAnchor> anchors_;
 };
 
 using WindowStructure = BasicWindowStructure<double>;

@@ -1,5 +1,5 @@
-// The terms of a window's cost, reprojection errors of points and photometric errors of texts: derivatives by poses and
-// landmarks, and values at a trial state.
+// The terms of a window's cost, reprojection errors of points (window_points.hpp) and photometric errors of texts:
+// derivatives by poses and landmarks, and values at a trial state.
 #ifndef TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
 #define TEXTPLANE_SOLVER_WINDOW_TERMS_HPP
 
@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "textplane/solver/window_points.hpp"
 #include "textplane/solver/window_schur.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -36,7 +37,7 @@ class BasicWindowTerms {
       k.status = !all_finite(k.px) || !is_finite(k.sigma)     ? Status::non_finite
                  : !valid_sigma(k.sigma)                      ? Status::invalid_argument
                  : at(w.points, k.point).status != Status::ok ? Status::too_few
-                 : in_front(k, x, o, &p_c)                    ? Status::ok
+                 : Points::in_front(w, k, x, o, &p_c)         ? Status::ok
                                                               : Status::behind_camera;
     }
     int longest = 0;
@@ -61,6 +62,7 @@ class BasicWindowTerms {
                   : ob.frame == t.host    ? Status::degenerate
                   : !is_finite(ob.weight) ? Status::non_finite
                   : !(ob.weight > 0)      ? Status::invalid_argument
+                  : w.calibration         ? Status::invalid_argument
                                           : Status::ok;
       mask_begin_[k + 1] =
           mask_begin_[k] + (ob.status == Status::ok ? static_cast<std::size_t>(t.patch->max_pixels()) : 0);
@@ -85,9 +87,9 @@ class BasicWindowTerms {
   double accumulate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                     BasicWindowSchur<S>& out) const {
     out.begin(s);
-    double cost = 0;
+    double cost = Points::add_priors(w, x, s, out);
     for (int k = 0; k < count(s.point_active); ++k)
-      if (at(s.point_active, k)) cost += add_point(w, o, x, s, k, out);
+      if (at(s.point_active, k)) cost += Points::add(w, o, x, s, k, out);
     for (int k = 0; k < count(s.text_active); ++k)
       if (at(s.text_active, k)) cost += add_text(w, o, x, s, k, out);
     if (s.scale_a >= 0) {
@@ -104,16 +106,17 @@ class BasicWindowTerms {
   WindowTrial evaluate(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                        WindowState& y) {
     WindowTrial trial;
+    if (!y.camera_possible) return trial;
     bool taken_back = true;
     for (int pass = 0; taken_back; ++pass) {
       taken_back = false;
-      trial.cost = 0;
+      trial.cost = Points::prior_cost(w, y, s);
       for (int k = 0; k < count(s.point_active); ++k) {
         if (!at(s.point_active, k)) continue;
         const WindowPointObservation& ob = at(w.point_observations, k);
         Vector3<S> p_c;
-        if (in_front(ob, y, o, &p_c)) {
-          trial.cost += o.point_robust.rho(chi2(w, ob, p_c));
+        if (Points::in_front(w, ob, y, o, &p_c)) {
+          trial.cost += o.point_robust.rho(Points::chi2(w, ob, y, p_c));
         } else {
           if (pass > 0) return trial;
           at(y.landmark, ob.point) = at(x.landmark, ob.point);
@@ -142,9 +145,9 @@ class BasicWindowTerms {
     for (WindowPointObservation& k : w.point_observations) {
       Vector3<S> p_c;
       const bool usable = k.status != Status::non_finite && k.status != Status::invalid_argument;
-      const bool front = usable && in_front(k, x, o, &p_c);
+      const bool front = usable && Points::in_front(w, k, x, o, &p_c);
       constexpr double kMost = (std::numeric_limits<double>::max)();
-      k.chi2 = front ? (std::min)(chi2(w, k, p_c), kMost) : kMost;
+      k.chi2 = front ? (std::min)(Points::chi2(w, k, x, p_c), kMost) : kMost;
       if (k.status == Status::ok && !front) k.status = Status::behind_camera;
     }
     for (int k = 0; k < count(s.text_active); ++k) {
@@ -169,7 +172,7 @@ class BasicWindowTerms {
     int n = 0;
     for (int k = 0; k < count(s.point_active); ++k) {
       Vector3<S> p_c;
-      if (!at(s.point_active, k) || !in_front(at(w.point_observations, k), x, o, &p_c)) continue;
+      if (!at(s.point_active, k) || !Points::in_front(w, at(w.point_observations, k), x, o, &p_c)) continue;
       sum += p_c[2];
       ++n;
     }
@@ -183,22 +186,13 @@ class BasicWindowTerms {
   }
 
  private:
+  using Points = BasicWindowPoints<S>;
+  using Velocities = BasicWindowVelocities<S>;
   using Matrix6 = typename BasicWindowSchur<S>::Matrix6;
   using Matrix63 = typename BasicWindowSchur<S>::Matrix63;
 
-  static bool in_front(const WindowPointObservation& k, const WindowState& x, const WindowOptions& o,
-                       Vector3<S>* p_c) noexcept {
-    const SE3<S>& T = at(x.T_w_c, k.frame);
-    const Vector3<S>& p_w = at(x.landmark, k.point);
-    const S d0 = p_w[0] - T.t[0], d1 = p_w[1] - T.t[1], d2 = p_w[2] - T.t[2];
-    for (int i = 0; i < 3; ++i) (*p_c)[i] = T.R(0, i) * d0 + T.R(1, i) * d1 + T.R(2, i) * d2;
-    return (*p_c)[2] > o.min_depth && all_finite(*p_c);
-  }
-  static double chi2(const Window& w, const WindowPointObservation& k, const Vector3<S>& p_c) noexcept {
-    return (w.camera.project(p_c) - k.px).squaredNorm() / (k.sigma * k.sigma);
-  }
   static SE3<S> relative_pose(const WindowText& t, const WindowTextObservation& k, const WindowState& x) noexcept {
-    return at(x.T_w_c, k.frame).inverse() * at(x.T_w_c, t.host);
+    return Velocities::relative_pose(t, k, x);
   }
   static double weight(const WindowOptions& o, const WindowTextObservation& k, int visible) noexcept {
     return k.weight * text_weight(o.weighting, o.sigma_rep, o.sigma_photo, visible);
@@ -208,8 +202,12 @@ class BasicWindowTerms {
   static ResidualRequest<std::uint8_t> request(const Window& w, const WindowOptions& o, const WindowState& x,
                                                const WindowTextObservation& k) noexcept {
     const WindowText& t = at(w.texts, k.text);
-    return {photometric_input(*t.patch, o.text_level, at(w.frames, k.frame).image, w.camera, k.scale_shift),
-            at(x.landmark, count(w.points) + k.text), relative_pose(t, k, x), o.photometric};
+    const WindowFrame& f = at(w.frames, k.frame);
+    CameraView camera = camera_of(w, k.frame);
+    camera.rows = f.rows ? &at(x.rows, k.frame) : nullptr;
+    PhotometricInput input = photometric_input(*t.patch, o.text_level, f.image, camera, k.scale_shift);
+    input.host_rows = &at(x.patch_rows, k.text);
+    return {input, at(x.landmark, count(w.points) + k.text), relative_pose(t, k, x), o.photometric};
   }
 
   Status linearise_text(const Window& w, const WindowOptions& o, const WindowState& x, int k) noexcept {
@@ -224,41 +222,8 @@ class BasicWindowTerms {
     return out.status;
   }
 
-  // p_c = T_w_c^-1 p_w: d p_c = -v + [p_c]x omega for T_w_c <- T_w_c Exp(v, omega), and R_w_c^T d p_w.
-  static double add_point(const Window& w, const WindowOptions& o, const WindowState& x,
-                          const BasicWindowStructure<S>& s, int k, BasicWindowSchur<S>& out) noexcept {
-    const WindowPointObservation& ob = at(w.point_observations, k);
-    Vector3<S> p_c;
-    in_front(ob, x, o, &p_c);
-    FixedMatrix<S, 2, 3> J;
-    const Vector2<S> e = w.camera.project(p_c, &J) - ob.px;
-    const double information = 1 / (ob.sigma * ob.sigma), r2 = e.squaredNorm() * information;
-    const double weight = o.point_robust.weight(r2) * information;
-    const int camera = at(s.camera_of_frame, ob.frame), slot = at(s.point_slot, k);
-    const bool free = at(s.landmark_free, ob.point) != 0;
-    FixedMatrix<S, 2, 6> J_camera, weighted_camera;
-    FixedMatrix<S, 2, 3> J_point;
-    if (camera >= 0) {
-      for (int r = 0; r < 2; ++r) {
-        for (int c = 0; c < 3; ++c) J_camera(r, c) = -J(r, c);
-        J_camera(r, 3) = J(r, 1) * p_c[2] - J(r, 2) * p_c[1];
-        J_camera(r, 4) = J(r, 2) * p_c[0] - J(r, 0) * p_c[2];
-        J_camera(r, 5) = J(r, 0) * p_c[1] - J(r, 1) * p_c[0];
-      }
-      weighted_camera = scaled(weight, J_camera);
-      out.add_camera(camera, weighted_camera, J_camera, e);
-    }
-    if (free) {
-      const Matrix3<S>& R = at(x.T_w_c, ob.frame).R;
-      for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 2; ++r) J_point(r, c) = J(r, 0) * R(c, 0) + J(r, 1) * R(c, 1) + J(r, 2) * R(c, 2);
-      out.add_landmark(ob.point, scaled(weight, J_point), J_point, e);
-    }
-    if (slot >= 0) out.add_coupling(slot, weighted_camera, J_point);
-    return o.point_robust.rho(r2);
-  }
-
-  // From xi of T_t_h (left) to the world poses: d xi / d xi_host = Ad(T_t_h), d xi / d xi_target = -1.
+  // From xi of T_t_h (left) to the world poses: d xi / d xi_host = Ad(T_t_h), d xi / d xi_target = -1, and on to the
+  // bases where they are cameras of rigs. Two cameras of one rig have no motion between them.
   double add_text(const Window& w, const WindowOptions& o, const WindowState& x, const BasicWindowStructure<S>& s,
                   int k, BasicWindowSchur<S>& out) const noexcept {
     const WindowTextObservation& ob = at(w.text_observations, k);
@@ -269,18 +234,30 @@ class BasicWindowTerms {
     const S scale = weight(o, ob, ne.visible);
     const int landmark = count(w.points) + ob.text;
     const int host = at(s.camera_of_frame, t.host), target = at(s.camera_of_frame, ob.frame);
-    const Matrix6 A = adjoint(relative_pose(t, ob, x));
-    const Matrix6 pose = scaled(scale, block<6, 6>(H, 0, 0));
-    const Vector6<S> g = scaled(scale, block<6, 1>(b, 0, 0));
-    const Matrix63 cross = scaled(scale, block<6, 3>(H, 0, 6));
-    const Matrix6 host_pose = transposed_product(A, pose);
-    if (host >= 0) out.add_camera(host, product(host_pose, A), transposed_product(A, g));
-    if (target >= 0) out.add_camera(target, pose, scaled(S(-1), g));
-    if (host >= 0 && target >= 0) out.add_cameras(host, target, scaled(S(-1), host_pose));
+    Matrix6 A = adjoint(relative_pose(t, ob, x));
+    Matrix6 pose = scaled(scale, block<6, 6>(H, 0, 0));
+    Vector6<S> g = scaled(scale, block<6, 1>(b, 0, 0));
+    Matrix63 cross = scaled(scale, block<6, 3>(H, 0, 6));
     if (at(s.landmark_free, landmark))
       out.add_landmark(landmark, scaled(scale, block<3, 3>(H, 6, 6)), scaled(scale, block<3, 1>(b, 6, 0)));
+    if (host >= 0 && host == target) return scale * ne.cost;
+    if (at(w.frames, t.host).base >= 0) A = product(A, base_jacobian(at(w.frames, t.host)));
+    const Matrix6 host_pose = transposed_product(A, pose);
+    const WindowFrame& seen = at(w.frames, ob.frame);
+    if (host >= 0) out.add_camera(host, product(host_pose, A), transposed_product(A, g));
     if (at(s.host_slot, k) >= 0) out.add_coupling(at(s.host_slot, k), transposed_product(A, cross));
+    Matrix6 between = host_pose;
+    if (seen.base >= 0) {
+      const Matrix6 B = base_jacobian(seen);
+      pose = transposed_product(B, product(pose, B));
+      g = transposed_product(B, g);
+      cross = transposed_product(B, cross);
+      between = product(host_pose, B);
+    }
+    if (target >= 0) out.add_camera(target, pose, scaled(S(-1), g));
+    if (host >= 0 && target >= 0) out.add_cameras(host, target, scaled(S(-1), between));
     if (at(s.target_slot, k) >= 0) out.add_coupling(at(s.target_slot, k), scaled(S(-1), cross));
+    if (!s.frame_of_velocity.empty()) Velocities::add_text(w, x, s, k, {A, pose, cross, g}, out);
     return scale * ne.cost;
   }
 
