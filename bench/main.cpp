@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   add_images();
   add_converge();
   add_growth();
+  add_text_map();
   add_straightforward();
 #if defined(TEXTPLANE_BENCH_OPENCV)
   add_opencv();

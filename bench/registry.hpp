@@ -65,6 +65,7 @@ void add_equations();        ///< kernels/equations.cpp: normal equations of all
 void add_images();           ///< kernels/images.cpp: warp, FAST, KLT, pyramid, ours.
 void add_converge();         ///< kernels/converge.cpp: ours to convergence.
 void add_growth();           ///< kernels/growth.cpp: cost against pixels, objects and threads.
+void add_text_map();         ///< kernels/text_map.cpp: frames tracked by a map of texts.
 void add_straightforward();  ///< peers/straightforward.cpp: Eigen double; Ceres and numeric differences where built.
 void add_opencv();           ///< peers/opencv.cpp
 void add_visp();             ///< peers/visp.cpp

@@ -60,7 +60,9 @@ void render(unsigned seed, const Light& light, Random& random, Scene* s) {
   const tp::Matrix3<double> back = s->pixel_homography(s->T_t_h, s->theta).inverse();
   for (int y = 0; y < Scene::kHeight; ++y)
     for (int x = 0; x < Scene::kWidth; ++x) {
-      const tp::Vector3<double> q = back * tp::Vector3<double>(x, y, 1);
+      tp::Vector3<double> ray;
+      if (!tp::is_ok(tp::CameraView(s->camera, s->lens.get()).unproject({x, y}, &ray))) continue;
+      const tp::Vector3<double> q = back * s->camera.pixel(ray.head<2>()).homogeneous();
       s->target(x, y) =
           pixel(light.gain * texture(q[0] / q[2], q[1] / q[2], seed) + light.bias + light.noise * random.normal());
     }
@@ -118,6 +120,7 @@ tp::PhotometricInput Scene::input() const {
   in.patch.n = n();
   in.host_camera = in.target_camera = camera;
   in.target = target_view();
+  in.lens = lens.get();
   return in;
 }
 
@@ -159,8 +162,10 @@ double Scene::corner_error(const tp::Matrix3<double>& H) const {
   return sum;
 }
 
-Scene make_scene(int n, unsigned seed, double px, const Light& light, double motion) {
+Scene make_scene(int n, unsigned seed, double px, const Light& light, double motion,
+                 const std::shared_ptr<const tp::LensMap>& lens) {
   Scene s;
+  s.lens = lens;
   Random random(seed * 7919 + 17);
   const tp::Vector3<double> normal(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), -1);
   s.theta = -normal.normalized() / 2.0;

@@ -4,6 +4,7 @@
 #define TEXTPLANE_BENCH_SCENE_HPP
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "problem.hpp"
@@ -33,6 +34,7 @@ struct Scene {
   tp::SE3d T_t_h, T_start;
   std::vector<float> x, y, intensity;
   int left = 0, top = 0, columns = 0, rows = 0;  ///< The rectangle of the pixels.
+  std::shared_ptr<const tp::LensMap> lens;       ///< Of the target; null: none.
 
   int n() const { return static_cast<int>(x.size()); }
   tp::ImageView8 target_view() const { return target.view(); }
@@ -48,7 +50,8 @@ struct Scene {
 
 /// n scattered pixels of a rectangle of 100 x 40; all of them for n = 4000, a larger rectangle beyond. The start has a
 /// mean corner error of `px` pixels. `motion` scales the motion between the views; 1 is up to some 25 px.
-Scene make_scene(int n, unsigned seed, double px = 1.0, const Light& light = Light(), double motion = 1.0);
+Scene make_scene(int n, unsigned seed, double px = 1.0, const Light& light = Light(), double motion = 1.0,
+                 const std::shared_ptr<const tp::LensMap>& lens = nullptr);
 
 /// All pixels of the upper left columns x rows, at most 100 x 40, of make_scene(4000, seed, px).
 Scene make_dense_scene(int columns, int rows, unsigned seed, double px = 1.0);

@@ -3,13 +3,13 @@
 // RESULTS: the folder of bench/report's measurements: single.json and growth.json of textplane_bench; where they exist,
 // convergence.json of textplane_convergence and room/timing.json of textslam. ROOT: the repository, or a copy of its
 // docs/. Writes docs/benchmarks.md, docs/images/growth_*.svg and the table of docs/policy.md.
-#include <exception>
 #include <filesystem>
 #include <iostream>
 
 #include "format/basin.hpp"
 #include "format/page.hpp"
 #include "format/plot.hpp"
+#include "format/program.hpp"
 #include "format/results.hpp"
 #include "format/tables.hpp"
 #include "format/text.hpp"
@@ -92,11 +92,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace textplane_bench
 
-int main(int argc, char** argv) {
-  try {
-    return textplane_bench::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::cerr << "report_format: " << e.what() << "\n";
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return textplane_bench::guarded("report_format", argc, argv, textplane_bench::run); }

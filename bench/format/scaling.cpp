@@ -1,10 +1,8 @@
 // From the JSON of textplane_scaling to the table of docs/scaling.md, between its marks.
-#include <iostream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
-#include "format/page.hpp"
+#include "format/program.hpp"
 #include "format/results.hpp"
 #include "format/text.hpp"
 
@@ -63,24 +61,9 @@ std::string table(const Json& run) {
   return out;
 }
 
-int run(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: report_scaling SCALING.json PAGE.md\n";
-    return 2;
-  }
-  if (!replace_block(argv[2], "scaling", table(read_json(argv[1]))))
-    throw std::runtime_error(std::string(argv[2]) + " has no marks for the table");
-  return 0;
-}
-
 }  // namespace
 }  // namespace textplane_bench
 
 int main(int argc, char** argv) {
-  try {
-    return textplane_bench::run(argc, argv);
-  } catch (const std::exception& e) {
-    std::cerr << "report_scaling: " << e.what() << "\n";
-    return 1;
-  }
+  return textplane_bench::fill_block("report_scaling", "scaling", argc, argv, textplane_bench::table);
 }

@@ -60,6 +60,11 @@ struct Cycle {
     for (int i = 0; i < count; ++i) all.push_back(make_scene(n, static_cast<unsigned>(i + 1)));
     return all;
   }
+  static std::vector<Scene> behind(const std::shared_ptr<const tp::LensMap>& lens, int n, int count) {
+    std::vector<Scene> all;
+    for (int i = 0; i < count; ++i) all.push_back(make_scene(n, static_cast<unsigned>(i + 1), 1.0, {}, 1.0, lens));
+    return all;
+  }
   static std::vector<Scene> dense(int columns, int rows, int count) {
     std::vector<Scene> all;
     for (int i = 0; i < count; ++i) all.push_back(make_dense_scene(columns, rows, static_cast<unsigned>(i + 1)));
@@ -131,9 +136,9 @@ void add_forward(const std::string& name, const std::string& size,
   add_targets(name, size, equations(make, ours, reference));
 }
 
-void add_cost(int n) {
+void add_cost(const std::string& name, int n, const std::function<std::shared_ptr<Cycle>()>& make) {
   const auto cost = [=] {
-    const auto cycle = std::make_shared<Cycle>(n, 4, false);
+    const auto cycle = make();
     Work work;
     work.items = n;
     const auto evaluate = [cycle](std::size_t i) { return tp::evaluate(request(*cycle, i), cycle->workspace); };
@@ -146,7 +151,23 @@ void add_cost(int n) {
     work.call = [=](std::size_t i) { keep(evaluate(i % 4)); };
     return work;
   };
-  add_targets("cost", std::to_string(n), cost);
+  add_targets(name, std::to_string(n), cost);
+}
+
+// The forms that tracking uses, behind a lens.
+template <class Model>
+void add_lens(const Model& model) {
+  constexpr int kPixels = 4000;
+  const auto lens = std::make_shared<const tp::LensMap>(model);
+  const auto cycle = [=] { return std::make_shared<Cycle>(Cycle::behind(lens, kPixels, 4), false); };
+  const std::string size = std::to_string(kPixels), of_lens = std::string("_") + Model::kName;
+  add_forward<tp::Parameters::pose_plane>("pose_plane" + of_lens, size, cycle);
+  add_forward<tp::Parameters::pose>("pose" + of_lens, size, cycle);
+  add_forward<tp::Parameters::plane>("plane" + of_lens, size, cycle);
+  add_policy<tp::Parameters::pose_plane>("template_huber" + of_lens, tp::LinearisePolicy::template_jacobian, true, size,
+                                         cycle);
+  add_policy<tp::Parameters::pose_plane>("esm" + of_lens, tp::LinearisePolicy::esm, true, size, cycle);
+  add_cost("cost" + of_lens, kPixels, cycle);
 }
 
 // Sixteen objects of n pixels: one object a lane.
@@ -203,8 +224,12 @@ void add_equations() {
                                            cycle_of(n, 4, true));
     add_policy<tp::Parameters::pose_plane>("template_huber", tp::LinearisePolicy::template_jacobian, true, size, cycle);
     add_policy<tp::Parameters::pose_plane>("esm", tp::LinearisePolicy::esm, true, size, cycle);
-    add_cost(n);
+    add_cost("cost", n, cycle);
   }
+  add_forward<tp::Parameters::plane>("plane", "4000", cycle_of(4000));
+  add_lens(tp::RadialTangential<double>{{}, -0.28, 0.07, 1e-3, -5e-4, 0});
+  add_lens(tp::KannalaBrandt<double>{{}, 0.01, -0.003, 0.002, -0.001});
+  add_lens(tp::DoubleSphere<double>{{}, -0.2, 0.6});
   // The same rectangles as for findTransformECC.
   for (const auto& [columns, rows] : {std::pair(16, 16), {40, 25}}) {
     const std::string size = std::to_string(columns) + "x" + std::to_string(rows);

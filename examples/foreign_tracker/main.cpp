@@ -21,17 +21,14 @@ int main(int argc, char** argv) try {
   const textslam::Pinhole<double>& pinhole = sequence.camera.pinhole();
   cv::setRNGSeed(1);
   const foreign::Camera camera{pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, width, height};
-  foreign::TextFeatures text{pinhole, {}, {}};  // text
   foreign::Tracker tracker(camera);
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
     auto pixels = textslam::load_frame(sequence, i);
     foreign::Frame frame;
     frame.time = sequence.frames[i].timestamp;
     frame.image = cv::Mat(height, width, CV_8UC1, pixels.data()).clone();
-    const auto detections = textslam::read_detections(sequence, sequence.frames[i]);  // text
-    for (const auto& d : detections) frame.quads.push_back(d.quad);                   // text
-    frame.pyramid.build(pixels.view(), 4);                                            // text
-    frame.text = with_text ? &text : nullptr;                                         // text
+    for (const auto& found : textslam::read_detections(sequence, sequence.frames[i]))  // text
+      if (with_text) frame.quads.emplace_back(found.quad, found.text, found.score);    // text
     tracker.grab(std::move(frame));
   }
   std::vector<textslam::StampedPose> poses;

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "foreign_tracker/se3.hpp"
-#include "textplane/textplane.hpp"  // text
+#include "textplane/adapters/sophus.hpp"     // text
+#include "textplane/landmarks/text_map.hpp"  // text
 
 namespace foreign {
 
@@ -48,16 +49,23 @@ struct Frame {
   std::vector<MapPoint*> points;                // of each key point, or null
   std::vector<std::vector<std::size_t>> cells;  // key points by cells of the image: matcher.hpp
   Se3 T_w_c;
-  std::vector<textplane::Quad<double>> quads;  // text
-  textplane::Pyramid pyramid;                  // text
-  struct TextFeatures* text = nullptr;         // text
+  std::vector<textplane::TextDetection> quads;  // text
 
   double sigma(std::size_t key) const { return std::pow(kScale, keys[key].octave); }
+  Eigen::Vector2d px(std::size_t key) const { return {keys[key].pt.x, keys[key].pt.y}; }
   int tracked() const {
     int n = 0;
     for (const MapPoint* p : points) n += p != nullptr;
     return n;
   }
+  textplane::Pyramid pyramid() const { return textplane::Pyramid({image.data, image.cols, image.rows}); }  // text
+  textplane::SE3d T_c_w() const { return textplane::adapters::from_sophus(T_w_c.inverse()); }              // text
+  std::vector<textplane::TextPoint> text_points() const {                                                  // text
+    std::vector<textplane::TextPoint> seen;                                                                // text
+    for (std::size_t i = 0; i < points.size(); ++i)                                                        // text
+      if (points[i]) seen.push_back(textplane::TextPoint::at(px(i), points[i]->p_w, -1, sigma(i)));        // text
+    return seen;                                                                                           // text
+  }                                                                                                        // text
 };
 
 /// Nothing is deleted, so that pointers stay valid; bad points are skipped.

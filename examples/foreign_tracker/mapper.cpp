@@ -20,9 +20,10 @@ void Tracker::make_key_frame(Frame made) {
   std::vector<Frame*> neighbours = covisible(map_, frame, 8);
   for (Frame* other : neighbours) triangulate(*other, frame, match_along_lines(camera_, *other, frame));
   fuse(neighbours, first_new);
-  if (frame.text && !neighbours.empty()) frame.text->add(frame, *neighbours.back());  // text
   neighbours.push_back(&frame);
-  adjust(camera_, map_, neighbours);
+  const int id = static_cast<int>(map_.key_frames.size()) - 1;                                // text
+  texts_.add_keyframe(id, frame.pyramid(), frame.T_c_w(), frame.quads, frame.text_points());  // text
+  adjust(camera_, map_, neighbours, texts_);                                                  // text
   reference_ = &frame;
   since_key_frame_ = 0;
   velocity_ = last_.T_w_c.inverse() * frame.T_w_c * velocity_;
@@ -56,8 +57,7 @@ int Tracker::triangulate(Frame& a, Frame& b, const Matches& matches) {
     if (!(depth[0] > 0.02) || !(depth[1] > 0.02)) continue;
     const Eigen::Vector3d p = 0.5 * (depth[0] * from + T_b_a.inverse() * (depth[1] * to));
     const auto off = [&](const Frame& frame, std::size_t key, const Eigen::Vector3d& q) {
-      const Eigen::Vector2d px(frame.keys[key].pt.x, frame.keys[key].pt.y);
-      return (camera_.project(q) - px).squaredNorm() / (frame.sigma(key) * frame.sigma(key));
+      return (camera_.project(q) - frame.px(key)).squaredNorm() / (frame.sigma(key) * frame.sigma(key));
     };
     if (off(a, i, p) > kChiSquare95 || off(b, k, T_b_a * p) > kChiSquare95) continue;
     auto point = std::make_unique<MapPoint>();

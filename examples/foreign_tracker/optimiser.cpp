@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <set>
 
-#include "foreign_tracker/text.hpp"  // text
+#include "textplane/adapters/ceres_text_map.hpp"  // text
 
 namespace foreign {
 
@@ -66,7 +66,6 @@ int optimise_pose(const Camera& camera, Frame& frame) {
       ++n;
     }
     if (n < 10) return n;
-    if (frame.text && round > 0) frame.text->constrain({&frame}, problem);  // text
     std::vector<double*> blocks;
     problem.GetParameterBlocks(&blocks);
     for (double* block : blocks)
@@ -84,7 +83,7 @@ int optimise_pose(const Camera& camera, Frame& frame) {
   return frame.tracked();
 }
 
-void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window) {
+void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window, textplane::TextMap& texts) {  // text
   std::set<MapPoint*> points;
   for (Frame* frame : window)
     for (MapPoint* p : frame->points)
@@ -99,11 +98,12 @@ void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window) {
         add(camera, *frame, key, *point, round == 0, problem);
       }
     }
-    if (window.back()->text) window.back()->text->constrain(window, problem);  // text
     for (const auto& frame : map.key_frames)
       if ((frame == map.key_frames.front() || std::find(window.begin(), window.end(), frame.get()) == window.end()) &&
           problem.HasParameterBlock(frame->T_w_c.data()))
         problem.SetParameterBlockConstant(frame->T_w_c.data());
+    const auto pose_of = [&](int id) { return map.key_frames[static_cast<std::size_t>(id)]->T_w_c.data(); };  // text
+    textplane::adapters::TextBlocks<> blocks(texts, pose_of, problem);                                        // text
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.max_num_iterations = round == 0 ? 5 : 10;
@@ -111,6 +111,7 @@ void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window) {
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
+    blocks.write_back();  // text
     for (MapPoint* point : points) {
       auto& seen = point->seen;
       seen.erase(std::remove_if(seen.begin(), seen.end(),

@@ -14,9 +14,9 @@ constexpr double kChiSquare95 = 5.991;
 /// Optimises the pose of a frame with its points fixed. Removes its outliers. Returns how many points remain.
 int optimise_pose(const Camera& camera, Frame& frame);
 
-/// Optimises these key frames and all points that they see. Other key frames that see the points, and the first of the
-/// map, are fixed. Removes outlying observations.
-void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window);
+/// Optimises these key frames, and all points and texts that they see. Other key frames that see the points, and the
+/// first of the map, are fixed. Removes outlying observations.
+void adjust(const Camera& camera, Map& map, const std::vector<Frame*>& window, textplane::TextMap& texts);  // text
 
 }  // namespace foreign
 

@@ -66,7 +66,9 @@ void Tracker::initialise(Frame frame) {
     map_ = {};
     return;
   }
-  adjust(camera_, map_, {&one, &two});
+  adjust(camera_, map_, {&one, &two}, texts_);                                       // text
+  texts_.add_keyframe(0, one.pyramid(), one.T_c_w(), one.quads, one.text_points());  // text
+  texts_.add_keyframe(1, two.pyramid(), two.T_c_w(), two.quads, two.text_points());  // text
   reference_ = &two;
   trajectory_ = {{one.time, &one, Se3()}, {two.time, &two, Se3()}};
   last_ = two;
@@ -92,6 +94,8 @@ bool Tracker::track_local_map(Frame& frame) {
   const std::vector<MapPoint*> local = local_points(frame);
   match_by_projection(camera_, local, 4, 100, 0.8, frame);
   const int tracked = optimise_pose(camera_, frame);
+  const auto& fit = texts_.track(frame.pyramid(), frame.T_c_w(), frame.text_points());      // text
+  if (fit.refined) frame.T_w_c = textplane::adapters::to_sophus<Se3>(fit.T_c_w.inverse());  // text
   const Se3 T_c_w = frame.T_w_c.inverse();
   for (MapPoint* point : local) {
     const Eigen::Vector3d p = T_c_w * point->p_w;

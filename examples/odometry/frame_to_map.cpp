@@ -2,7 +2,8 @@
 // to frame, key frames triangulate them, and from then on they stay where they are; a frame's pose is OpenCV's PnP of
 // the known ones. Nothing is ever corrected, so errors add up.
 //
-// Takes the poses of the first N frames (41), counted from frame F (0), from the truth. Writes OUTPUT/trajectory.txt.
+// Takes the poses of the first N frames (41), counted from frame F (0), from the truth. Writes OUTPUT/trajectory.txt,
+// and with text OUTPUT/text_map.json.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -38,7 +39,7 @@ class FrameToMap {
     Pose T_w_c = known ? *known : last_ * velocity_;
     const bool is_found = known || locate(&T_w_c);
     found_ += is_found;
-    textplane::Pyramid pyramid(textplane::ImageView8(image.data, image.cols, image.rows));     // text
+    textplane::Pyramid pyramid = textplane::adapters::pyramid_from_cv(image);                  // text
     if (!known) T_w_c = with_texts(texts_, pyramid, T_w_c, text_points(tracks_, landmarks_));  // text
     velocity_ = is_found && found_ > 1 ? last_.inverse() * T_w_c : Pose::Identity();  // rather stand than run away
     last_ = T_w_c;
@@ -53,6 +54,7 @@ class FrameToMap {
 
   std::size_t found() const { return found_; }
   std::size_t key_frames() const { return key_frames_.size(); }
+  const textplane::TextMap& texts() const { return texts_; }  // only to tell what is right
 
  private:
   // PnP from the predicted pose; tracks that it contradicts are dropped. Else the prediction stays.

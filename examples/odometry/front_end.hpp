@@ -137,7 +137,7 @@ inline std::vector<textplane::TextPoint> text_points(const Tracks& tracks, Landm
 /// The pose by texts and points, or as it was.
 inline Pose with_texts(textplane::TextMap& texts, const textplane::Pyramid& image, const Pose& T_w_c,  // text
                        const std::vector<textplane::TextPoint>& points) {                              // text
-  const auto fit = texts.track(image, inverse_of(T_w_c), points);                                      // text
+  const auto& fit = texts.track(image, inverse_of(T_w_c), points);                                     // text
   return fit.refined ? inverse_of(fit.T_c_w) : T_w_c;                                                  // text
 }
 

@@ -21,6 +21,8 @@
 #include "io/output_file.hpp"
 #include "io/sequence.hpp"
 #include "io/trajectory.hpp"
+#include "odometry/text_result.hpp"
+#include "textplane/adapters/opencv.hpp"
 #include "textplane/landmarks/text_map.hpp"
 
 namespace odometry {
@@ -87,21 +89,13 @@ class Session {
     return image;
   }
 
-  textplane::Quad<double> undistorted(textplane::Quad<double> quad) const {
-    for (Eigen::Vector2d& corner : quad.corner) {
-      Eigen::Vector3d ray;
-      if (textplane::is_ok(sequence.camera.unproject(corner, &ray))) corner = camera().pixel(ray.hnormalized());
-    }
-    return quad;
-  }
-
   /// Detections of a frame, undistorted; none without --text.
   std::vector<textplane::TextDetection> quads(std::size_t frame) const {
     std::vector<textplane::TextDetection> found;
     if (!options.text) return found;
     for (const auto& seen : textslam::read_detections(sequence, sequence.frames[frame]))
-      found.emplace_back(undistorted(seen.quad), seen.text, seen.score);
-    return found;
+      found.emplace_back(seen.quad, seen.text, seen.score);
+    return textplane::undistorted(found, sequence.camera, camera());
   }
 
   /// Between the neighbouring true poses in time; the nearest one outside of them.
@@ -140,7 +134,7 @@ class Session {
 };
 
 /// Runs an odometry over a sequence: `Odometry(session)`, `Pose grab(image, known pose or null)`, `found()`,
-/// `key_frames()`. The program's exit code.
+/// `key_frames()`, `texts()`. The program's exit code.
 template <class Odometry>
 int run(int argc, char** argv) try {
   const Session session(argc, argv);
@@ -151,6 +145,8 @@ int run(int argc, char** argv) try {
     poses.push_back(odometry.grab(session.image(i), session.is_led(i) ? &truth : nullptr, session.quads(i)));
   }
   session.finish(poses, odometry.found(), odometry.key_frames());
+  const Options& options = session.options;
+  if (options.text) finish_texts(odometry.texts(), session.sequence, options.sequence, options.output);
   return 0;
 } catch (const std::exception& error) {
   return std::fprintf(stderr, "%s: %s\n", argv[0], error.what()), 2;

@@ -2,7 +2,8 @@
 // frame_to_map; Ceres finds the pose of each frame from the known points, and at each key frame adjusts the poses and
 // points of the last few key frames.
 //
-// Takes the poses of the first N frames (41), counted from frame F (0), from the truth. Writes OUTPUT/trajectory.txt.
+// Takes the poses of the first N frames (41), counted from frame F (0), from the truth. Writes OUTPUT/trajectory.txt,
+// and with text OUTPUT/text_map.json.
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/loss_function.h>
 #include <ceres/manifold.h>
@@ -17,6 +18,7 @@
 
 #include "odometry/front_end.hpp"
 #include "odometry/session.hpp"
+#include "textplane/adapters/ceres_text_map.hpp"  // text
 
 namespace odometry {
 namespace {
@@ -67,16 +69,16 @@ class SlidingWindow {
     Pose T_w_c = known ? *known : last_ * velocity_;
     const bool is_found = known || locate(&T_w_c);
     found_ += is_found;
-    textplane::Pyramid pyramid(textplane::ImageView8(image.data, image.cols, image.rows));     // text
+    textplane::Pyramid pyramid = textplane::adapters::pyramid_from_cv(image);                  // text
     if (!known) T_w_c = with_texts(texts_, pyramid, T_w_c, text_points(tracks_, landmarks_));  // text
     Pose before = last_;
     last_ = T_w_c;
     ++since_key_frame_;
     if (since_key_frame_ >= kKeyFrameEvery || points_in_view() < 0.7 * points_at_key_frame_ || key_frames_.empty()) {
-      make_key_frame(known != nullptr);
-      texts_.move([&](int id) { return inverse_of(block(id).pose()); });                        // text
+      key_frames_.push_back({static_cast<int>(key_frames_.size()), PoseBlock(last_), known != nullptr});
       texts_.add_keyframe(key_frames_.back().id, std::move(pyramid), inverse_of(last_), quads,  // text
                           text_points(tracks_, landmarks_));                                    // text
+      make_key_frame();
     }
     velocity_ = is_found && found_ > 1 ? before.inverse() * T_w_c : Pose::Identity();  // rather stand than run away
     return last_;
@@ -84,6 +86,7 @@ class SlidingWindow {
 
   std::size_t found() const { return found_; }
   std::size_t key_frames() const { return key_frames_.size(); }
+  const textplane::TextMap& texts() const { return texts_; }  // only to tell what is right
 
  private:
   // The pose that fits the known points best, from the predicted one; tracks that it contradicts are dropped.
@@ -118,9 +121,8 @@ class SlidingWindow {
     return true;
   }
 
-  void make_key_frame(bool is_led) {
-    const int id = static_cast<int>(key_frames_.size());
-    key_frames_.push_back({id, PoseBlock(last_), is_led});
+  void make_key_frame() {
+    const int id = key_frames_.back().id;
     for (const Track& track : tracks_) landmarks_[track.id].seen.emplace_back(id, track.px);
     forget();
     triangulate_new();
@@ -169,7 +171,10 @@ class SlidingWindow {
       if (id < oldest + 2 || key_frames_[static_cast<std::size_t>(id)].is_led)
         problem.SetParameterBlockConstant(block(id).data());
     }
+    textplane::adapters::TextBlocks<> texts(                         // text
+        texts_, [&](int id) { return block(id).data(); }, problem);  // text
     if (problem.NumResidualBlocks() > 0) solve(ceres::DENSE_SCHUR, &problem);
+    texts.write_back();  // text
     // What does not fit now is forgotten, and its track with it.
     for (auto& [number, landmark] : landmarks_) {
       if (!landmark.known) continue;

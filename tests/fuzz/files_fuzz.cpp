@@ -1,10 +1,12 @@
 // Files that the example programs read: any bytes give a result or an InputError whose message is one line and begins
-// with the file's name. The first byte says what the rest is taken for.
+// with the file's name. The first byte says what the rest is taken for. And the library's reader of lines: any bytes
+// give a detection that is finite, or a status, and a fault that lies within the line.
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "fuzz.hpp"
 #include "io/detections.hpp"
@@ -17,6 +19,7 @@
 #include "io/sequence.hpp"
 #include "io/text_file.hpp"
 #include "io/trajectory.hpp"
+#include "textplane/landmarks/icdar.hpp"
 
 namespace textplane_fuzz {
 namespace {
@@ -38,6 +41,20 @@ class MemoryFile {
   int descriptor_;
 };
 
+void parse_line(const std::vector<std::uint8_t>& bytes) {
+  const std::string line(bytes.begin(), bytes.end());
+  for (const tp::IcdarForm form : {tp::IcdarForm::word, tp::IcdarForm::score_word}) {
+    tp::TextDetection seen({}, "before", 7);
+    tp::IcdarFault fault;
+    if (tp::is_ok(tp::parse_icdar_line(line, &seen, form, &fault))) {
+      TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(seen.quad) && tp::is_finite(seen.score) && !seen.word.empty());
+      continue;
+    }
+    TEXTPLANE_FUZZ_REQUIRE(seen.word == "before" && seen.score == 7 && seen.quad.corner[0].isZero(0));
+    TEXTPLANE_FUZZ_REQUIRE(fault.field >= 0 && fault.field < 9 && line.find(fault.text) != std::string::npos);
+  }
+}
+
 void read_as(int what, const std::string& path) {
   using namespace textslam;
   switch (what) {
@@ -47,7 +64,7 @@ void read_as(int what, const std::string& path) {
     case 1:
       for (const StampedPose& pose : read_tum(path)) TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(pose.T_w_c));
       break;
-    case 2: TEXTPLANE_FUZZ_REQUIRE(read_camera(path).pinhole().valid()); break;
+    case 2: TEXTPLANE_FUZZ_REQUIRE(read_camera(path).raw.valid()); break;
     case 3: read_text_map(path); break;
     case 4: read_json(path); break;
     case 5: {
@@ -57,7 +74,14 @@ void read_as(int what, const std::string& path) {
       TEXTPLANE_FUZZ_REQUIRE(image.width() > 0 && image.height() > 0);
       break;
     }
-    case 7: TEXTPLANE_FUZZ_REQUIRE(read_euroc_camera(path).model.pinhole().valid()); break;
+    case 7: {
+      const CameraFile file = read_camera_file(path);
+      TEXTPLANE_FUZZ_REQUIRE(file.model.raw.valid() && tp::all_finite(file.T_b_c));
+      for (const CameraFormat format : {CameraFormat::settings, CameraFormat::sensor, CameraFormat::camchain,
+                                        CameraFormat::opencv, CameraFormat::colmap})
+        format_camera(file.model, format);
+      break;
+    }
     case 8:
       for (const FrameRef& frame : read_euroc_frames(path, "images")) TEXTPLANE_FUZZ_REQUIRE(frame.line > 0);
       break;
@@ -74,8 +98,10 @@ void read_as(int what, const std::string& path) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace textplane_fuzz;
   Input in(data, size);
-  const int what = in.byte() % 10;
-  const MemoryFile file(in.rest());
+  const int what = in.byte() % 11;
+  const std::vector<std::uint8_t> bytes = in.rest();
+  if (what == 10) return parse_line(bytes), 0;
+  const MemoryFile file(bytes);
   try {
     read_as(what, file.path());
   } catch (const textslam::InputError& error) {

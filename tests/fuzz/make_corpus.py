@@ -10,7 +10,7 @@ import sys
 import zlib
 from pathlib import Path
 
-NUMERIC = {"photometry": (1, 400), "features": (5, 120), "geometry": (4, 300), "solver": (3, 500)}
+NUMERIC = {"photometry": (1, 400), "features": (5, 120), "geometry": (4, 300), "solver": (3, 500), "texts": (8, 3000), "cameras": (6, 300)}
 
 CAMERA = """%YAML:1.0
 Camera.fx: 525.0
@@ -37,6 +37,36 @@ intrinsics: [458.654, 457.296, 367.215, 248.375] # fu, fv, cu, cv
 distortion_model: radial-tangential
 distortion_coefficients: [-0.28, 0.07, 0.0002, 1.7e-05]
 """
+CHAIN = """cam0:
+  T_cam_imu:
+  - [0, 1, 0, 0.1]
+  - [-1, 0, 0, 0]
+  - [0, 0, 1, 0]
+  - [0, 0, 0, 1]
+  camera_model: ds
+  intrinsics: [-0.17, 0.59, 158.3, 158.2, 254.9, 256.5]
+  distortion_model: none
+  distortion_coeffs: []
+  resolution: [512, 512]
+"""
+OPENCV = """%YAML:1.0
+---
+image_width: 640
+image_height: 480
+camera_matrix: !!opencv-matrix
+   rows: 3
+   data: [ 500., 0., 319.5, 0., 5.0e+02, 239.5, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   data: [ 0.1, -0.2, 0., 0., 0.01 ]
+"""
+XML = """<?xml version="1.0"?>
+<opencv_storage>
+<!-- a comment -->
+<image_width>640</image_width><image_height>480</image_height>
+<camera_matrix type_id="opencv-matrix"><data>500. 0. 319.5 0. 500. 239.5 0. 0. 1.</data></camera_matrix>
+<distortion_coefficients><data>0.1 -0.2 0.001 0.</data></distortion_coefficients><fisheye_model>1</fisheye_model>
+</opencv_storage>
+"""
 TEXT_MAP = """{"texts":[{"id":0,"text":"EXIT","corners":[[0,0,1],[1,0,1],[1,1,1],[0,1,1]],"normal":[0,0,-1],
 "theta":[0,0,1],"host":0.1,"observations":7,"zncc":0.9}]}"""
 
@@ -61,8 +91,14 @@ def files():
     yield "plain", 5, b"P2\n3 2\n15\n0 1 2 3 4 15\n"
     yield "lines", 6, b"one\r\ntwo\n\n# three\n"
     yield "euroc_camera", 7, SENSOR.encode()
+    yield "camchain", 7, CHAIN.encode()
+    yield "opencv_yaml", 7, OPENCV.encode()
+    yield "opencv_xml", 7, XML.encode()
+    yield "colmap", 7, b"# cameras\n1 OPENCV_FISHEYE 640 480 500 500 320 240 0.003 0.001 -0.002 0.0002\n"
+    yield "fisheye", 7, CAMERA.replace("p1", "k3").replace("p2", "k4").encode() + b'Camera.type: "KannalaBrandt8"\n'
     yield "euroc_frames", 8, b"#timestamp [ns],filename\r\n1403636579763555584,a.png\r\n1403636579813555456,b.png\r\n"
     yield "euroc_truth", 9, b"#timestamp,x,y,z,w,x,y,z,v\n1403636579763555584,4.6,-1.7,0.8,0.6,0.0,-0.8,0.0,1\n"
+    yield "icdar_line", 10, b"\xef\xbb\xbf1.5,2,3,4,5,6,7,8,0.9,A, \"B\"\r\n"
 
 
 def write(folder, name, data):

@@ -24,6 +24,7 @@ using textplane::TextMap;
 using textplane::TextObject;
 using textplane::TextPoint;
 using textplane::TextState;
+using textplane_test::planar::Random;  // beside textplane_test::Random
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -58,7 +59,7 @@ class TextMapTest : public testing::Test {
       for (const Vec2& corner :
            {Vec2(sign.x0, sign.y0), Vec2(sign.x1, sign.y0), Vec2(sign.x1, sign.y1), Vec2(sign.x0, sign.y1)}) {
         const Vec3 m = scene.camera.unproject(corner);
-        found.quad.corner[i++] = scene.camera.project(T_c_w * (sign.T_w_h * Vec3(m / sign.theta.dot(m))));
+        found.quad.corner[i++] = scene.view().project(T_c_w * (sign.T_w_h * Vec3(m / sign.theta.dot(m))));
       }
       found.word = "sign";
       out.push_back(found);
@@ -73,7 +74,7 @@ class TextMapTest : public testing::Test {
       const Sign& sign = scene.signs[static_cast<std::size_t>(i % 3)];
       const Vec3 m = scene.camera.unproject({at.uniform(sign.x0, sign.x1), at.uniform(sign.y0, sign.y1)});
       const Vec3 p_w = sign.T_w_h * Vec3(m / sign.theta.dot(m));
-      const Vec2 px = scene.camera.project(T_c_w * p_w) + noise * Vec2(error.normal(), error.normal());
+      const Vec2 px = scene.view().project(T_c_w * p_w) + noise * Vec2{error.normal(), error.normal()};
       out.push_back(TextPoint::at(px, p_w, i));
     }
     return out;
@@ -108,7 +109,7 @@ class TextMapTest : public testing::Test {
     return largest;
   }
 
-  const Scene scene = three_signs();
+  Scene scene = three_signs();
 };
 
 }  // namespace text_map_test

@@ -27,6 +27,7 @@ class TextMergeTest : public testing::Test {
     text.patch.camera = frames.camera;
     if (!word.empty()) text.votes[word] = 2;
     text.detections = 5;
+    text.shown = 9;
     const SE3d T_h_w = frames[host].T_w_c.inverse();
     const Vec3 centre(x + 0.3, 0.1, 3);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -83,6 +84,7 @@ TEST_F(TextMergeTest, TheOneObservedMoreIsKeptAndGetsAll) {
   EXPECT_EQ(kept.views, (std::vector<int>{0, 2, 3, 4, 5})) << "each once, and not its own host";
   EXPECT_EQ(consensus(kept.votes), "EXIT");
   EXPECT_EQ(kept.detections, 10);
+  EXPECT_EQ(kept.shown, 18);
   EXPECT_EQ(kept.failures, 0);
   EXPECT_EQ(merge_duplicate_texts(options, KeyframeLookup(frames), texts), 0);
 }

@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "support/spots.hpp"
 #include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/geometry/quad.hpp"
@@ -21,16 +22,10 @@ constexpr double kHalfWidth = 0.3, kHalfHeight = 0.12;
 
 // Random spots of 3 cm, linear between them.
 inline double ink(double x, double y) {
-  const auto index = [](double i) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(i) + 1000); };
-  const auto spot = [&](double i, double j) {
-    auto h = index(i) * 2654435761U ^ index(j) * 2246822519U;
-    h = (h ^ (h >> 15)) * 739982445U;
-    h = (h ^ (h >> 12)) * 695872825U;
-    return (h ^ (h >> 15)) % 2 == 0 ? 30.0 : 220.0;
-  };
-  const double u = x / 0.03, v = y / 0.03, i = std::floor(u), j = std::floor(v), a = u - i, b = v - j;
-  return (1 - b) * ((1 - a) * spot(i, j) + a * spot(i + 1, j)) +
-         b * ((1 - a) * spot(i, j + 1) + a * spot(i + 1, j + 1));
+  const auto index = [](int i) { return static_cast<std::uint32_t>(i + 1000); };
+  return textplane_test::between_spots(x / 0.03, y / 0.03, [&](int i, int j) {
+    return textplane_test::spot_number(index(i), index(j)) % 2 == 0 ? 30.0 : 220.0;
+  });
 }
 
 class Wall {

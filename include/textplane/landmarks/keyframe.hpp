@@ -2,7 +2,7 @@
 #ifndef TEXTPLANE_LANDMARKS_KEYFRAME_HPP
 #define TEXTPLANE_LANDMARKS_KEYFRAME_HPP
 
-#include "textplane/core/cameras/pinhole.hpp"
+#include "textplane/core/cameras/camera_view.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/photometry/pyramid.hpp"
 
@@ -14,10 +14,10 @@ struct ImageNoise {
   double smoothing = 0;  ///< px^2: variance of a Gaussian that the image was smoothed with.
 };
 
-/// An undistorted image and the camera that took it. Not owned.
+/// An image and the camera that took it: a pinhole where it is undistorted, else with its lens. Not owned.
 struct TextImage : ImageNoise {
-  PyramidView pyramid;     ///< Level 0 first.
-  Pinhole<double> camera;  ///< Of level 0.
+  PyramidView pyramid;  ///< Level 0 first.
+  CameraView camera;    ///< Of level 0.
 
   int width() const noexcept { return pyramid.level[0].width(); }    ///< px of level 0.
   int height() const noexcept { return pyramid.level[0].height(); }  ///< px of level 0.

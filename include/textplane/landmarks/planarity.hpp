@@ -14,9 +14,9 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/quad.hpp"
-#include "textplane/landmarks/jackknife.hpp"
 #include "textplane/photometry/photometric_workspace.hpp"
 #include "textplane/photometry/residual.hpp"
+#include "textplane/solver/jackknife.hpp"
 #include "textplane/solver/plane.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -100,6 +100,7 @@ inline std::array<TextPatch, kBendParts> parts_of(const TextPatch& patch, const 
     part.quad = patch.quad;
     part.camera = patch.camera;
     part.status = patch.status;
+    part.rows = patch.rows;
     part.levels.resize(1);
   }
   const PatchLevel& all = patch.levels.front();
@@ -147,7 +148,7 @@ bool bend_of(const TextPatch& patch, const Vector3<double>& theta, const std::ve
                                  (2.0 * (k / detail::kBendColumns) + 1) / detail::kBendRows - 1);
         const FixedMatrix<double, 3, 6> J = detail::part_jacobian(axes, camera, rho, at);
         const auto input =
-            photometric_input(part, 0, targets[t].image, targets[t].camera ? *targets[t].camera : camera);
+            photometric_input(part, 0, targets[t].image, targets[t].camera ? *targets[t].camera : CameraView(camera));
         const auto sums = linearise<Parameters::plane>(
             ResidualRequest{input, Vector3<double>(theta + J * x), targets[t].T_t_h}, workspace);
         if (!is_ok(sums.status)) continue;

@@ -41,12 +41,12 @@ class BasicTextFinder {
             const std::vector<TextPoint>& points) {
     const TextKeyframe host = store_.text_keyframe(text.host);
     std::vector<Vector3<double>> from, to;
-    if (id != text.host) learn(host, keyframe, points, text.patch.quad, notes, &from, &to);
+    if (id != text.host) learn(host, keyframe, points, text.patch, notes, &from, &to);
     Vector3<double> theta;
     if (plane_from_inside_points(options_, notes.inside, text.patch, &theta) && confirm(text, theta, id)) return true;
     const Vector3<double> middle = text.patch.camera.unproject(centroid(text.patch.quad));
     if (id != text.host &&
-        plane_from_text_matches(options_, from, to, keyframe.from(host), keyframe.camera.fx, middle, &theta) &&
+        plane_from_text_matches(options_, from, to, keyframe.from(host), keyframe.camera.pinhole.fx, middle, &theta) &&
         confirm(text, theta, id))
       return true;
     // By its pixels alone.
@@ -85,6 +85,7 @@ class BasicTextFinder {
  private:
   // The key frame that shows most of another side of the text's surroundings; -1 where none does.
   int widest(const TextObject& text, const Vector3<double>& theta, int newest) const {
+    if (!(theta.norm() > 0)) return -1;
     const TextKeyframe host = store_.text_keyframe(text.host);
     const Vector3<double> centre =
         host.T_w_c * plane_point(theta, text.patch.camera.unproject(centroid(text.patch.quad)));
@@ -105,7 +106,6 @@ class BasicTextFinder {
   }
 
   bool confirm(TextObject& text, const Vector3<double>& theta, int newest) {
-    if (!(theta.norm() > 0)) return false;
     const int other = widest(text, theta, newest);
     TextObject found = text;
     if (other < 0 || !refine_text_plane(options_, keyframes_, {other}, theta, options_.min_zncc, found)) return false;
@@ -122,7 +122,7 @@ class BasicTextFinder {
 
   // What a later key frame tells of the points in a text's host: depths that were not known then, and matches.
   void learn(const TextKeyframe& host, const TextKeyframe& keyframe, const std::vector<TextPoint>& points,
-             const Quad<double>& quad, TextNotes& notes, std::vector<Vector3<double>>* from,
+             const TextPatch& patch, TextNotes& notes, std::vector<Vector3<double>>* from,
              std::vector<Vector3<double>>* to) const {
     const SE3d T_h_k = host.from(keyframe), T_h_w = host.T_c_w();
     std::vector<Vector3<double>> inside;
@@ -130,7 +130,8 @@ class BasicTextFinder {
     for (const TextPoint& point : points) {
       const auto at = std::find_if(notes.rays.begin(), notes.rays.end(),
                                    [&](const auto& ray) { return point.id >= 0 && ray.first == point.id; });
-      const Vector3<double> ray = keyframe.camera.unproject(point.px);
+      Vector3<double> ray;
+      if (!is_ok(keyframe.camera.unproject(point.px, &ray))) continue;
       if (at != notes.rays.end()) {
         from->push_back(at->second);
         to->push_back(ray);
@@ -138,14 +139,14 @@ class BasicTextFinder {
       if (!point.has_position && !(point.depth > 0)) continue;
       const Vector3<double> p = point.has_position ? T_h_w * point.p_w : T_h_k * Vector3<double>(point.depth * ray);
       if (!(p.z() > 0)) continue;
-      const Vector2<double> px = host.camera.project(p);
+      const Vector2<double> px = patch.camera.project(p);
       in_host.push_back(TextPoint::with_depth(px, p.z()));
-      if (at != notes.rays.end() || (point.id < 0 && contains(quad, px))) inside.push_back(p);
+      if (at != notes.rays.end() || (point.id < 0 && contains(patch.quad, px))) inside.push_back(p);
     }
     if (inside.size() > notes.inside.size()) notes.inside = std::move(inside);
     if (notes.guess.norm() > 0) return;
-    const double depth = depth_about(in_host, SE3d{}, quad, options_.min_corners);
-    if (depth > 0) notes.guess = frontal_plane(host.camera.unproject(centroid(quad)), depth);
+    const double depth = depth_about(in_host, SE3d{}, patch.quad, options_.min_corners);
+    if (depth > 0) notes.guess = frontal_plane(patch.camera.unproject(centroid(patch.quad)), depth);
   }
 
   // Where nothing is known of depths: where the newest key frames have some parallax.

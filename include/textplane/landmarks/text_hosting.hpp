@@ -25,7 +25,7 @@ inline bool shown_better(const TextOptions& options, const TextKeyframe& host, c
   if (!project_text(text, T_k_h, keyframe.camera, quad) || !is_convex(*quad) ||
       !inside_image(*quad, keyframe.width(), keyframe.height(), options.border))
     return false;
-  if (!(area(*quad) >= options.rehost_area * area(text.patch.quad))) return false;
+  if (!(area(*quad) >= options.rehost_area * area_in_host(text.patch))) return false;
   const auto slant = [&](const SE3d& T) { return std::acos(std::clamp(facing(text, T), -1.0, 1.0)); };
   return slant(T_k_h) <= slant(host.from(host)) + radians(options.rehost_slant);
 }

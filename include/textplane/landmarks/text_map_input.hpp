@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "textplane/geometry/quad.hpp"
+#include "textplane/geometry/undistorted.hpp"
 #include "textplane/landmarks/words.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -14,7 +15,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A point that the host sees in an image: where, and what it knows of its place. Of the three kinds, a frame may have
 /// any mixture.
 struct TextPoint {
-  Vector2<double> px = Vector2<double>::Zero();   ///< Undistorted, level 0.
+  Vector2<double> px = Vector2<double>::Zero();   ///< Of the image as it is given, level 0.
   Vector3<double> p_w = Vector3<double>::Zero();  ///< In the world, where has_position.
   double depth = 0;                               ///< Along the optical axis, where positive and not has_position.
   bool has_position = false;                      ///< Whether p_w is known.
@@ -37,7 +38,7 @@ struct TextPoint {
 
 /// A quad that a detector found in an image, and what it read there.
 struct TextDetection {
-  Quad<double> quad;               ///< Undistorted px of level 0, clockwise from the text's top left.
+  Quad<double> quad;               ///< px of level 0 of the image as it is given, clockwise from the text's top left.
   std::string word = kUnreadText;  ///< UTF-8.
   double score = 1;                ///< Of the reading.
 
@@ -46,6 +47,17 @@ struct TextDetection {
   TextDetection(const Quad<double>& q, std::string w = kUnreadText, double s = 1)
       : quad(q), word(std::move(w)), score(s) {}
 };
+
+/// Detections of a raw image, of any lens (geometry/undistorted.hpp), as the pinhole image has them: without those of
+/// which a corner has no place there.
+template <class Lens>
+std::vector<TextDetection> undistorted(std::vector<TextDetection> raw, const Lens& lens,
+                                       const Pinhole<double>& pinhole) {
+  std::vector<TextDetection> straight;
+  for (TextDetection& seen : raw)
+    if (is_ok(undistorted(seen.quad, lens, pinhole, &seen.quad))) straight.push_back(std::move(seen));
+  return straight;
+}
 
 TEXTPLANE_END_NAMESPACE
 

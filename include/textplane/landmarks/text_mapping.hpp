@@ -52,6 +52,32 @@ class BasicTextMapping {
     erase_dropped();
   }
 
+  /// A plane from elsewhere: see TextMap::set_plane(). The text's index in objects(), or -1 where it was refused.
+  int set_plane(int id, const Vector3<double>& theta) {
+    const auto text = std::lower_bound(objects_.begin(), objects_.end(), id,
+                                       [](const TextObject& other, int wanted) { return other.id < wanted; });
+    if (text == objects_.end() || text->id != id || !text->has_plane() || !all_finite(theta) ||
+        !is_plausible_plane(options_, text->patch.camera, text->patch.quad, theta))
+      return -1;
+    text->theta = theta;
+    return static_cast<int>(text - objects_.begin());
+  }
+
+  /// A text of an earlier map. Its host is in the store. False, and nothing changed, where it has no plane or pixels,
+  /// numbers that are not finite, or an id that is not higher than all before.
+  bool restore(TextObject text) {
+    if (!text.has_plane() || text.id < next_id_ || text.patch.level_count() < 1 || !is_ok(text.patch.status) ||
+        !text.patch.camera.valid() || !all_finite(text.patch.quad) || !all_finite(text.theta) ||
+        !all_finite(text.covariance) || !(text.variance_factor > 0) || !is_finite(text.variance_factor))
+      return false;
+    TextNotes notes;
+    notes.refined_views = text.views.size();
+    next_id_ = text.id + 1;
+    objects_.push_back(std::move(text));
+    notes_.push_back(std::move(notes));
+    return true;
+  }
+
   /// Whether a text needs the pose of this key frame.
   bool needs(int id) const {
     return std::any_of(objects_.begin(), objects_.end(), [id](const TextObject& text) { return text.host == id; });
@@ -144,12 +170,13 @@ class BasicTextMapping {
     for (const TextPoint& point : points) {
       if (!contains(detection.quad, point.px)) continue;
       const double depth = depth_of(point, T_c_w);
-      const Vector3<double> ray = keyframe.camera.unproject(point.px);
+      Vector3<double> ray;
+      if (!is_ok(keyframe.camera.unproject(point.px, &ray))) continue;
       if (depth > 0) notes.inside.push_back(depth * ray);
       if (point.id >= 0) notes.rays.emplace_back(point.id, ray);
     }
     const double depth = depth_about(points, T_c_w, detection.quad, options_.min_corners);
-    if (depth > 0) notes.guess = frontal_plane(keyframe.camera.unproject(centroid(detection.quad)), depth);
+    if (depth > 0) notes.guess = frontal_plane(text.patch.camera.unproject(centroid(text.patch.quad)), depth);
     objects_.push_back(std::move(text));
     notes_.push_back(std::move(notes));
     finder_.find(objects_.back(), notes_.back(), id, keyframe, points);

@@ -56,15 +56,17 @@ double text_zncc_limit(const TextOptions& options, double limit, const TextPatch
     return is_ok(stats.status) ? stats.s / std::sqrt(stats.n) : 0;
   };
   const PatchLevel& pixels = patch.levels[static_cast<std::size_t>(level)];
-  const Matrix3<double> H = pixel_homography<double>(plane_homography(theta, T_t_h), patch.camera.at_level(level),
-                                                     target.camera.at_level(level));
+  const Matrix3<double> H = plane_homography(theta, T_t_h);
+  const Pinhole<double> from = patch.camera.at_level(level);
+  const CameraView to = target.camera.at_level(level);
   std::vector<float> seen;
   for (std::size_t i = 0; i < pixels.x.size(); ++i) {
-    const Vector3<double> q =
-        H * Vector3<double>(static_cast<double>(pixels.x[i]), static_cast<double>(pixels.y[i]), 1);
+    const Vector3<double> q = H * from.unproject({static_cast<double>(pixels.x[i]), static_cast<double>(pixels.y[i])});
+    if (!(q.z() > 1e-6) || !to.in_domain(q)) continue;
+    const Vector2<double> px = to.pixel({q.x() / q.z(), q.y() / q.z()});
     float value = 0;
-    if (q.z() > 1e-6 && sample_bilinear(target.pyramid.level[static_cast<std::size_t>(level)],
-                                        static_cast<float>(q.x() / q.z()), static_cast<float>(q.y() / q.z()), &value))
+    if (sample_bilinear(target.pyramid.level[static_cast<std::size_t>(level)], static_cast<float>(px.x()),
+                        static_cast<float>(px.y()), &value))
       seen.push_back(value);
   }
   return zncc_limit(options, limit, level, host, contrast_of(pixels.intensity), target, contrast_of(seen));

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "textplane/core/order.hpp"
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/plane_fit.hpp"
-#include "textplane/landmarks/order.hpp"
 #include "textplane/landmarks/text_noise.hpp"
 #include "textplane/landmarks/text_view.hpp"
 #include "textplane/photometry/residual.hpp"
@@ -40,6 +40,7 @@ bool plane_from_text_matches(const TextOptions& options, std::vector<Vector3<dou
     const Vector3<double> turned = T_t_h.R * host[i];
     parallax.push_back(detail::degrees_between(turned, target[i]));
   }
+  *theta = Vector3<double>::Zero();
   if (too_few(host) || median(parallax) < options.min_parallax) return false;
   for (int round = 0; round < options.plane_rounds; ++round) {
     const auto fit = plane_from_matches(host.data(), target.data(), static_cast<int>(host.size()), T_t_h);
@@ -75,14 +76,14 @@ bool refine_text_plane(const TextOptions& options, const KeyframeLookup& keyfram
   const TextKeyframe host = keyframes(text.host);
   const TextObject guess = outline_of(text.patch, theta);
   std::vector<PlaneTarget> targets;
-  std::vector<Pinhole<double>> cameras(ids.size());
+  std::vector<CameraView> cameras(ids.size());
   std::vector<double> limits;
   for (const int id : ids) {
     const TextKeyframe keyframe = keyframes(id);
     const SE3d T_t_h = keyframe.from(host);
     Quad<double> quad;
     const int shift = project_text(guess, T_t_h, keyframe.camera, &quad) ? scale_shift(text, quad) : 0;
-    Pinhole<double>& camera = cameras[targets.size()];
+    CameraView& camera = cameras[targets.size()];
     camera = keyframe.camera;
     targets.push_back({keyframe.pyramid, T_t_h, shift, nullptr, &camera});
     limits.push_back(text_zncc_limit(options, min_zncc, text.patch, 0, theta, host, keyframe, T_t_h));

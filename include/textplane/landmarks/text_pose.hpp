@@ -16,7 +16,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "textplane/landmarks/order.hpp"
+#include "textplane/core/order.hpp"
+#include "textplane/landmarks/text_plane.hpp"
 #include "textplane/landmarks/text_view.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/solver/pose.hpp"
@@ -33,26 +34,45 @@ struct FrameText {
   double share = 0;                    ///< Result: of the information on the camera's position, 0 to 1.
 };
 
+/// The standard deviation of a residual of a text that an image shows with this ZNCC, in units of 1/sqrt(N). Views err
+/// as wholes, by resampling too: no ZNCC counts for more than .985.
+inline double text_sigma(const TextObject& text, double zncc) noexcept {
+  return std::sqrt(text.variance_factor * (std::max)(2 * (1 - zncc), 0.03));
+}
+
 /// Solves for the pose of one frame; keeps its memory. For one thread at a time.
 TEXTPLANE_DEFERRED
 class BasicTextPose {
  public:
   /// Scale of the points' residuals about a pose, in units of their sigmas: the median of |e| / sigma over that of a
   /// Rayleigh distribution, at least `least`. 1 for fewer than eight points.
-  double point_scale(const std::vector<PosePointTerm>& points, const Pinhole<double>& camera, const SE3d& T_c_w,
+  double point_scale(const std::vector<PosePointTerm>& points, const CameraView& camera, const SE3d& T_c_w,
                      double least) {
     errors_.clear();
     for (const PosePointTerm& point : points) {
       Vector3<double> p;
       Vector2<double> e;
-      if (detail::reproject(point, T_c_w, camera, &p, &e)) errors_.push_back(e.norm() / point.sigma);
+      const SE3d row = detail::row_increment(point, camera);
+      if (detail::reproject(point, T_c_w, camera, camera.rows ? &row : nullptr, &p, &e))
+        errors_.push_back(e.norm() / point.sigma);
     }
     if (errors_.size() < 8) return 1;
-    constexpr double kRayleighMedian = 1.1774100225154747;
-    return (std::max)(least, median_in_place(errors_) / kRayleighMedian);
+    return (std::max)(least, sigma_of_lengths(errors_));
   }
 
-  /// Iterates from *T_c_w over the texts that are `used`, at level 0. False where the terms do not determine the pose.
+  /// Sets every text's zncc at a pose, at level 0; -1 where it cannot be compared there. Returns the least.
+  double judge(std::vector<FrameText>& texts, const TextImage& image, const SE3d& T_c_w) {
+    double least = 1;
+    for (FrameText& text : texts) {
+      const auto cost = compare_text(*text.object, 0, image, T_c_w * text.T_w_h, text.scale_shift, photometric_);
+      text.zncc = is_ok(cost.status) ? cost.zncc : -1;
+      least = (std::min)(least, text.zncc);
+    }
+    return least;
+  }
+
+  /// Iterates from *T_c_w over the texts that are `used`, at level 0, until a step is a hundredth of a standard
+  /// deviation. False where the terms do not determine the pose.
   bool solve(const std::vector<PosePointTerm>& points, double scale, std::vector<FrameText>& texts,
              const TextImage& image, SE3d* T_c_w, int iterations = 8) {
     theta_.resize(texts.size());
@@ -63,7 +83,8 @@ class BasicTextPose {
       detail::PoseSystem system;
       for (PosePointTerm point : points) {
         point.sigma *= scale;
-        detail::add_point(point, *T_c_w, image.camera, robust_, system);
+        const SE3d row = detail::row_increment(point, image.camera);
+        detail::add_point(point, *T_c_w, image.camera, image.camera.rows ? &row : nullptr, robust_, system);
       }
       detail::mirror(system);
       for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, system);
@@ -76,7 +97,7 @@ class BasicTextPose {
         if (eliminated_[i].in)
           theta_[i] -= eliminated_[i].C_inverse * (eliminated_[i].h + eliminated_[i].B.transpose() * step);
       information_ = system.H;
-      if (step.norm() < 1e-7) break;
+      if (-step.dot(system.b) < kStep * kStep) break;
     }
     const double all = information_.template topLeftCorner<3, 3>().trace();
     for (FrameText& text : texts) text.share = all > 0 ? text.share / all : 0;
@@ -94,6 +115,8 @@ class BasicTextPose {
     Vector3<double> h;
   };
 
+  static constexpr double kStep = 0.01;  // standard deviations
+
   void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, detail::PoseSystem& system) {
     Eliminated& out = eliminated_[i];
     out.in = false;
@@ -106,8 +129,7 @@ class BasicTextPose {
     text.zncc = is_ok(n.status) ? n.zncc : -1;
     const Ldlt<double, 3> prior(object.covariance, 1e-12);
     if (!is_ok(n.status) || !prior.ok()) return;
-    const double variance = object.variance_factor * (std::max)(2 * (1 - n.zncc), 0.03);
-    const double weight = n.visible / variance;
+    const double weight = text_weight(Weighting::variance, 1, text_sigma(object, n.zncc), n.visible);
     const Matrix3<double> known = prior.inverse();
     const FixedMatrix<double, 6, 6> A = weight * n.H.template topLeftCorner<6, 6>();
     out.B = weight * n.H.template topRightCorner<6, 3>();

@@ -49,18 +49,20 @@ double depth_about(const std::vector<TextPoint>& points, const SE3d& T_c_w, cons
 TEXTPLANE_DEFERRED
 bool plane_from_inside_points(const TextOptions& options, const std::vector<Vector3<double>>& inside,
                               const TextPatch& patch, Vector3<double>* theta) {
-  if (static_cast<int>(inside.size()) < options.min_corners) return false;
+  if (inside.empty() || static_cast<int>(inside.size()) < options.min_corners) return false;
   std::vector<double> depths;
   for (const Vector3<double>& p : inside) depths.push_back(p.z());
   const double depth = median(depths);
   const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad)), centre = depth * ray;
   const Vector3<double> guess = frontal_plane(ray, depth);
+  if (!(guess.norm() > 0)) return false;  // too far for a number
   const Matrix3<double> doubt = detail::guessed(guess, centre, options.surface_guess_turn, options.surface_guess_depth);
   std::vector<SurfacePoint> points;
   for (const Vector3<double>& p : inside) points.push_back({p, 0.02 * depth, 0});
   TextOptions fit = options;
   fit.surface_min_points = 0.5 * options.min_corners;
   std::vector<double> off(inside.size());
+  *theta = guess;
   for (int round = 0; round < options.plane_rounds; ++round) {
     *theta = guess;
     Matrix3<double> covariance = doubt;

@@ -35,14 +35,22 @@ inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
   return out;
 }
 
-// d target px / d host px of the plane, at a host pixel.
-inline bool affine_at(const Pinhole<double>& host, const Pinhole<double>& target, const Vector3<double>& theta,
-                      const SE3d& T_t_h, const Vector2<double>& px, Matrix2d* A) noexcept {
-  const Matrix3<double> H = pixel_homography<double>(plane_homography(theta, T_t_h), host, target);
-  const Vector3<double> q = H * px.homogeneous();
-  if (!(q.z() > 1e-6)) return false;
-  const Vector2<double> p = q.hnormalized();
-  *A = (H.topLeftCorner<2, 2>() - p * H.bottomLeftCorner<1, 2>()) / q.z();
+// d px / d m of a camera at the ray m.
+inline Matrix2d pixel_jacobian(const CameraView& camera, const Vector2<double>& m) noexcept {
+  Matrix2d D = Matrix2d::Identity();
+  if (camera.lens) camera.lens->distort(m, &D);
+  return Vector2<double>(camera.pinhole.fx, camera.pinhole.fy).asDiagonal() * D;
+}
+
+// d target px / d host px of the plane, at a ray of the host.
+inline bool affine_at(const CameraView& host, const CameraView& target, const Vector3<double>& theta, const SE3d& T_t_h,
+                      const Vector3<double>& ray, Matrix2d* A) noexcept {
+  const Matrix3<double> H = plane_homography(theta, T_t_h);
+  const Vector3<double> q = H * ray;
+  if (!(q.z() > 1e-6) || !host.in_domain(ray) || !target.in_domain(q)) return false;
+  const Vector2<double> m = q.hnormalized();
+  const Matrix2d by_ray = (H.topLeftCorner<2, 2>() - m * H.bottomLeftCorner<1, 2>()) / q.z();
+  *A = pixel_jacobian(target, m) * by_ray * pixel_jacobian(host, ray.head<2>()).inverse();
   return true;
 }
 }  // namespace detail
@@ -148,7 +156,8 @@ class BasicTextRefiner {
                  spread = 1 + (options_.blur_spread - 1) * camera_blur /
                                   (camera_blur + (std::max)(host_smoothing, view_smoothing));
     if (host.area > options_.refine_scale * options_.refine_scale * view.area ||
-        !detail::affine_at(patch.camera, view.keyframe.camera, theta, target.T_t_h, centroid(patch.quad), &A) ||
+        !detail::affine_at(host.keyframe.camera, view.keyframe.camera, theta, target.T_t_h,
+                           patch.camera.unproject(centroid(patch.quad)), &A) ||
         !is_ok(match_blur(A, camera_blur + host_smoothing, camera_blur + view_smoothing + kSampling, spread, &match)))
       return false;
     const std::size_t slot = targets_.size();
@@ -237,8 +246,7 @@ class BasicTextRefiner {
     if (!is_ok(fit.status) || fit.zncc < median(std::move(limits))) return false;
     Matrix3<double> J;
     out->theta = reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
-    if (!bend_of(patch, fit.theta, targets_, host.keyframe.camera, options_.refine_bend_sigmas, photometric_,
-                 &out->bend))
+    if (!bend_of(patch, fit.theta, targets_, patch.camera, options_.refine_bend_sigmas, photometric_, &out->bend))
       out->bend = {};
     // The disagreement shows noise, too; but few views may agree by chance.
     const Matrix3<double> scatter = disagreement(fit.theta);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "textplane/core/order.hpp"
 #include "textplane/geometry/quad_projection.hpp"
-#include "textplane/landmarks/order.hpp"
 #include "textplane/landmarks/text_view.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -55,7 +55,7 @@ std::vector<SurfacePoint> points_beside(const TextOptions& options, const PointL
                                         const TextObject& text) {
   std::vector<SurfacePoint> beside_it;
   std::array<Vector3<double>, 4> c;
-  if (!is_ok(quad_points(text.patch.quad, text.patch.camera, text.theta, &c))) return beside_it;
+  if (!is_ok(text_corners(text, &c))) return beside_it;
   const Vector3<double> normal = plane_normal(text.theta), centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
   const Vector3<double> across = 0.5 * (c[1] - c[0] + c[2] - c[3]), down = 0.5 * (c[3] - c[0] + c[2] - c[1]);
   const Vector3<double> right = across.normalized(), below = normal.cross(right);
@@ -173,9 +173,7 @@ TEXTPLANE_DEFERRED
 void fit_to_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h, TextObject& text) {
   const double sigma = normal_sigma(text);
   std::array<Vector3<double>, 4> c;
-  if (!(sigma <= detail::radians(options.surface_text_sigma)) ||
-      !is_ok(quad_points(text.patch.quad, text.patch.camera, text.theta, &c)))
-    return;
+  if (!(sigma <= detail::radians(options.surface_text_sigma)) || !is_ok(text_corners(text, &c))) return;
   const Vector3<double> centre = plane_point(text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
   const double length = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
   const std::vector<SurfacePoint> beside = points_beside(options, points, T_w_h, text);

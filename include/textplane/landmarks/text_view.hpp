@@ -3,12 +3,13 @@
 #define TEXTPLANE_LANDMARKS_TEXT_VIEW_HPP
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "textplane/geometry/homography.hpp"
 #include "textplane/geometry/plane.hpp"
-#include "textplane/geometry/quad.hpp"
+#include "textplane/geometry/quad_projection.hpp"
 #include "textplane/landmarks/keyframe.hpp"
 #include "textplane/landmarks/text_object.hpp"
 #include "textplane/landmarks/text_options.hpp"
@@ -32,17 +33,51 @@ inline TextObject outline_of(const TextPatch& patch, const Vector3<double>& thet
   TextObject text;
   text.patch.quad = patch.quad;
   text.patch.camera = patch.camera;
+  text.patch.area = patch.area;
+  text.patch.rows = patch.rows;
   text.theta = theta;
   return text;
 }
 
-/// The text's quad as seen by the camera; false where a corner is behind it.
-inline bool project_text(const TextObject& text, const SE3d& T_t_h, const Pinhole<double>& camera,
+/// px^2 that the text covers in its host's image.
+inline double area_in_host(const TextPatch& patch) noexcept {
+  return patch.area > 0 ? patch.area : std::abs(area(patch.quad));
+}
+
+/// The corners of the text in its host's frame (at the time stamp, where its rows were not taken at once). Status and
+/// untouched output as quad_points().
+inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4>* out) noexcept {
+  const TextPatch& patch = text.patch;
+  if (!patch.rows.active()) return quad_points(patch.quad, patch.camera, text.theta, out);
+  const Matrix3<double> C = host_row_warp(patch.rows, text.theta, patch.camera.unproject(centroid(patch.quad)));
+  std::array<Vector3<double>, 4> p;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Status status = plane_point(text.theta, product(C, patch.camera.unproject(patch.quad.corner[i])), &p[i]);
+    if (!is_ok(status)) return status;
+  }
+  *out = p;
+  return Status::ok;
+}
+
+/// The text's quad as seen by the camera, by its rows and those of the host; false where a corner is behind it, or
+/// beyond what its lens sees.
+inline bool project_text(const TextObject& text, const SE3d& T_t_h, const CameraView& camera,
                          Quad<double>* quad) noexcept {
   const Matrix3<double> H = plane_homography(text.theta, T_t_h);
+  const bool rolling = camera.rows || text.patch.rows.active();
+  Matrix3<double> C;
+  if (rolling) C = host_row_warp(text.patch.rows, text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vector3<double> q = H * text.patch.camera.unproject(text.patch.quad.corner[i]);
-    if (!(q.z() > 1e-6)) return false;
+    Vector3<double> m = text.patch.camera.unproject(text.patch.quad.corner[i]);
+    if (rolling) m = product(C, m);
+    const Vector3<double> q = H * m;
+    if (camera.rows) {
+      const RowProjection seen = project_rows(*camera.rows, camera, Vector3<double>(q / text.theta.dot(m)));
+      if (!is_ok(seen.status)) return false;
+      quad->corner[i] = seen.px;
+      continue;
+    }
+    if (!(q.z() > 1e-6) || !camera.in_domain(q)) return false;
     quad->corner[i] = camera.pixel(Vector2<double>(q.x() / q.z(), q.y() / q.z()));
   }
   return true;
@@ -90,7 +125,7 @@ inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>
 
 /// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
 inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcept {
-  return scale_shift(std::abs(area(text.patch.quad)), std::abs(area(quad)));
+  return scale_shift(area_in_host(text.patch), std::abs(area(quad)));
 }
 
 /// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.

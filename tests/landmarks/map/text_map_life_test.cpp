@@ -22,7 +22,9 @@ TEST_F(TextMapTest, KeyFramesMovedAndMovedBackGiveTheSameBits) {
   EXPECT_TRUE(same_bits(map.track(frame, T, seen).T_c_w, before));
   // One rigid motion of the world changes nothing of what is seen.
   map.move([&](int id) { return pose(id) * aside; });
-  const SE3d along = map.track(frame, T * aside, {}).T_c_w * aside.inverse();
+  const TextFit fit = map.track(frame, T * aside, {});
+  EXPECT_TRUE(fit.refined);
+  const SE3d along = fit.T_c_w * aside.inverse();
   EXPECT_LT(shift(along, map.track(frame, T * aside, {}).T_c_w * aside.inverse()), 1e-12);
   EXPECT_LT(shift(along, T), 2e-3);
 }
@@ -98,6 +100,7 @@ TEST_F(TextMapTest, AHostThatLeavesHandsItsTextsOn) {
     EXPECT_EQ(hosts.count(text.host), 0U);
     for (const int id : text.views) EXPECT_EQ(hosts.count(id), 0U);
   }
+  EXPECT_EQ(map.track(image(pose(5)), pose(5), {}).texts, 3) << "seen by their new hosts";
   for (int id = 0; id <= 6; ++id) map.remove_keyframe(id);
   EXPECT_TRUE(map.objects().empty()) << "no key frame, no text";
 }
@@ -121,6 +124,19 @@ TEST_F(TextMapTest, TheSameCallsGiveTheSameBits) {
     EXPECT_EQ(a.objects()[i].theta, b.objects()[i].theta);
     EXPECT_EQ(a.objects()[i].covariance, b.objects()[i].covariance);
   }
+}
+
+TEST_F(TextMapTest, AFitStaysWhatItWasWhereItIsCopied) {
+  TextMap map(scene.camera);
+  walk(map, 6);
+  const SE3d T = pose(5.5);
+  const auto copy = map.track(image(T), T, points(T, 1));
+  const auto& latest = map.track(image(T), pose(5), {});
+  EXPECT_EQ(copy.reports.size(), 3U);
+  EXPECT_FALSE(same_bits(copy.T_c_w, latest.T_c_w));
+  EXPECT_EQ(&map.track(Pyramid(), T, {}), &latest);
+  EXPECT_TRUE(latest.reports.empty());
+  EXPECT_EQ(copy.texts, 3);
 }
 
 TEST_F(TextMapTest, SeveralCamerasOfARigObserveOneText) {

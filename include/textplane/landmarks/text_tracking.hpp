@@ -1,0 +1,174 @@
+// TextTracking: what the mapped texts in view make of the pose of a frame, and when the host's own stays.
+#ifndef TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP
+#define TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "textplane/landmarks/text_bounds.hpp"
+#include "textplane/landmarks/text_mapping.hpp"
+#include "textplane/landmarks/text_pose.hpp"
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+/// Why a text took part in a pose, or did not.
+enum class TextUse : std::uint8_t {
+  used,        ///< It took part.
+  dissimilar,  ///< The image does not look like it, where it should be: hidden, blurred, or the pose is far off.
+  disagrees,   ///< What it says of the pose contradicts the points or the other texts.
+};
+
+/// What one text in view did.
+struct TextReport {
+  int id = -1;                  ///< Of the object.
+  TextUse use = TextUse::used;  ///< Whether it took part.
+  double zncc = 0;              ///< At the pose returned.
+  double share = 0;             ///< Of the information on the camera's position.
+};
+
+/// Result of TextMap::track().
+struct TextFit {
+  SE3d T_c_w;            ///< World to camera: refined, or the host's own to the bit.
+  bool refined = false;  ///< Which of the two.
+  FixedMatrix<double, 6, 6> information = FixedMatrix<double, 6, 6>::Zero();  ///< Of T_c_w, xi = (v, omega) left.
+  double gain = 0;  ///< By how much the texts lower the standard deviation of the camera's position, as a share.
+  int texts = 0;    ///< Texts that took part.
+  Status status = Status::invalid_argument;  ///< ok; too_few: no text in view; diverged: texts and points disagree.
+  std::vector<TextReport> reports;           ///< Of the mapped texts in view.
+};
+
+/// Settings of a TextMap.
+struct TextMapOptions {
+  TextOptions text;           ///< Of the life of a text.
+  double min_zncc = 0.6;      ///< Of a text that takes part in a pose.
+  double near_zncc = 0.9;     ///< Where all texts in view begin with it, coarser levels are not asked.
+  double least_gain = 0.1;    ///< Of TextFit::gain; with less the host's pose stays as it is.
+  double least_sigma = 0.25;  ///< px: points are not taken to be better.
+  double most_shift = 2;      ///< Factor by which texts may raise the scale of the points' residuals.
+  int max_images = 100;       ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
+};
+
+/// Tracks the texts of a TextMap; keeps its memory. For one thread at a time.
+TEXTPLANE_DEFERRED
+class BasicTextTracking {
+ public:
+  /// All must outlive it.
+  BasicTextTracking(const TextMapOptions& options, const TextMapping& mapping, const TextBounds& bounds)
+      : options_(options), mapping_(mapping), bounds_(bounds) {}
+
+  /// As TextMap::track().
+  const TextFit& track(const TextImage& image, const SE3d& T_c_w, const std::vector<TextPoint>& points) {
+    TextFit& fit = begin_fit(T_c_w);
+    if (!all_finite(T_c_w) || image.pyramid.levels < 1 || !image.camera.valid()) return fit;
+    points_.clear();
+    for (const TextPoint& point : points)
+      if (point.has_position && all_finite(point.p_w) && all_finite(point.px) && point.sigma > 0)
+        points_.push_back({point.p_w, point.px, point.sigma});
+    find_visible(image, T_c_w);
+    fit.status = Status::too_few;
+    if (visible_.empty()) return fit;
+
+    // What the points say alone.
+    const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
+    if (points_.size() >= 8) point_scale_ = scale;
+    SE3d by_points = T_c_w;
+    const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
+    if (!has_points) by_points = T_c_w;
+    const double alone = has_points ? position_sigma(pose_.information()) : 0;
+
+    SE3d both = by_points;
+    if (pose_.judge(visible_, image, both) < options_.near_zncc) approach(image, scale, &both);
+    for (FrameText& text : visible_) text.used = text.zncc >= options_.min_zncc;
+    bool ok = pose_.solve(points_, scale, visible_, image, &both);
+    bool changed = false;
+    for (FrameText& text : visible_) {
+      const bool good = text.used && text.zncc >= options_.min_zncc;
+      changed |= good != text.used;
+      text.used = good;
+    }
+    if (ok && changed) ok = pose_.solve(points_, scale, visible_, image, &both);
+    for (const FrameText& text : visible_) {
+      fit.texts += text.used ? 1 : 0;
+      fit.reports.push_back({text.object->id, text.used ? TextUse::used : TextUse::dissimilar, text.zncc, text.share});
+    }
+    if (!ok || fit.texts == 0) {
+      fit.texts = 0;
+      return fit;
+    }
+    fit.gain = has_points ? 1 - position_sigma(pose_.information()) / alone : 1;
+    if (fit.gain < options_.least_gain) return fit;
+    if (has_points &&
+        pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
+      for (TextReport& report : fit.reports)
+        if (report.use == TextUse::used) report.use = TextUse::disagrees;
+      fit.status = Status::diverged;
+      fit.texts = 0;
+      return fit;
+    }
+    fit.T_c_w = both;
+    fit.information = pose_.information();
+    fit.refined = true;
+    fit.status = Status::ok;
+    return fit;
+  }
+
+  double point_scale() const noexcept { return point_scale_; }  ///< As TextMap has it.
+
+ private:
+  // No result yet, in the memory of the last one.
+  TextFit& begin_fit(const SE3d& T_c_w) {
+    TextFit fresh;
+    fresh.T_c_w = T_c_w;
+    fresh.reports.swap(fit_.reports);
+    fresh.reports.clear();
+    fit_ = std::move(fresh);
+    return fit_;
+  }
+
+  void find_visible(const TextImage& image, const SE3d& T_c_w) {
+    visible_.clear();
+    bounds_.for_each_near(image, T_c_w, [&](std::size_t i, const SE3d& T_w_h) {
+      const TextObject& text = mapping_.objects()[i];
+      Quad<double> quad;
+      if (text_in_view(options_.text, text, T_c_w * T_w_h, image, &quad))
+        visible_.push_back({&text, T_w_h, scale_shift(text, quad)});
+    });
+  }
+
+  // Coarse to fine, into the texts' basins: no further, TextPose goes on from there.
+  void approach(const TextImage& image, double scale, SE3d* T_c_w) {
+    terms_.clear();
+    for (const FrameText& text : visible_)
+      terms_.push_back(
+          {&text.object->patch, text.object->theta, text.T_w_h, 1 / text.object->variance_factor, text.scale_shift});
+    const int n = static_cast<int>(terms_.size()), m = static_cast<int>(points_.size());
+    workspace_.reserve(terms_.data(), n, m);
+    zncc_.assign(visible_.size(), -1.0F);
+    PoseOptions pose;
+    pose.sigma_rep = scale;
+    pose.solve.cost_tolerance = 1e-3;
+    const PoseFit fit = refine_pose(terms_.data(), n, points_.data(), m, image.pyramid, image.camera, *T_c_w, pose,
+                                    workspace_, zncc_.data(), nullptr);
+    if (is_ok(fit.status)) *T_c_w = renormalised(fit.T_t_w);
+    for (std::size_t i = 0; i < visible_.size(); ++i) visible_[i].zncc = static_cast<double>(zncc_[i]);
+  }
+
+  const TextMapOptions& options_;
+  const TextMapping& mapping_;
+  const TextBounds& bounds_;
+  TextPose pose_;
+  double point_scale_ = 1;
+  TextFit fit_;
+  PoseWorkspace workspace_;
+  std::vector<PosePointTerm> points_;
+  std::vector<PoseTextTerm> terms_;
+  std::vector<FrameText> visible_;
+  std::vector<float> zncc_;
+};
+using TextTracking = BasicTextTracking<>;  ///< It is compiled only where it is used.
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP

@@ -1,0 +1,55 @@
+// The pose by texts whose planes are unknowns, held by their covariances.
+#include "textplane/landmarks/text_pose.hpp"
+
+#include <gtest/gtest.h>
+
+#include "landmarks/text_map_support.hpp"
+
+namespace text_map_test {
+
+class TextPoseTest : public TextMapTest {
+ protected:
+  TextPoseTest() : map(scene.camera) {
+    walk(map, 6);
+    objects = map.objects();
+  }
+  // From a pose that is a little off, with planes that are known `times` worse in variance.
+  SE3d solved(double times, int iterations) {
+    const SE3d truth = pose(5.5);
+    const Pyramid frame = image(truth);
+    textplane::TextImage view;
+    view.pyramid = frame;
+    view.camera = scene.camera;
+    std::vector<textplane::FrameText> texts;
+    for (TextObject& object : objects) {
+      object.covariance *= times;
+      texts.push_back({&object, map.keyframes().text_keyframe(object.host).T_w_c, 0, true, 0, 0});
+    }
+    SE3d T = textplane::se3_exp<double>(Random(4).twist(0.003, 0.001)) * truth;
+    EXPECT_TRUE(solver.solve({}, 1, texts, view, &T, iterations));
+    for (TextObject& object : objects) object.covariance /= times;
+    return T;
+  }
+  double position_information() const { return solver.information().template topLeftCorner<3, 3>().trace(); }
+
+  TextMap map;
+  std::vector<TextObject> objects;
+  textplane::TextPose solver;
+};
+
+TEST_F(TextPoseTest, ATextSaysLessWhereItsPlaneIsLessKnown) {
+  solved(1, 8);
+  const double known = position_information();
+  solved(1e4, 8);
+  EXPECT_LT(position_information(), 0.7 * known);
+  EXPECT_GT(position_information(), 0);
+}
+
+// The covariances pull the planes back to what is known of them.
+TEST_F(TextPoseTest, MoreIterationsComeToTheSamePose) {
+  const SE3d few = solved(1, 10), many = solved(1, 60);
+  EXPECT_LT(shift(few, many), 1e-5);
+  EXPECT_LT(shift(many, pose(5.5)), 2e-3);
+}
+
+}  // namespace text_map_test
