@@ -2,135 +2,94 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <vector>
+#include <filesystem>
 
-#include "io/image_file.hpp"
+#include "io/camera_formats/formats.hpp"
 #include "io/input_error.hpp"
+#include "io/paths.hpp"
 #include "io/text_file.hpp"
 
 namespace textslam {
 
-namespace {
+namespace fs = std::filesystem;
 
-struct Setting {
-  std::string value;
-  int line = 0;
-};
-using Settings = std::map<std::string, Setting>;
+// Here, so that each program compiles all models once.
+Vector2<double> CameraModel::project(const Vector3<double>& p) const noexcept { return raw.project(p); }
 
-// The scalar of "value  # comment" or "'value'", as in YAML, for scalars on one line.
-std::string_view scalar(std::string_view text) {
-  text = trimmed(text);
-  if (!text.empty() && (text[0] == '"' || text[0] == '\'')) {
-    const std::size_t end = text.find(text[0], 1);
-    if (end != std::string_view::npos) return text.substr(1, end - 1);
-  }
-  if (!text.empty() && text[0] == '#') return {};
-  const std::size_t comment = std::min(text.find(" #"), text.find("\t#"));
-  return trimmed(text.substr(0, comment));
+textplane::Status CameraModel::unproject(const Vector2<double>& px, Vector3<double>* m) const noexcept {
+  return raw.unproject(px, m);
 }
 
-// The top-level `key: value` lines. Indented lines and list items, which belong to keys of other programs, are
-// skipped; so are directives and document marks, OpenCV's "%YAML:1.0" included, which a YAML parser refuses.
-Settings read_settings(const std::string& path) {
-  Settings settings;
-  for (const TextLine& line : read_lines(path)) {
-    const char first = line.text[0];
-    const std::string_view text = trimmed(line.text);
-    if (text[0] == '#' || first == '%' || text == "---" || text == "...") continue;
-    if (first == ' ' || first == '\t' || first == '-') continue;
-    const std::size_t colon = text.find(':');
-    if (colon == std::string_view::npos || colon == 0) {
-      throw InputError(path, line.number, "expected 'key: value', not " + shown(text));
-    }
-    const std::string key(trimmed(text.substr(0, colon)));
-    const auto [entry, is_new] =
-        settings.emplace(key, Setting{std::string(scalar(text.substr(colon + 1))), line.number});
-    if (!is_new) {
-      throw InputError(path, line.number, key + " is given twice, first in line " + std::to_string(entry->second.line));
-    }
-  }
-  return settings;
+bool make_camera(const CameraType& type, std::vector<double> parameters, textplane::AnyCamera<double>* camera) {
+  parameters.resize(4 + type.coefficients.size());
+  textplane::AnyCamera<double>::Parameters all(static_cast<Eigen::Index>(parameters.size()));
+  std::copy(parameters.begin(), parameters.end(), all.data());
+  return textplane::is_ok(textplane::AnyCamera<double>::make(type.model, all, camera));
 }
 
-class CameraReader {
- public:
-  explicit CameraReader(const std::string& path) : path_(path), settings_(read_settings(path)) {}
-
-  const Setting* find(const std::string& key) const {
-    const auto entry = settings_.find(key);
-    return entry == settings_.end() ? nullptr : &entry->second;
-  }
-  double number(const std::string& key) const {
-    const Setting* setting = find(key);
-    if (!setting) throw InputError(path_, 0, "the key " + key + " is missing");
-    return require_number(setting->value, path_, setting->line, key);
-  }
-  double positive(const std::string& key) const {
-    const double value = number(key);
-    if (!(value > 0)) refuse(key, "should be positive");
-    return value;
-  }
-  int size(const std::string& key) const {
-    const double value = positive(key);
-    if (value > kMaxImageSide || value != std::floor(value)) {
-      refuse(key, "should be a whole number of at most " + std::to_string(kMaxImageSide));
-    }
-    return static_cast<int>(value);
-  }
-  [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
-    const Setting* setting = find(key);
-    throw InputError(path_, setting->line, key + " " + reason + ", not " + shown(setting->value));
-  }
-
- private:
-  std::string path_;
-  Settings settings_;
-};
-
-}  // namespace
-
-CameraModel read_camera(const std::string& path) {
-  const CameraReader reader(path);
-  const CameraType* type = &camera_types().front();
-  if (const Setting* name = reader.find("Camera.type")) {
-    type = find_camera_type(&CameraType::camera_yaml, name->value);
-    if (!type) reader.refuse("Camera.type", "should be " + known_camera_types(&CameraType::camera_yaml));
-  }
-  CameraModel camera;
-  camera.width = reader.size("Camera.width");
-  camera.height = reader.size("Camera.height");
-  camera.fps = reader.positive("Camera.fps");
-  std::vector<double> parameters = {reader.positive("Camera.fx"), reader.positive("Camera.fy"),
-                                    reader.number("Camera.cx"), reader.number("Camera.cy")};
-  for (std::size_t i = 0; i < type->coefficients.size(); ++i) {
-    const std::string key = "Camera." + type->coefficients[i];
-    parameters.push_back(i < type->required || reader.find(key) ? reader.number(key) : 0);
-  }
-  camera.raw = type->make(parameters.data());
+textplane::AnyCamera<double> make_camera(const CameraType& type, const std::vector<double>& parameters,
+                                         const YamlMap& file, const std::string& key) {
+  textplane::AnyCamera<double> camera;
+  if (!make_camera(type, parameters, &camera))
+    file.refuse(file.at(key), "the parameters are out of the range of the model " + type.model);
   return camera;
 }
 
-std::string format_camera(const CameraModel& camera) {
-  const CameraType& type = camera_types()[camera.raw.index()];
+std::string list_of(const std::vector<double>& numbers) {
   std::string out;
-  const auto add = [&out](const std::string& key, const std::string& value) {
-    out += "Camera." + key + ": " + value + "\n";
-  };
-  if (camera.raw.index() != 0) add("type", type.camera_yaml.front());
-  add("width", std::to_string(camera.width));
-  add("height", std::to_string(camera.height));
-  add("fps", shortest(camera.fps));
-  std::vector<std::string> keys = {"fx", "fy", "cx", "cy"};
-  keys.insert(keys.end(), type.coefficients.begin(), type.coefficients.end());
-  std::visit(
-      [&](const auto& raw) {
-        const auto parameters = raw.parameters();
-        for (std::size_t i = 0; i < keys.size(); ++i) add(keys[i], shortest(parameters[static_cast<int>(i)]));
-      },
-      camera.raw);
+  for (const double number : numbers) out += (out.empty() ? "" : ", ") + shortest(number);
   return out;
+}
+
+std::vector<double> parameters_of(const CameraModel& camera) {
+  const auto parameters = camera.raw.parameters();
+  return {parameters.data(), parameters.data() + parameters.size()};
+}
+
+CameraFile read_camera_file(const std::string& path) {
+  if (is_colmap(path)) return read_colmap(path);
+  const YamlMap file = YamlMap::load(path);
+  if (is_settings(file)) return read_settings(file);
+  if (is_sensor(file)) return read_sensor(file);
+  if (is_camchain(file)) return read_camchain(file);
+  if (is_opencv(file)) return read_opencv(file);
+  throw InputError(path, 0,
+                   "no camera is described here: expected the keys Camera.fx and so on, intrinsics (EuRoC), cam0 "
+                   "(kalibr) or camera_matrix (OpenCV), or a line of COLMAP's cameras.txt");
+}
+
+CameraModel read_camera(const std::string& path) { return read_camera_file(path).model; }
+
+std::string format_camera(const CameraModel& camera, CameraFormat format) {
+  switch (format) {
+    case CameraFormat::sensor: return format_sensor(camera);
+    case CameraFormat::camchain: return format_camchain(camera);
+    case CameraFormat::opencv: return format_opencv(camera);
+    case CameraFormat::colmap: return format_colmap(camera);
+    default: return format_settings(camera);
+  }
+}
+
+std::string find_camera(const std::string& folder) {
+  const auto inside = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  for (const char* name : {"camera.yaml", "sensor.yaml", "camchain.yaml"})
+    if (is_there(inside(name))) return inside(name);
+  const std::string ending = "-camchain.yaml";
+  std::vector<std::string> chains;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0)
+      chains.push_back(entry.path().string());
+  }
+  if (chains.size() > 1) {
+    std::sort(chains.begin(), chains.end());
+    throw InputError(
+        chains[1], 0,
+        "a second camera file beside " + fs::path(chains[0]).filename().string() + ": give the right one by --camera");
+  }
+  if (!chains.empty()) return chains[0];
+  return is_there(inside("cameras.txt")) ? inside("cameras.txt") : "";
 }
 
 CameraModel camera_from_fov(double fov, int width, int height) {
@@ -138,7 +97,7 @@ CameraModel camera_from_fov(double fov, int width, int height) {
   camera.width = width;
   camera.height = height;
   const double f = 0.5 * width / std::tan(fov * (M_PI / 360));
-  camera.raw = RadialTangential<double>{{f, f, 0.5 * (width - 1), 0.5 * (height - 1)}};
+  camera.raw = Pinhole<double>(f, f, 0.5 * (width - 1), 0.5 * (height - 1));
   return camera;
 }
 

@@ -7,6 +7,7 @@
 #include "io/output_file.hpp"
 #include "io/paths.hpp"
 #include "io/text_file.hpp"
+#include "textplane/landmarks/icdar.hpp"
 
 namespace textslam {
 
@@ -17,18 +18,13 @@ namespace {
 // The eight numbers at the front of a line; `rest` receives what follows the eighth comma, if there is one.
 Quad<double> parse_quad(const TextLine& line, const std::string& path, std::string_view* rest) {
   static const char* const kNames[8] = {"x1", "y1", "x2", "y2", "x3", "y3", "x4", "y4"};
-  std::string_view text = line.text;
   double v[8];
-  for (int i = 0; i < 8; ++i) {
-    const std::size_t comma = text.find(',');
-    v[i] = require_number(text.substr(0, comma), path, line.number, kNames[i]);
-    const bool last = comma == std::string_view::npos;
-    if (last && i < 7) {
-      throw InputError(path, line.number, "a box has 8 numbers separated by commas, not " + std::to_string(i + 1));
-    }
-    text.remove_prefix(last ? text.size() : comma + 1);
+  textplane::IcdarFault fault;
+  const textplane::Status status = textplane::parse_icdar_numbers(line.text, 8, v, rest, &fault);
+  if (status == textplane::Status::too_few) {
+    throw InputError(path, line.number, "a box has 8 numbers separated by commas, not " + std::to_string(fault.field));
   }
-  *rest = text;
+  if (!textplane::is_ok(status)) throw not_a_number(fault.text, path, line.number, kNames[fault.field]);
   Quad<double> quad;
   for (std::size_t i = 0; i < 4; ++i) quad.corner[i] = Vector2<double>(v[2 * i], v[2 * i + 1]);
   return quad;

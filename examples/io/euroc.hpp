@@ -1,8 +1,7 @@
 // The layout of the EuRoC data sets (ASL): a folder, or the `mav0` in it, with
 //
 //   mav0/cam0/data.csv      `timestamp [ns],file name` a line, `#` comments; the images are in mav0/cam0/data
-//   mav0/cam0/sensor.yaml   resolution, intrinsics, distortion_coefficients, distortion_model (radial-tangential, or
-//                           none), rate_hz, and T_BS, the camera's pose in the body's frame
+//   mav0/cam0/sensor.yaml   the camera and T_BS, its pose in the body's frame (io/camera_model.hpp)
 //   mav0/state_groundtruth_estimate0/data.csv   optional: `timestamp [ns],x,y,z,qw,qx,qy,qz` and more columns, the
 //                                               body's pose
 //
@@ -13,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "io/camera_model.hpp"
 #include "io/frame_list.hpp"
 #include "io/trajectory.hpp"
 
@@ -25,15 +23,6 @@ struct EurocFiles {
 
 /// Whether `folder` has mav0/cam0 or is a mav0 itself; then `files` receives its paths.
 bool find_euroc(const std::string& folder, EurocFiles* files);
-
-struct EurocCamera {
-  CameraModel model;
-  SE3d T_b_c;  ///< camera to body; the identity where the file has no T_BS
-};
-
-/// Reads sensor.yaml. Throws InputError, with the line where there is one, for text that is not YAML, a missing key, a
-/// bad number, an unknown camera or distortion model, or a T_BS that is not a rigid motion.
-EurocCamera read_euroc_camera(const std::string& path);
 
 /// Throws InputError with the line for a missing name, and for a stamp that is not a whole number or does not increase.
 std::vector<FrameRef> read_euroc_frames(const std::string& list, const std::string& images);

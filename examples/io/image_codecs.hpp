@@ -18,6 +18,8 @@ Image<std::uint8_t> decode_pnm(const std::string& bytes, const std::string& path
 
 /// EXIF's number of how a JPEG is to be turned; 1 where none is found.
 int jpeg_orientation(std::string_view bytes);
+/// EXIF's FocalLengthIn35mmFilm, mm; 0 where none is found.
+int jpeg_focal_length_35mm(std::string_view bytes);
 
 /// Throws InputError for an empty or too large image, before its pixels are allocated.
 void check_image_size(std::size_t width, std::size_t height, const std::string& path);

@@ -37,6 +37,14 @@ Decoder decoder_of(std::string_view bytes) {
   return nullptr;
 }
 
+std::string head_of(const std::string& path) {
+  std::string bytes(kExifBytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
 }  // namespace
 
 bool is_image_file(const std::string& path) {
@@ -46,13 +54,8 @@ bool is_image_file(const std::string& path) {
   return decoder_of(std::string_view(bytes, static_cast<std::size_t>(file.gcount()))) != nullptr;
 }
 
-int image_orientation(const std::string& path) {
-  std::string bytes(kExifBytes, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return jpeg_orientation(bytes);
-}
+int image_orientation(const std::string& path) { return jpeg_orientation(head_of(path)); }
+int image_focal_length_35mm(const std::string& path) { return jpeg_focal_length_35mm(head_of(path)); }
 
 Image<std::uint8_t> load_grey(const std::string& path) {
   const std::string bytes = read_file(path);

@@ -25,6 +25,9 @@ bool is_image_file(const std::string& path);
 /// mirrorings. 1 for any other file. load_grey() takes images as they are stored.
 int image_orientation(const std::string& path);
 
+/// The focal length that gives the same view on 35 mm film (36 x 24 mm), mm, by its EXIF data; 0: not known.
+int image_focal_length_35mm(const std::string& path);
+
 /// The image as grey values. Throws InputError (file, no line) when the file is missing, unreadable, of an unknown
 /// kind, corrupt, truncated or too large. Safe to call from several threads.
 Image<std::uint8_t> load_grey(const std::string& path);

@@ -104,21 +104,45 @@ long number_at(std::string_view bytes, std::size_t at, std::size_t size, bool hi
   return value;
 }
 
-// The tag of the first directory of EXIF's TIFF data.
-int tiff_orientation(std::string_view tiff) {
-  constexpr long kOrientation = 0x0112;
-  const bool high_first = tiff.substr(0, 4) == std::string_view("MM\0*", 4);
-  if (!high_first && tiff.substr(0, 4) != std::string_view("II*\0", 4)) return 1;
-  const long directory = number_at(tiff, 4, 4, high_first);
-  const auto first = static_cast<std::size_t>(std::max(directory, 0L));
-  const long entries = number_at(tiff, first, 2, high_first);
-  for (long i = 0; i < entries; ++i) {
-    const std::size_t entry = first + 2 + 12 * static_cast<std::size_t>(i);
-    if (number_at(tiff, entry, 2, high_first) != kOrientation) continue;
-    const long value = number_at(tiff, entry + 8, 2, high_first);
-    return value >= 1 && value <= 8 ? static_cast<int>(value) : 1;
+// EXIF's TIFF data.
+class Tiff {
+ public:
+  explicit Tiff(std::string_view bytes)
+      : bytes_(bytes),
+        high_first_(bytes.substr(0, 4) == std::string_view("MM\0*", 4)),
+        valid_(high_first_ || bytes.substr(0, 4) == std::string_view("II*\0", 4)) {}
+
+  /// Where the first directory is; -1: nowhere.
+  long first_directory() const { return valid_ ? number_at(bytes_, 4, 4, high_first_) : -1; }
+  /// The first `size` bytes of a tag's value as a number; -1: the directory has no such tag.
+  long value(long directory, long tag, std::size_t size) const {
+    if (directory < 0) return -1;
+    const auto first = static_cast<std::size_t>(directory);
+    const long entries = number_at(bytes_, first, 2, high_first_);
+    for (long i = 0; i < entries; ++i) {
+      const std::size_t entry = first + 2 + 12 * static_cast<std::size_t>(i);
+      if (number_at(bytes_, entry, 2, high_first_) == tag) return number_at(bytes_, entry + 8, size, high_first_);
+    }
+    return -1;
   }
-  return 1;
+
+ private:
+  std::string_view bytes_;
+  bool high_first_, valid_;
+};
+
+// Empty where a JPEG has none.
+std::string_view exif_of(std::string_view bytes) {
+  constexpr std::string_view kExif("Exif\0\0", 6);
+  if (bytes.substr(0, 2) != "\xFF\xD8") return {};
+  for (std::size_t at = 2; number_at(bytes, at, 1, true) == 0xFF;) {
+    const long kind = number_at(bytes, at + 1, 1, true), length = number_at(bytes, at + 2, 2, true);
+    if (length < 2 || kind == 0xDA) break;  // the picture begins
+    const std::string_view segment = bytes.substr(at + 4, static_cast<std::size_t>(length - 2));
+    if (kind == 0xE1 && segment.substr(0, kExif.size()) == kExif) return segment.substr(kExif.size());
+    at += 2 + static_cast<std::size_t>(length);
+  }
+  return {};
 }
 
 class JpegWriter {
@@ -174,16 +198,15 @@ Image<std::uint8_t> decode_jpeg(const std::string& bytes, const std::string& pat
 }
 
 int jpeg_orientation(std::string_view bytes) {
-  constexpr std::string_view kExif("Exif\0\0", 6);
-  if (bytes.substr(0, 2) != "\xFF\xD8") return 1;
-  for (std::size_t at = 2; number_at(bytes, at, 1, true) == 0xFF;) {
-    const long kind = number_at(bytes, at + 1, 1, true), length = number_at(bytes, at + 2, 2, true);
-    if (length < 2 || kind == 0xDA) break;  // the picture begins
-    const std::string_view segment = bytes.substr(at + 4, static_cast<std::size_t>(length - 2));
-    if (kind == 0xE1 && segment.substr(0, kExif.size()) == kExif) return tiff_orientation(segment.substr(kExif.size()));
-    at += 2 + static_cast<std::size_t>(length);
-  }
-  return 1;
+  const Tiff tiff(exif_of(bytes));
+  const long value = tiff.value(tiff.first_directory(), 0x0112, 2);
+  return value >= 1 && value <= 8 ? static_cast<int>(value) : 1;
+}
+
+int jpeg_focal_length_35mm(std::string_view bytes) {
+  const Tiff tiff(exif_of(bytes));
+  const long value = tiff.value(tiff.value(tiff.first_directory(), 0x8769, 4), 0xA405, 2);
+  return value > 0 ? static_cast<int>(value) : 0;
 }
 
 std::string encode_jpeg(ImageView8 image, int quality) {

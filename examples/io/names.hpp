@@ -2,9 +2,9 @@
 #ifndef TEXTSLAM_IO_NAMES_HPP
 #define TEXTSLAM_IO_NAMES_HPP
 
-#include "textplane/core/cameras/pinhole.hpp"
-#include "textplane/core/cameras/radial_tangential.hpp"
+#include "textplane/core/cameras/any_camera.hpp"
 #include "textplane/core/image_view.hpp"
+#include "textplane/core/row_motion.hpp"
 #include "textplane/core/se3.hpp"
 #include "textplane/geometry/quad.hpp"
 

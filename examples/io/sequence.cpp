@@ -1,5 +1,6 @@
 #include "io/sequence.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -23,37 +24,50 @@ std::string inside(const std::string& folder, const char* name) { return (fs::pa
 
 std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
-// sensor.yaml of EuRoC, known by its name or its content, else camera.yaml.
-CameraModel read_any_camera(const std::string& path) {
-  if (fs::path(path).filename() == "sensor.yaml") return read_euroc_camera(path).model;
-  for (const TextLine& line : read_lines(path)) {
-    if (line.text.compare(0, 11, "intrinsics:") == 0) return read_euroc_camera(path).model;
-  }
-  return read_camera(path);
-}
-
 void use_fov(Sequence* sequence, double fov) {
   const Image<std::uint8_t> first = load_image(*sequence, 0);
   sequence->camera = camera_from_fov(fov, first.width(), first.height());
   sequence->camera_source = "the first one is";
   sequence->approximate_fov = fov;
+  sequence->camera_origin = CameraOrigin::fov;
 }
 
-// The camera of --camera, of the calibration `own` of the sequence (empty: its layout has none), or of --fov.
-void choose_camera(Sequence* sequence, const SequenceOptions& options, const std::string& own) {
-  const bool has_own = !own.empty() && is_there(own);
-  const std::string file = !options.camera.empty() ? options.camera : has_own ? own : "";
+// EXIF's focal length is that of the diagonal of film.
+void assume_camera(Sequence* sequence) {
+  constexpr double kDiagonal = 43.2666;  // mm, of 36 x 24 mm
+  const int mm = sequence->video ? 0 : image_focal_length_35mm(sequence->frames.front().path);
+  use_fov(sequence, kAssumedFov);
+  sequence->camera_origin = mm > 0 ? CameraOrigin::exif : CameraOrigin::assumed;
+  if (mm == 0) return;
+  const double width = sequence->camera.width;
+  const double f = mm / kDiagonal * std::hypot(width, static_cast<double>(sequence->camera.height));
+  sequence->approximate_fov = std::atan(0.5 * width / f) * (360 / M_PI);
+  sequence->camera = camera_from_fov(sequence->approximate_fov, sequence->camera.width, sequence->camera.height);
+}
+
+// The camera of --camera, of the calibration `own` of the sequence (empty: it has none), or of --fov. `expected` is
+// where the calibration of the layout would be (empty: nowhere).
+void choose_camera(Sequence* sequence, const SequenceOptions& options, const std::string& own,
+                   const std::string& expected) {
+  const std::string file = !options.camera.empty() ? options.camera : own;
   if (!file.empty()) {
     if (options.fov > 0) throw InputError(file, 0, "the camera is calibrated here: leave out --fov");
-    sequence->camera = read_any_camera(file);
+    sequence->camera = read_camera(file);
     sequence->camera_source = fs::path(file).filename().string() + " says";
   } else if (options.fov > 0) {
     use_fov(sequence, options.fov);
+  } else if (options.needs_camera && options.assumes_camera) {
+    assume_camera(sequence);
   } else if (options.needs_camera) {
-    throw InputError(own.empty() ? sequence->images_file : own, 0,
-                     std::string(own.empty() ? "there is no calibration" : "No such file") +
+    throw InputError(expected.empty() ? sequence->images_file : expected, 0,
+                     std::string(expected.empty() ? "there is no calibration" : "No such file") +
                          ": give --camera FILE, or --fov DEGREES for an approximate camera");
   }
+}
+
+// The calibration in a folder, where it counts.
+std::string own_camera(const std::string& folder, const SequenceOptions& options) {
+  return options.camera.empty() ? find_camera(folder) : "";
 }
 
 void read_video(Sequence* sequence, const std::string& path, const SequenceOptions& options) {
@@ -65,20 +79,21 @@ void read_video(Sequence* sequence, const std::string& path, const SequenceOptio
     std::snprintf(number, sizeof number, "%06zu", sequence->frames.size());
     sequence->frames.push_back({time, path, number, 0});
   }
-  choose_camera(sequence, options, "");
+  choose_camera(sequence, options, "", "");
 }
 
 void read_listed(Sequence* sequence, const std::string& list, const SequenceOptions& options) {
   sequence->images_file = list;
   sequence->frames = read_frame_list(sequence->folder, list);
-  choose_camera(sequence, options, inside(sequence->folder, "camera.yaml"));
+  choose_camera(sequence, options, own_camera(sequence->folder, options), inside(sequence->folder, "camera.yaml"));
   sequence->groundtruth = read_groundtruth(sequence->folder);
 }
 
 void read_euroc(Sequence* sequence, const EurocFiles& files, const SequenceOptions& options) {
   sequence->images_file = files.list;
   sequence->frames = read_euroc_frames(files.list, files.images);
-  choose_camera(sequence, options, files.camera);
+  const std::string own = is_there(files.camera) ? files.camera : own_camera(sequence->folder, options);
+  choose_camera(sequence, options, own, files.camera);
   sequence->groundtruth = read_groundtruth(sequence->folder);
 }
 
@@ -87,8 +102,7 @@ void read_images(Sequence* sequence, const SequenceOptions& options) {
   const std::vector<std::string> names = image_names(folder);
   sequence->images_file = folder;
   sequence->frames = number_frames(folder, names, kUsualFps);
-  const std::string camera = inside(folder, "camera.yaml");
-  choose_camera(sequence, options, is_there(camera) ? camera : "");
+  choose_camera(sequence, options, own_camera(folder, options), "");
   const double fps = options.fps > 0 ? options.fps : sequence->camera.fps > 0 ? sequence->camera.fps : kUsualFps;
   sequence->frames = number_frames(folder, names, fps);
   sequence->groundtruth = read_groundtruth(folder);
@@ -137,6 +151,8 @@ Sequence read_sequence(const std::string& path, const SequenceOptions& options) 
     read_images(&sequence, options);
   }
   sequence.has_detections = has_detections(sequence);
+  if (const std::string truth = inside(sequence.folder, "true_camera.yaml"); is_there(truth))
+    sequence.true_camera = read_camera(truth);
   if (sequence.video)
     note_damage(&sequence);
   else
@@ -149,7 +165,7 @@ std::vector<StampedPose> read_groundtruth(const std::string& folder) {
   if (is_there(tum)) return read_tum(tum);
   EurocFiles euroc;
   if (!find_euroc(folder, &euroc) || !is_there(euroc.truth) || !is_there(euroc.camera)) return {};
-  return read_euroc_truth(euroc.truth, read_euroc_camera(euroc.camera).T_b_c);
+  return read_euroc_truth(euroc.truth, read_camera_file(euroc.camera).T_b_c);
 }
 
 std::string frame_name(const Sequence& sequence, std::size_t index) {

@@ -1,9 +1,9 @@
 // A sequence: frames with times, their camera and, optionally, true poses and text detections. It is one of
 //
-//   a folder with images.txt or TUM's rgb.txt (io/frame_list.hpp), camera.yaml (io/camera_model.hpp) and, optionally,
-//     groundtruth.txt (TUM, io/trajectory.hpp)
+//   a folder with images.txt or TUM's rgb.txt (io/frame_list.hpp), camera.yaml or another camera file
+//     (io/camera_model.hpp) and, optionally, groundtruth.txt (TUM, io/trajectory.hpp)
 //   a folder of the EuRoC layout (io/euroc.hpp)
-//   a folder of images, in the order of their names (io/frame_list.hpp), with a camera.yaml or without
+//   a folder of images, in the order of their names (io/frame_list.hpp), with a camera file or without
 //   a video file (io/video_file.hpp)
 //
 // Detections: io/detections.hpp.
@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,25 +27,36 @@ namespace textslam {
 
 /// Overrides of the input, and what it lacks.
 struct SequenceOptions {
-  std::string camera;  ///< camera.yaml, or EuRoC's sensor.yaml, in place of the sequence's own
+  std::string camera;  ///< a camera file (io/camera_model.hpp) in place of the sequence's own
   double fov = 0;  ///< degrees, above 0 and below 180: camera_from_fov() where there is no calibration; 0: not given
-  double fps = 0;  ///< of a folder of images; 0: what its camera.yaml says, or 30
+  double fps = 0;  ///< of a folder of images; 0: what its camera file says, or 30
   std::string detections;    ///< folder of the detections, in place of the sequence's own
   bool needs_camera = true;  ///< false: without calibration the camera stays empty
+  /// Without calibration and fov the camera has the focal length of the first image's EXIF data, or kAssumedFov; else
+  /// that is an error.
+  bool assumes_camera = false;
 };
+
+/// Degrees, horizontal: about what phones and webcams see.
+constexpr double kAssumedFov = 60;
+
+/// Where the camera of a sequence comes from.
+enum class CameraOrigin { file, fov, exif, assumed };
 
 struct Sequence {
   std::string folder;  ///< of a video, the folder that holds it
   CameraModel camera;
-  std::string camera_source;             ///< where the size of the images comes from, for messages
-  double approximate_fov = 0;            ///< degrees, where the camera is guessed from it; 0: calibrated
-  std::vector<FrameRef> frames;          ///< at least one, times strictly increasing
-  std::string images_file;               ///< the list of the frames, the folder of images, or the video
-  std::vector<StampedPose> groundtruth;  ///< camera to world; empty where the sequence has none
-  std::string detections;                ///< SequenceOptions::detections
-  bool has_detections = false;           ///< a folder of detections exists, or a file beside the first image
-  std::shared_ptr<VideoFile> video;      ///< null for images
-  std::vector<std::string> notes;        ///< what the user should know of it: lines without their ends
+  std::string camera_source;  ///< where the size of the images comes from, for messages
+  CameraOrigin camera_origin = CameraOrigin::file;
+  double approximate_fov = 0;              ///< degrees, where the camera is guessed from it; 0: calibrated
+  std::vector<FrameRef> frames;            ///< at least one, times strictly increasing
+  std::string images_file;                 ///< the list of the frames, the folder of images, or the video
+  std::optional<CameraModel> true_camera;  ///< true_camera.yaml of the folder: where self-calibration is to be judged
+  std::vector<StampedPose> groundtruth;    ///< camera to world; empty where the sequence has none
+  std::string detections;                  ///< SequenceOptions::detections
+  bool has_detections = false;             ///< a folder of detections exists, or a file beside the first image
+  std::shared_ptr<VideoFile> video;        ///< null for images
+  std::vector<std::string> notes;          ///< what the user should know of it: lines without their ends
 };
 
 /// Reads everything but images and detections. Throws InputError, with file and line where there is one, for input that

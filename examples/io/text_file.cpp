@@ -6,9 +6,6 @@
 #include <cstring>
 #include <memory>
 
-#include "io/input_error.hpp"
-#include "textplane/core/numeric.hpp"
-
 namespace textslam {
 
 namespace {
@@ -71,12 +68,6 @@ std::vector<TextLine> read_lines(const std::string& path) {
   return lines;
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 std::vector<std::string_view> split_blanks(std::string_view text) {
   std::vector<std::string_view> words;
   for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
@@ -89,21 +80,17 @@ std::vector<std::string_view> split_blanks(std::string_view text) {
 }
 
 bool parse_number(std::string_view text, double* value) {
-  text = trimmed(text);
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double parsed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed);
-  if (error != std::errc() || end != text.data() + text.size() || !textplane::is_finite(parsed)) return false;
-  *value = parsed;
-  return true;
+  return textplane::is_ok(textplane::parse_number(text, value));
 }
 
 double require_number(std::string_view text, const std::string& file, int line, const std::string& what) {
   double value = 0;
-  if (!parse_number(text, &value)) {
-    throw InputError(file, line, what + " should be a finite number, not " + shown(trimmed(text)));
-  }
+  if (!parse_number(text, &value)) throw not_a_number(text, file, line, what);
   return value;
+}
+
+InputError not_a_number(std::string_view text, const std::string& file, int line, const std::string& what) {
+  return {file, line, what + " should be a finite number, not " + shown(trimmed(text))};
 }
 
 std::string shown(std::string_view text) {

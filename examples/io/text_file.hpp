@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "io/input_error.hpp"
+#include "textplane/core/parse_number.hpp"
+
 namespace textslam {
 
 /// The bytes of a file of at most 1 GiB. Throws InputError with the system's reason when it cannot be opened or read.
@@ -20,8 +23,7 @@ struct TextLine {
 /// that cannot be read, and with the line for a NUL byte, which no text has.
 std::vector<TextLine> read_lines(const std::string& path);
 
-/// Without blanks at both ends.
-std::string_view trimmed(std::string_view text);
+using textplane::trimmed;  ///< Without blanks at both ends.
 /// The runs of characters between blanks.
 std::vector<std::string_view> split_blanks(std::string_view text);
 
@@ -30,6 +32,8 @@ std::vector<std::string_view> split_blanks(std::string_view text);
 bool parse_number(std::string_view text, double* value);
 /// parse_number(), or InputError that quotes the text and says that `what` should be a number.
 double require_number(std::string_view text, const std::string& file, int line, const std::string& what);
+/// What it throws.
+InputError not_a_number(std::string_view text, const std::string& file, int line, const std::string& what);
 /// The text for a message: at most 40 characters, with '?' for characters that cannot be printed.
 std::string shown(std::string_view text);
 /// The shortest decimal that reads back as the same double; "-0" becomes "0".

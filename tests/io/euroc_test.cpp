@@ -65,34 +65,6 @@ TEST_F(LayoutTest, EurocListThatIsWrong) {
   expect_bad(list, 0, "No such file");
 }
 
-TEST_F(LayoutTest, EurocCameraThatIsWrong) {
-  const auto expect_sensor = [&](const std::string& text, int line, const std::string& part) {
-    const std::string path = folder.write("sensor.yaml", text);
-    expect_input_error([&] { read_euroc_camera(path); }, path, line, part);
-  };
-  expect_sensor("", 0, "expected 'key: value' lines");
-  expect_sensor("a: [1, 2\nb: 3\n", 2, "this is no YAML");
-  expect_sensor("a: \"\\\x01\"\n", 1, "this is no YAML: 'unknown escape character: ?'");
-  expect_sensor(replaced(kSensor, "resolution: [8, 6]\n", ""), 0, "the key resolution is missing");
-  expect_sensor(replaced(kSensor, "[8, 6]", "[8, 6.5]"), 12, "whole numbers of at most 16384");
-  expect_sensor(replaced(kSensor, "[8, 6]", "8"), 12, "resolution should be 2 numbers in brackets");
-  expect_sensor(replaced(kSensor, "458.654", "-458.654"), 14, "intrinsics should be positive");
-  expect_sensor(replaced(kSensor, "458.654", "nan"), 14, "intrinsics should be a finite number, not 'nan'");
-  expect_sensor(replaced(kSensor, "458.654", "[1]"), 14, "intrinsics should be a number");
-  expect_sensor(replaced(kSensor, ", 248.375", ""), 14, "intrinsics should be 4 numbers");
-  expect_sensor(replaced(kSensor, "pinhole", "omni"), 13, "camera_model should be pinhole, not 'omni'");
-  expect_sensor(replaced(kSensor, "radial-tangential", "equidistant"), 15,
-                "should be radial-tangential or none, not 'equidistant'");
-  expect_sensor(replaced(kSensor, "-0.28340811, ", ""), 16, "distortion_coefficients should be 4 to 5 numbers");
-  expect_sensor(replaced(kSensor, "rate_hz: 20", "rate_hz: 0"), 11, "rate_hz should be positive");
-  expect_sensor(replaced(kSensor, "0.0, 0.0, 1.0, 0.125", "0.0, 0.0, 2.0, 0.125"), 7, "a rotation and a translation");
-  expect_sensor(replaced(kSensor, "0.0, 0.0, 1.0, 0.125", "0.0, 0.0, -1.0, 0.125"), 7, "a rotation and a translation");
-  expect_sensor(replaced(kSensor, "data: [", "date: ["), 5, "T_BS should have rows, cols and data");
-  const std::string none =
-      replaced(replaced(kSensor, "radial-tangential", "none"), "distortion_coefficients", "unused");
-  EXPECT_TRUE(read_euroc_camera(folder.write("sensor.yaml", none)).model.is_pinhole());
-}
-
 TEST_F(LayoutTest, EurocTruthThatIsWrong) {
   make_euroc();
   const std::string truth = "mav0/state_groundtruth_estimate0/data.csv";

@@ -149,6 +149,22 @@ TEST(ImageFile, OrientationByExif) {
   EXPECT_EQ(image_orientation("/no/such/file.jpg"), 1);
 }
 
+TEST(ImageFile, FocalLengthByExif) {
+  const std::string jpeg = encode_jpeg(ramp(8, 6).view(), 90);
+  EXPECT_EQ(jpeg_focal_length_35mm(jpeg), 0);
+  EXPECT_EQ(jpeg_focal_length_35mm(jpeg.substr(0, 2) + exif_segment(1, true) + jpeg.substr(2)), 0);
+  for (const bool high_first : {true, false})
+    for (const int mm : {0, 26, 300}) {
+      const std::string segment = exif_focal_segment(mm, high_first);
+      const std::string taken = jpeg.substr(0, 2) + segment + jpeg.substr(2);
+      EXPECT_EQ(jpeg_focal_length_35mm(taken), mm);
+      EXPECT_EQ(jpeg_orientation(taken), 1);
+      for (std::size_t size = 0; size + 6 < 2 + segment.size(); ++size)  // 6 bytes follow the number
+        EXPECT_EQ(jpeg_focal_length_35mm(taken.substr(0, size)), 0) << "cut off before it";
+    }
+  EXPECT_EQ(image_focal_length_35mm("/no/such/file.jpg"), 0);
+}
+
 TEST(ImageFile, PgmAndPpm) {
   const TemporaryFolder folder;
   Image<std::uint8_t> image =

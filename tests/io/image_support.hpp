@@ -100,22 +100,49 @@ inline std::string cmyk_jpeg(int width, int height, int c, int m, int y, int k, 
                  [&](jpeg_compress_struct& codec) { codec.write_Adobe_marker = adobe ? TRUE : FALSE; });
 }
 
+// TIFF data that EXIF holds, number by number.
+class TiffWriter {
+ public:
+  explicit TiffWriter(bool high_first) : bytes_(high_first ? "MM" : "II"), high_first_(high_first) {
+    add(42, 2);
+    add(8, 4);  // where the first directory is
+  }
+  void add(std::int64_t value, int size) {
+    for (int i = 0; i < size; ++i) bytes_ += static_cast<char>(value >> 8 * (high_first_ ? size - 1 - i : i) & 0xFF);
+  }
+  // A directory of one entry of 16 (type 3) or 32 bits (type 4).
+  void add_directory(int tag, int type, std::int64_t value) {
+    add(1, 2);
+    add(tag, 2);
+    add(type, 2);
+    add(1, 4);
+    add(value, type == 3 ? 2 : 4);
+    if (type == 3) add(0, 2);
+    add(0, 4);
+  }
+  std::string segment() const {
+    const std::string exif = std::string("Exif\0\0", 6) + bytes_;
+    return std::string("\xFF\xE1\0", 3) + static_cast<char>(exif.size() + 2) + exif;
+  }
+
+ private:
+  std::string bytes_;
+  bool high_first_;
+};
+
 // EXIF data that holds an orientation and nothing else, as it stands after the first two bytes of a JPEG.
 inline std::string exif_segment(int orientation, bool high_first) {
-  std::string tiff(high_first ? "MM" : "II");
-  const auto add = [&](std::int64_t value, int size) {
-    for (int i = 0; i < size; ++i) tiff += static_cast<char>(value >> 8 * (high_first ? size - 1 - i : i) & 0xFF);
-  };
-  add(42, 2);
-  add(8, 4);  // where the directory is
-  add(1, 2);  // entries
-  add(0x0112, 2);
-  add(3, 2);  // 16 bits
-  add(1, 4);
-  add(orientation, 2);
-  add(0, 6);
-  const std::string exif = std::string("Exif\0\0", 6) + tiff;
-  return std::string("\xFF\xE1\0", 3) + static_cast<char>(exif.size() + 2) + exif;
+  TiffWriter tiff(high_first);
+  tiff.add_directory(0x0112, 3, orientation);
+  return tiff.segment();
+}
+
+// The same with a focal length, mm on 35 mm film, in the directory of its own where EXIF has it.
+inline std::string exif_focal_segment(int mm, bool high_first) {
+  TiffWriter tiff(high_first);
+  tiff.add_directory(0x8769, 4, 8 + 18);
+  tiff.add_directory(0xA405, 3, mm);
+  return tiff.segment();
 }
 
 inline void expect_broken(const TemporaryFolder& folder, const std::string& bytes, const std::string& part) {

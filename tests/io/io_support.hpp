@@ -43,9 +43,11 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The camera as the model that today's files are of.
-inline const RadialTangential<double>& lens_of(const CameraModel& camera) {
-  return std::get<RadialTangential<double>>(camera.raw);
+/// The camera as the model that most files are of.
+inline RadialTangential<double> lens_of(const CameraModel& camera) {
+  const auto* lens = camera.raw.get_if<RadialTangential<double>>();
+  EXPECT_NE(lens, nullptr) << camera.raw.name();
+  return lens ? *lens : RadialTangential<double>{};
 }
 
 /// The text with the first `from`, which must be there, replaced.

@@ -74,6 +74,34 @@ TEST_F(LayoutTest, CameraFromAnAngle) {
   EXPECT_NEAR(camera_from_fov(60, 640, 480).pinhole().fx, 320 * std::sqrt(3.0), 1e-9);
 }
 
+TEST_F(LayoutTest, ACameraIsAssumedWhereItMay) {
+  SequenceOptions options;
+  options.assumes_camera = true;
+  const std::string jpeg = encode_jpeg(Image<std::uint8_t>(120, 90, 100).view(), 90);
+  folder.write("a.jpg", jpeg);
+  Sequence sequence = read_sequence(folder.path(), options);
+  EXPECT_EQ(sequence.camera_origin, CameraOrigin::assumed);
+  EXPECT_EQ(sequence.approximate_fov, kAssumedFov);
+  EXPECT_FALSE(sequence.true_camera);
+
+  // 43.27 mm on film are the image's diagonal.
+  folder.write("a.jpg", jpeg.substr(0, 2) + exif_focal_segment(26, true) + jpeg.substr(2));
+  sequence = read_sequence(folder.path(), options);
+  EXPECT_EQ(sequence.camera_origin, CameraOrigin::exif);
+  EXPECT_NEAR(sequence.camera.pinhole().fx, 150 * 26 / 43.2666, 1e-9);
+  EXPECT_NEAR(sequence.approximate_fov, std::atan(60 / (150 * 26 / 43.2666)) * 360 / M_PI, 1e-9);
+
+  options.fov = 80;
+  EXPECT_EQ(read_sequence(folder.path(), options).camera_origin, CameraOrigin::fov);
+  options.fov = 0;
+  folder.write("true_camera.yaml", format_camera(camera_from_fov(50, 120, 90)));
+  sequence = read_sequence(folder.path(), options);
+  EXPECT_EQ(sequence.camera_origin, CameraOrigin::exif) << "the true camera is not the sequence's";
+  EXPECT_EQ(sequence.true_camera->width, 120);
+  folder.write("camera.yaml", format_camera(camera_from_fov(55, 120, 90)));
+  EXPECT_EQ(read_sequence(folder.path(), options).camera_origin, CameraOrigin::file);
+}
+
 TEST_F(LayoutTest, CalibrationGoesBeforeTheAngle) {
   image("a.png");
   expect_bad("", 0, "there is no calibration: give --camera FILE, or --fov DEGREES");

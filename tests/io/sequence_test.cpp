@@ -132,10 +132,13 @@ TEST_F(SequenceTest, BadCamera) {
   expect_bad_camera(replaced(kCamera, "width: 8", "width: 8.5"), 1, "Camera.width should be a whole number");
   expect_bad_camera(replaced(kCamera, "width: 8", "width: 0"), 1, "Camera.width should be positive");
   expect_bad_camera(replaced(kCamera, "height: 6", "height: 1000000"), 2, "Camera.height should be a whole number");
-  expect_bad_camera(kCamera + std::string("Camera.fx: 1\n"), 12, "Camera.fx is given twice, first in line 4");
-  expect_bad_camera(kCamera + std::string("Camera.type: KannalaBrandt8\n"), 12, "should be PinHole");
-  expect_bad_camera(kCamera + std::string("what is this\n"), 12, "expected 'key: value', not 'what is this'");
-  expect_bad_camera("", 0, "missing");
+  expect_bad_camera(kCamera + std::string("Camera.fx: 1\n"), 12, "'Camera.fx' is given twice, first in line 4");
+  expect_bad_camera(kCamera + std::string("Camera.type: KannalaBrandt8\n"), 0, "the key Camera.k3 is missing");
+  expect_bad_camera(kCamera + std::string("Camera.type: Fisheye\n"), 12,
+                    "should be PinHole or Rectified or Rational or KannalaBrandt8 or DoubleSphere or EUCM or FOV, not "
+                    "'Fisheye'");
+  expect_bad_camera(kCamera + std::string("what: is: this\n"), 12, "this is no YAML: 'illegal map value'");
+  expect_bad_camera("", 0, "expected 'key: value' lines");
   expect_bad_camera(std::string("\x7F"
                                 "ELF\0\0\x01",
                                 7),
