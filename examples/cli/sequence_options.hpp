@@ -19,7 +19,8 @@ constexpr double kLeastFps = 1e-3, kLargestFps = 1e5;
 
 inline void add_sequence_options(CLI::App& app, SequenceOptions& options) {
   CLI::Option* camera =
-      app.add_option("--camera", options.camera, "camera.yaml, or EuRoC's sensor.yaml, in place of the sequence's own");
+      app.add_option("--camera", options.camera,
+                     "Camera file of ORB-SLAM, EuRoC, kalibr, OpenCV or COLMAP, in place of the sequence's own");
   app.add_option("--fov", options.fov,
                  "Horizontal field of view, degrees, where there is no calibration, else it is refused; the camera is "
                  "approximate")

@@ -14,6 +14,20 @@ constexpr double kLeastCosine = 0.31;
 
 double side(const Quad<double>& quad, std::size_t a, std::size_t b) { return (quad.corner[a] - quad.corner[b]).norm(); }
 
+std::string read(const std::string& word, bool whole, double right, Random& random) {
+  const bool correct = random.chance(right), unread = random.chance(0.5);
+  const int place = random.below(static_cast<int>(word.size())), step = 1 + random.below(25);
+  if (!whole) return kUnreadText;
+  if (correct) return word;
+  if (unread) return kUnreadText;
+  std::string wrong = word;
+  char& letter = wrong[static_cast<std::size_t>(place)];
+  letter = static_cast<char>('A' + (letter - 'A' + step) % 26);
+  return wrong;
+}
+
+}  // namespace
+
 Quad<double> jittered(const Quad<double>& quad, double sigma, Random& random) {
   Quad<double> out = quad;
   for (Vector2<double>& c : out.corner) {
@@ -30,19 +44,6 @@ void keep_inside(Quad<double>& quad, const CameraModel& camera) {
   }
 }
 
-std::string read(const std::string& word, bool whole, double right, Random& random) {
-  const bool correct = random.chance(right), unread = random.chance(0.5);
-  const int place = random.below(static_cast<int>(word.size())), step = 1 + random.below(25);
-  if (!whole) return kUnreadText;
-  if (correct) return word;
-  if (unread) return kUnreadText;
-  std::string wrong = word;
-  char& letter = wrong[static_cast<std::size_t>(place)];
-  letter = static_cast<char>('A' + (letter - 'A' + step) % 26);
-  return wrong;
-}
-
-/// A box of a word's shape somewhere in the image.
 Quad<double> stray_quad(const CameraModel& camera, Random& random) {
   const double w = random.uniform(0.06, 0.22) * camera.width, h = w * random.uniform(0.18, 0.45);
   const Vector2<double> centre(random.uniform(0.5 * w, camera.width - 1 - 0.5 * w),
@@ -65,8 +66,6 @@ bool boxes_meet(const Quad<double>& a, const Quad<double>& b) {
   };
   return (low(a).array() <= high(b).array()).all() && (low(b).array() <= high(a).array()).all();
 }
-
-}  // namespace
 
 bool is_legible(const SignView& view) {
   const double height = std::min(side(view.quad, 0, 3), side(view.quad, 1, 2));

@@ -23,7 +23,7 @@ std::vector<Vector2<double>> displacements(const Scene& scene, const CameraModel
     for (int i = 0; i < kColumns; ++i) {
       const Vector2<double> px((i + 0.5) / kColumns * camera.width - 0.5, (j + 0.5) / kRows * camera.height - 0.5);
       Vector3<double> m;
-      if (!textplane::is_ok(camera.unproject(px, &m))) continue;
+      if (!ray_of(camera, px, &m)) continue;
       const Vector3<double> direction = T_w_c.R * m;
       const Hit hit = scene.first_hit(T_w_c.t, direction, middle);
       if (hit.surface < 0) continue;
@@ -78,9 +78,14 @@ Image<double> expose(const Scene& scene, const RayCaster& caster, const Motion& 
   }
   Image<double> sum(caster.camera().width, caster.camera().height);
   const std::vector<double> times = exposure_times(middle, exposure, instants);
+  const textplane::RollingShutter& shutter = caster.camera().shutter;
   for (int i = 0; i < instants; ++i) {
     const double time = times[static_cast<std::size_t>(i)];
-    caster.add(scene, motion(time), sample_at(i), kFootprint, 1.0 / instants, sum, time);
+    const int at_once = shutter.active() ? 1 : caster.camera().height;
+    for (int row = 0; row < caster.camera().height; row += at_once) {
+      const double then = time + shutter.time(row);
+      caster.add_rows(scene, motion(then), sample_at(i), kFootprint, 1.0 / instants, row, row + at_once, sum, then);
+    }
   }
   return sum;
 }

@@ -36,6 +36,7 @@ int sample_at(int instant);
 
 /// Light (0 to 255) that the shutter collects: one sample of the grid at each instant, averaged. `caster` holds
 /// pixel_grid(). Throws std::invalid_argument for another grid, or if the number of instants is not a multiple of four.
+/// `middle` is the time of the caster's shutter's row0; other rows are exposed before or after it.
 Image<double> expose(const Scene& scene, const RayCaster& caster, const Motion& motion, double middle, double exposure,
                      int instants);
 

@@ -1,5 +1,7 @@
 #include "renderer/kinds.hpp"
 
+#include <cmath>
+
 #include "io/input_error.hpp"
 #include "renderer/render_sequence.hpp"
 
@@ -22,7 +24,27 @@ struct Kind {
 constexpr double kCut = 100 / 30.0 - 1 / 60.0, kCutLength = 60 / 30.0;
 constexpr double kCovered = 140 / 30.0 - 1 / 60.0, kCoveredLength = 30 / 30.0;
 
+constexpr double kReadout = 0.03;  // s, of a rolling shutter
+
 bool within(double t, double start, double length) { return t >= start && t < start + length; }
+
+// A wide-angle lens such as visual-inertial sensors have.
+RadialTangential<double> wide_lens() {
+  RadialTangential<double> lens;
+  lens.k1 = -0.28;
+  lens.k2 = 0.07;
+  return lens;
+}
+
+// A fisheye of 190 degrees: the circle of its image, which fits the width, ends where the polynomial stops rising, at
+// 95 degrees off the axis. Near it the lens shows things smaller, as most do.
+constexpr double kFisheyeEnd = 95 * M_PI / 180;
+textplane::KannalaBrandt<double> fisheye_lens() {
+  textplane::KannalaBrandt<double> lens;
+  lens.k4 = -1 / (9 * std::pow(kFisheyeEnd, 8));
+  return lens;
+}
+constexpr double kFisheyeFocal = 0.5 / (kFisheyeEnd * 8 / 9);
 
 Motion with_cut(const Motion& motion, const Motion& elsewhere) {
   return [=](double t) { return within(t, kCut, kCutLength) ? elsewhere(t) : motion(t); };
@@ -104,6 +126,12 @@ const Kind kKinds[] = {
        add_crowd(shot.scene, c.seed);
        return shot;
      }},
+    {"moving",
+     [](const Context& c) {
+       RoomStyle style;
+       style.sliding = true;
+       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+     }},
     {"cuts",
      [](const Context& c) {
        RoomStyle style;
@@ -114,6 +142,25 @@ const Kind kKinds[] = {
     {"covered",
      [](const Context& c) {
        return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, with_cover(steady_sensor())};
+     }},
+    {"wide",
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor(), wide_lens()};
+     }},
+    {"uncalibrated",
+     [](const Context& c) {
+       Shot shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor(), wide_lens()};
+       shot.calibrated = false;
+       return shot;
+     }},
+    {"shutter",
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}),      room_motion(c.seed), 0.008,   steady_sensor(),
+                   RadialTangential<double>{}, Shot().focal,        kReadout};
+     }},
+    {"fisheye",
+     [](const Context& c) {
+       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor(), fisheye_lens(), kFisheyeFocal};
      }},
 };
 

@@ -1,4 +1,4 @@
-// Kinds: sequences that can be rendered by name. Each is a scene, a motion, a shutter and a sensor.
+// Kinds: sequences that can be rendered by name. Each is a scene, a motion, a shutter, a sensor and a lens.
 //
 // A sweep replaces a part of the kind: blur its shutter, gain and noise those of its sensor (conditions.hpp). The
 // detector's errors are the same for all kinds (detector_model.hpp).
@@ -20,6 +20,10 @@ struct Shot {
   Motion motion;
   double exposure = 0.008;  ///< s
   SensorProgram sensor;
+  textplane::AnyCamera<double> lens = RadialTangential<double>{};  ///< Its coefficients.
+  double focal = 525.0 / 640.0;                                    ///< Focal length, of the image's width.
+  double readout = 0;      ///< s from the first row to the last; the middle is at the frame's time.
+  bool calibrated = true;  ///< The sequence has its camera; else only what judges an estimate of it.
 };
 
 /// Number of frames, at 30 a second, that show the whole kind. Throws as make_shot() does.
@@ -34,6 +38,7 @@ struct RoomStyle {
   bool bare = false;       ///< clean walls, no furniture: little texture but the signs
   bool all_round = false;  ///< signs on the back wall, too, and on the rear parts of the side walls
   bool off_walls = false;  ///< signs of walls stand off them and are turned
+  bool sliding = false;    ///< one sign slides to and fro along the front wall
   /// What carries six of the signs, in the place of boards and the front wall.
   enum class Carrier { board, cylinder, pane } carrier = Carrier::board;
 };

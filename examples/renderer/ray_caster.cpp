@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace textslam {
@@ -15,6 +13,7 @@ namespace {
 constexpr int kTile = 16;       // px
 constexpr double kNear = 0.02;  // m: the near plane, for rectangles that reach behind the camera
 constexpr double kDepthFloor = 1e-9;
+constexpr double kMostOff = 80 * M_PI / 180;  // off the axis, for rays on the plane z = 1
 
 /// A rectangle in one camera. On the ray m~ = (m, 1): inverse depth rho = inverse . m~, and metres from the rectangle's
 /// corner s = (across . m~) / rho, t = (along . m~) / rho. All three are linear, so the nearest hit has the
@@ -23,7 +22,9 @@ struct Facet {
   Vector3<double> inverse, across, along;
   double width, height;
   const Texture *texture, *opacity;
-  double min_x, max_x, min_y, max_y;  // bounds in normalised coordinates
+  double min_x, max_x, min_y, max_y;  // bounds in normalised coordinates, of what lies before the near plane
+  Vector3<double> centre;             // in the camera
+  double radius;                      // m: of the sphere about it
 };
 
 /// Bounds of the projection: corners in front, and where sides cross the near plane.
@@ -47,7 +48,8 @@ void bound(const std::array<Vector3<double>, 4>& corner, Facet& facet) {
   }
 }
 
-std::vector<Facet> facets_in_view(const Scene& scene, const SE3d& T_w_c, double time) {
+/// All that face the camera, in front of it or not.
+std::vector<Facet> facets_of(const Scene& scene, const SE3d& T_w_c, double time) {
   std::vector<Facet> facets;
   const Matrix3<double> R_c_w = T_w_c.R.transpose();
   for (const Surface& surface : scene.surfaces()) {
@@ -65,26 +67,42 @@ std::vector<Facet> facets_in_view(const Scene& scene, const SE3d& T_w_c, double 
     f.opacity = surface.opacity;
     const auto in_camera = [&](double s, double t) { return Vector3<double>(R_c_w * (r.at(s, t) - T_w_c.t)); };
     bound({in_camera(0.0, 0.0), in_camera(r.width, 0.0), in_camera(r.width, r.height), in_camera(0.0, r.height)}, f);
-    if (f.min_x <= f.max_x) facets.push_back(f);
+    f.centre = in_camera(0.5 * r.width, 0.5 * r.height);
+    f.radius = 0.5 * std::hypot(r.width, r.height);
+    facets.push_back(f);
   }
   return facets;
 }
 
-double shade(const Facet& f, const Texture& texture, const Vector3<double>& m, double rho, double step_x,
-             double step_y) noexcept {
+/// How a ray moves over the sides of a footprint.
+struct PlaneSteps {  // of (m, 1)
+  double x, y;
+  double along_x(const Vector3<double>& v) const noexcept { return v[0]; }
+  double along_y(const Vector3<double>& v) const noexcept { return v[1]; }
+};
+struct SphereSteps {  // of a unit vector
+  double x, y;
+  Vector3<double> towards_x, towards_y;
+  double along_x(const Vector3<double>& v) const noexcept { return v.dot(towards_x); }
+  double along_y(const Vector3<double>& v) const noexcept { return v.dot(towards_y); }
+};
+
+template <class Steps>
+double shade(const Facet& f, const Texture& texture, const Vector3<double>& m, double rho,
+             const Steps& steps) noexcept {
   const double texels_x = texture.width() / f.width, texels_y = texture.height() / f.height;  // per metre
   const double depth = 1.0 / rho;
   const double s = f.across.dot(m) * depth, t = f.along.dot(m) * depth;
-  const Vector2<double> side_x((f.across[0] - s * f.inverse[0]) * depth * step_x * texels_x,
-                               (f.along[0] - t * f.inverse[0]) * depth * step_x * texels_y);
-  const Vector2<double> side_y((f.across[1] - s * f.inverse[1]) * depth * step_y * texels_x,
-                               (f.along[1] - t * f.inverse[1]) * depth * step_y * texels_y);
+  const Vector2<double> side_x((steps.along_x(f.across) - s * steps.along_x(f.inverse)) * depth * steps.x * texels_x,
+                               (steps.along_x(f.along) - t * steps.along_x(f.inverse)) * depth * steps.x * texels_y);
+  const Vector2<double> side_y((steps.along_y(f.across) - s * steps.along_y(f.inverse)) * depth * steps.y * texels_x,
+                               (steps.along_y(f.along) - t * steps.along_y(f.inverse)) * depth * steps.y * texels_y);
   return texture.lookup({s * texels_x - 0.5, t * texels_y - 0.5}, side_x, side_y);
 }
 
-/// The light on the ray (m, 1): of the nearest facet, and where that is a pane, of those behind it.
-double light_on(const std::vector<const Facet*>& candidates, const Vector3<double>& m, double step_x,
-                double step_y) noexcept {
+/// The light on the ray m: of the nearest facet, and where that is a pane, of those behind it.
+template <class Steps>
+double light_on(const std::vector<const Facet*>& candidates, const Vector3<double>& m, const Steps& steps) noexcept {
   double light = 0.0, left = 1.0, limit = std::numeric_limits<double>::infinity();
   while (left > 0.0) {
     const Facet* nearest = nullptr;
@@ -98,8 +116,8 @@ double light_on(const std::vector<const Facet*>& candidates, const Vector3<doubl
       nearest = f;
     }
     if (!nearest) break;
-    const double opacity = nearest->opacity ? shade(*nearest, *nearest->opacity, m, best, step_x, step_y) / 255.0 : 1.0;
-    light += left * opacity * shade(*nearest, *nearest->texture, m, best, step_x, step_y);
+    const double opacity = nearest->opacity ? shade(*nearest, *nearest->opacity, m, best, steps) / 255.0 : 1.0;
+    light += left * opacity * shade(*nearest, *nearest->texture, m, best, steps);
     left *= 1.0 - opacity;
     limit = best;
   }
@@ -111,41 +129,99 @@ double light_on(const std::vector<const Facet*>& candidates, const Vector3<doubl
 RayCaster::RayCaster(const CameraModel& camera, std::vector<Vector2<double>> offsets)
     : camera_(camera), offsets_(std::move(offsets)) {
   if (camera_.is_pinhole()) return;
+  const double least_z = std::cos(kMostOff);
+  bool on_plane = true;
   for (const Vector2<double>& offset : offsets_) {
-    std::vector<Vector2<double>> rays;
-    rays.reserve(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height));
+    std::vector<Vector2<double>> points;
+    std::vector<Vector3<double>> directions;
     for (int y = 0; y < camera_.height; ++y) {
       for (int x = 0; x < camera_.width; ++x) {
-        Vector3<double> m;
-        if (!textplane::is_ok(camera_.unproject(Vector2<double>(x + offset[0], y + offset[1]), &m))) {
-          throw std::invalid_argument("the lens cannot be inverted at pixel " + std::to_string(x) + "," +
-                                      std::to_string(y));
-        }
-        rays.push_back(m.head<2>());
+        const Vector2<double> px(x + offset[0], y + offset[1]);
+        Vector3<double> m, direction = Vector3<double>::Zero();
+        camera_.raw.unproject_ray(px, &direction);
+        directions.push_back(direction);
+        on_plane = on_plane && direction[2] > least_z && textplane::is_ok(camera_.unproject(px, &m));
+        if (on_plane) points.emplace_back(m.head<2>());
       }
     }
-    rays_.push_back(std::move(rays));
+    rays_.push_back(std::move(points));
+    directions_.push_back(std::move(directions));
   }
+  if (on_plane)
+    directions_.clear();
+  else
+    rays_.clear();
 }
 
 Vector2<double> RayCaster::ray(int offset, int x, int y) const noexcept {
-  const std::size_t o = static_cast<std::size_t>(offset);
-  if (!rays_.empty()) {
-    return rays_[o]
-                [static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x)];
-  }
-  return camera_.pinhole().unproject(Vector2<double>(x + offsets_[o][0], y + offsets_[o][1])).head<2>();
+  if (!rays_.empty()) return at(rays_, offset, x, y);
+  const Vector2<double>& o = offsets_[static_cast<std::size_t>(offset)];
+  return camera_.pinhole().unproject(Vector2<double>(x + o[0], y + o[1])).head<2>();
 }
 
-void RayCaster::add(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight,
-                    Image<double>& sum, double time) const {
-  const std::vector<Facet> facets = facets_in_view(scene, T_w_c, time);
-  const double step_x = footprint / camera_.pinhole().fx, step_y = footprint / camera_.pinhole().fy;
+Vector3<double> RayCaster::step(int offset, int x, int y, int along_x, int along_y) const noexcept {
+  const Vector3<double>& here = at(directions_, offset, x, y);
+  const auto inside = [&](int i, int j) {
+    return i >= 0 && j >= 0 && i < camera_.width && j < camera_.height && !at(directions_, offset, i, j).isZero(0.0);
+  };
+  if (inside(x + along_x, y + along_y)) return at(directions_, offset, x + along_x, y + along_y) - here;
+  if (inside(x - along_x, y - along_y)) return here - at(directions_, offset, x - along_x, y - along_y);
+  return Vector3<double>::Zero();
+}
+
+void RayCaster::add_rows(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight, int first,
+                         int end, Image<double>& sum, double time) const {
+  if (directions_.empty())
+    add_plane(scene, T_w_c, offset, footprint, weight, first, end, sum, time);
+  else
+    add_sphere(scene, T_w_c, offset, footprint, weight, first, end, sum, time);
+}
+
+void RayCaster::add_sphere(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight,
+                           int first, int end, Image<double>& sum, double time) const {
+  const std::vector<Facet> facets = facets_of(scene, T_w_c, time);
+  std::vector<const Facet*> candidates;
+  for (int y0 = first; y0 < end; y0 += kTile) {
+    for (int x0 = 0; x0 < camera_.width; x0 += kTile) {
+      const int x1 = std::min(x0 + kTile, camera_.width), y1 = std::min(y0 + kTile, end);
+      // The cone of the tile's rays.
+      Vector3<double> axis = Vector3<double>::Zero();
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) axis += at(directions_, offset, x, y);
+      if (axis.isZero(0.0)) continue;
+      axis.normalize();
+      double spread = 0.0;
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) spread = std::max(spread, (at(directions_, offset, x, y) - axis).norm());
+      const double half = 2.0 * std::asin(std::min(0.5 * spread, 1.0));
+      candidates.clear();
+      for (const Facet& f : facets) {
+        const double distance = f.centre.norm();
+        if (distance <= f.radius ||
+            std::acos(std::clamp(axis.dot(f.centre) / distance, -1.0, 1.0)) <= half + std::asin(f.radius / distance))
+          candidates.push_back(&f);
+      }
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+          const Vector3<double>& direction = at(directions_, offset, x, y);
+          if (direction.isZero(0.0)) continue;
+          const SphereSteps steps{footprint, footprint, step(offset, x, y, 1, 0), step(offset, x, y, 0, 1)};
+          sum(x, y) += weight * light_on(candidates, direction, steps);
+        }
+      }
+    }
+  }
+}
+
+void RayCaster::add_plane(const Scene& scene, const SE3d& T_w_c, int offset, double footprint, double weight, int first,
+                          int end, Image<double>& sum, double time) const {
+  const std::vector<Facet> facets = facets_of(scene, T_w_c, time);
+  const PlaneSteps steps{footprint / camera_.pinhole().fx, footprint / camera_.pinhole().fy};
   std::array<Vector2<double>, kTile * kTile> rays;
   std::vector<const Facet*> candidates;
-  for (int y0 = 0; y0 < camera_.height; y0 += kTile) {
+  for (int y0 = first; y0 < end; y0 += kTile) {
     for (int x0 = 0; x0 < camera_.width; x0 += kTile) {
-      const int x1 = std::min(x0 + kTile, camera_.width), y1 = std::min(y0 + kTile, camera_.height);
+      const int x1 = std::min(x0 + kTile, camera_.width), y1 = std::min(y0 + kTile, end);
       Vector2<double> low = ray(offset, x0, y0), high = low;
       std::size_t n = 0;
       for (int y = y0; y < y1; ++y) {
@@ -165,16 +241,20 @@ void RayCaster::add(const Scene& scene, const SE3d& T_w_c, int offset, double fo
       for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < x1; ++x, ++n) {
           const Vector3<double> m(rays[n][0], rays[n][1], 1.0);
-          sum(x, y) += weight * light_on(candidates, m, step_x, step_y);
+          sum(x, y) += weight * light_on(candidates, m, steps);
         }
       }
     }
   }
 }
 
+bool ray_of(const CameraModel& camera, const Vector2<double>& px, Vector3<double>* ray) noexcept {
+  return textplane::is_ok(camera.unproject(px, ray)) || textplane::is_ok(camera.raw.unproject_ray(px, ray));
+}
+
 bool project(const CameraModel& camera, const SE3d& T_c_w, const Vector3<double>& p_w, Vector2<double>* px) noexcept {
   const Vector3<double> p = T_c_w * p_w;
-  if (!(p[2] > 1e-6)) return false;
+  if (camera.is_pinhole() ? !(p[2] > 1e-6) : !camera.raw.in_domain(p)) return false;
   *px = camera.project(p);
   return true;
 }

@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <type_traits>
 
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
@@ -15,6 +16,7 @@
 #include "io/trajectory.hpp"
 #include "renderer/exposure.hpp"
 #include "renderer/kinds.hpp"
+#include "renderer/spanning.hpp"
 #include "renderer/truth.hpp"
 
 namespace textslam {
@@ -22,8 +24,7 @@ namespace textslam {
 namespace {
 
 constexpr double kFramesPerSecond = 30.0;
-constexpr double kFocal = 525.0 / 640.0;  // of the width
-constexpr std::uint64_t kNoiseStream = 7, kDetectorStream = 8;
+constexpr std::uint64_t kNoiseStream = 7, kDetectorStream = 8, kPlacesStream = 9, kSpanningStream = 10;
 
 std::string stem_of(int frame) {
   char name[16];
@@ -38,15 +39,19 @@ std::string decimals(double value, int n) {
   return std::string(text, result.ptr);
 }
 
-CameraModel camera_of(const RenderOptions& options) {
+CameraModel camera_of(const RenderOptions& options, const Shot& shot) {
   CameraModel camera;
-  const double f = kFocal * options.width;
-  RadialTangential<double> raw = options.lens;
-  raw.intrinsics = {f, f, 0.5 * (options.width - 1), 0.5 * (options.height - 1)};
-  camera.raw = raw;
+  const double f = shot.focal * options.width;
+  const textplane::AnyCamera<double> lens = options.lens.is_pinhole() ? shot.lens : options.lens;
+  camera.raw = lens.visit([&](const auto& model) -> textplane::AnyCamera<double> {
+    auto parameters = model.parameters();
+    parameters.template head<4>() << f, f, 0.5 * (options.width - 1), 0.5 * (options.height - 1);
+    return std::decay_t<decltype(model)>::from_parameters(parameters);
+  });
   camera.width = options.width;
   camera.height = options.height;
   camera.fps = kFramesPerSecond;
+  camera.shutter = {shot.readout, 0.5 * (options.height - 1), options.height};
   return camera;
 }
 
@@ -68,13 +73,19 @@ void check(const RenderOptions& options) {
   demand("the jitter of detections", options.detector.corner_sigma, 0.0, 1000.0);
   demand("the share of missed detections", options.detector.missed, 0.0, 1.0);
   demand("the number of false detections", options.detector.false_per_frame, 0.0, 100.0);
+  demand("the number of spanning detections", options.detector.spanning, 0.0, 20.0);
 }
 
 /// Renders and writes single frames; const, so that several threads may share it.
 class FrameWriter {
  public:
   FrameWriter(const RenderOptions& options, const CameraModel& camera, const Shot& shot)
-      : options_(options), camera_(camera), shot_(shot), caster_(camera, pixel_grid()) {}
+      : options_(options),
+        camera_(camera),
+        shot_(shot),
+        caster_(camera, pixel_grid()),
+        places_(spanning_places(shot, camera, options.frames, 1.0 / kFramesPerSecond, options.detector.spanning,
+                                hash(options.seed, kPlacesStream))) {}
 
   /// Writes image, detections and quads; returns the frame's line of truth/frames.txt.
   std::string write(int frame) const {
@@ -92,11 +103,16 @@ class FrameWriter {
     save_png(options_.output + "/images/" + name + ".png", picture.view());
 
     const std::vector<Sign>& signs = shot_.scene.signs();
-    const std::vector<SignView> views = views_of_signs(shot_.scene, camera_, shot_.motion(time), time);
+    const SE3d T_w_c = shot_.motion(time);
+    std::vector<SignView> views = views_of_signs(shot_.scene, camera_, T_w_c, time);
+    place_in_rows(camera_, shot_.motion, signs, time, &views);
     write_file(options_.output + "/truth/quads/" + name + ".txt", format_truth_quads(views, signs));
     const Random random(hash(options_.seed, kDetectorStream, number));
-    write_detections(options_.output + "/detections/" + name + ".txt",
-                     detect(views, signs, camera_, options_.detector, random));
+    std::vector<Detection> found = detect(views, signs, camera_, options_.detector, random);
+    const Random apart(hash(options_.seed, kSpanningStream, number));
+    for (const Detection& d : detect_spanning(places_, shot_.scene, camera_, T_w_c, time, options_.detector, apart))
+      found.push_back(d);
+    write_detections(options_.output + "/detections/" + name + ".txt", found);
     return decimals(time, 9) + ' ' + decimals(shot_.exposure, 6) + ' ' + decimals(blur.median, 3) + ' ' +
            decimals(blur.max, 3) + ' ' + decimals(state.gain, 4) + ' ' + decimals(state.bias, 2) + '\n';
   }
@@ -106,6 +122,7 @@ class FrameWriter {
   const CameraModel& camera_;
   const Shot& shot_;
   RayCaster caster_;
+  std::vector<SpanningPlace> places_;
 };
 
 /// Renders all frames on options.threads threads. The first exception of any of them ends all and is thrown here.
@@ -146,7 +163,7 @@ void render_sequence(const RenderOptions& asked, const std::function<void(int do
   if (options.frames == 0) options.frames = default_frames(options.kind);
   Shot shot = make_shot(options.kind, options.seed, options.width, options.height);
   apply(options.conditions, &shot);
-  const CameraModel camera = camera_of(options);
+  const CameraModel camera = camera_of(options, shot);
   for (const char* folder : {"/images", "/detections", "/truth/quads"}) create_output_folder(options.output + folder);
 
   std::vector<StampedPose> poses;
@@ -156,7 +173,7 @@ void render_sequence(const RenderOptions& asked, const std::function<void(int do
     poses.push_back({time, shot.motion(time)});
     list += decimals(time, 9) + " images/" + stem_of(frame) + ".png\n";
   }
-  write_file(options.output + "/camera.yaml", format_camera(camera));
+  write_file(options.output + (shot.calibrated ? "/camera.yaml" : "/true_camera.yaml"), format_camera(camera));
   write_tum(options.output + "/groundtruth.txt", poses);
   write_file(options.output + "/truth/signs.json", format_signs(shot.scene.signs()));
 

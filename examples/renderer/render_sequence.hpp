@@ -2,10 +2,11 @@
 //
 // A kind is rendered into a folder: images.txt, images/NNNNNN.png, camera.yaml, groundtruth.txt,
 // detections/NNNNNN.txt, and
-//   truth/signs.json          every sign's id, word, corners and normal in the world frame (m)
+//   truth/signs.json          id, word, corners and normal in the world frame (m) of every sign that stands
 //   truth/quads/NNNNNN.txt    the exact quads of the signs in view: x1,y1,...,x4,y4,text,sign,visible (raw px)
 //   truth/frames.txt          timestamp, exposure (s), median and longest blur (px), gain, bias (grey levels)
-// Ground truth is the pose in the middle of the exposure. The system never reads truth/.
+// Ground truth is the pose in the middle of the exposure, behind a rolling shutter that of the middle row. The system
+// never reads truth/.
 #ifndef TEXTSLAM_RENDERER_RENDER_SEQUENCE_HPP
 #define TEXTSLAM_RENDERER_RENDER_SEQUENCE_HPP
 
@@ -26,8 +27,9 @@ struct RenderOptions {
   std::uint64_t seed = 1;
   int frames = 0;  ///< at 30 a second; 0: default_frames() of kinds.hpp
   int width = 640,
-      height = 480;               ///< px; every size has the field of view of 525 px focal length at width 640
-  RadialTangential<double> lens;  ///< coefficients alone are read; no distortion by default
+      height =
+          480;  ///< px; every size has the kind's field of view, by default that of 525 px focal length at width 640
+  RadialTangential<double> lens;  ///< coefficients alone are read; by default the kind's
   Conditions conditions;
   DetectorErrors detector;
   int threads = 2;  ///< the bytes written do not depend on it

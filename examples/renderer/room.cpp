@@ -1,4 +1,6 @@
 // The room: 4.8 m x 4.2 m, signs on three walls, on furniture and on slanted boards; the camera moves in its rear half.
+#include <cmath>
+
 #include "renderer/furniture.hpp"
 #include "renderer/kinds.hpp"
 
@@ -85,6 +87,15 @@ void add_carried(Scene& scene, SignPainter& signs, RoomStyle::Carrier carrier, s
   }
 }
 
+/// To and fro along x, not quite as far as the pictures and signs beside it.
+Motion slide(std::uint64_t seed) {
+  constexpr double kSlide = 0.22;  // m
+  const double period = 3.0 + 2.0 * unit(hash(seed, 700)), phase = unit(hash(seed, 701));
+  return [=](double t) {
+    return SE3d{Matrix3<double>::Identity(), {kSlide * std::sin(6.283185307179586 * (t / period + phase)), 0.0, 0.0}};
+  };
+}
+
 void add_signs(Scene& scene, const Walls& walls, const Furnishing* furniture, const RoomStyle& style,
                std::uint64_t seed) {
   SignPainter signs(kRoomSigns + (style.all_round ? kSignsBehind : 0), hash(seed, 400));
@@ -93,7 +104,9 @@ void add_signs(Scene& scene, const Walls& walls, const Furnishing* furniture, co
   };
   const bool boards = style.carrier == RoomStyle::Carrier::board;
   if (boards) {
+    const std::size_t surface = scene.surfaces().size();
     hang(walls.front, 2.3, 0.75, 0.7);
+    if (style.sliding) scene.carry(surface, slide(seed), scene.signs().size() - 1);
     hang(walls.front, 3.2, 1.05, 0.56);
   }
   hang(walls.front, 4.25, 0.9, 0.5);

@@ -127,8 +127,19 @@ Vector3<double> Sign::at(double across, double down) const {
          radius * (std::cos(angle) - std::cos(half)) * normal;
 }
 
-void Scene::carry(std::size_t first, Motion motion) {
+Sign Sign::standing(double time) const {
+  Sign there = *this;
+  there.carrier = nullptr;
+  if (!carrier) return there;
+  const SE3d T = (*carrier)(time);
+  for (Vector3<double>& c : there.corner) c = T * c;
+  there.normal = T.R * normal;
+  return there;
+}
+
+void Scene::carry(std::size_t first, Motion motion, std::size_t first_sign) {
   carriers_.push_back(std::move(motion));
+  for (std::size_t i = first_sign; i < signs_.size(); ++i) signs_[i].carrier = &carriers_.back();
   for (std::size_t i = first; i < surfaces_.size(); ++i) surfaces_[i].carrier = &carriers_.back();
 }
 

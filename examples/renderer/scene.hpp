@@ -1,9 +1,10 @@
 // Scene: one-sided textured rectangles in the world (metres, z up), and the signs among them. Panes are rectangles that
-// let light through between their letters. Some rectangles may move with time; signs stand.
+// let light through between their letters. Some rectangles may move with time, and signs with them.
 #ifndef TEXTSLAM_RENDERER_SCENE_HPP
 #define TEXTSLAM_RENDERER_SCENE_HPP
 
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <string>
 #include <vector>
@@ -52,11 +53,14 @@ struct Sign {
   int id;
   std::string word;
   std::array<Vector3<double>, 4> corner;
-  Vector3<double> normal;  ///< unit, towards the reader; in the middle where it is round
-  double radius = 0.0;     ///< m, of the upright cylinder that it is written on; 0: flat
+  Vector3<double> normal;           ///< unit, towards the reader; in the middle where it is round
+  double radius = 0.0;              ///< m, of the upright cylinder that it is written on; 0: flat
+  const Motion* carrier = nullptr;  ///< null: it stands; else corners and normal are in the frame of what carries it
 
   /// The place on the text at these shares of its width and height from the top left.
   Vector3<double> at(double across, double down) const;
+  /// The sign as it stands in the world at a time.
+  Sign standing(double time) const;
 };
 
 struct Hit {
@@ -85,8 +89,9 @@ class Scene {
   /// `radius` of the upright cylinder that the text is written on, with the rectangle between its corners; 0: flat.
   void add_sign(std::string word, const Rectangle& text, double radius = 0.0);
 
-  /// The surfaces from number `first` on are in the moving frame (to the world) from here on.
-  void carry(std::size_t first, Motion motion);
+  /// The surfaces from number `first` on, and the signs from number `first_sign` on (none), are in the moving frame (to
+  /// the world) from here on.
+  void carry(std::size_t first, Motion motion, std::size_t first_sign = SIZE_MAX);
 
   const std::vector<Surface>& surfaces() const noexcept { return surfaces_; }
   const std::vector<Sign>& signs() const noexcept { return signs_; }

@@ -9,7 +9,10 @@ namespace textslam {
 
 namespace {
 
-/// Whether the camera sees the place: inside the image, and the first thing on its ray.
+nlohmann::json as_json(const Vector3<double>& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
 bool sees(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c, const SE3d& T_c_w, const Vector3<double>& p,
           double time) {
   Vector2<double> px;
@@ -20,15 +23,12 @@ bool sees(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c, cons
   return hit.surface < 0 || hit.distance > 1.0 - 1e-6;
 }
 
-nlohmann::json as_json(const Vector3<double>& v) { return {v[0], v[1], v[2]}; }
-
-}  // namespace
-
 std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& camera, const SE3d& T_w_c, double time) {
   constexpr int kColumns = 16, kRows = 6;
   const SE3d T_c_w = T_w_c.inverse();
   std::vector<SignView> views;
-  for (const Sign& sign : scene.signs()) {
+  for (const Sign& painted : scene.signs()) {
+    const Sign sign = painted.standing(time);
     const Vector3<double> to_eye = T_w_c.t - sign.at(0.5, 0.5);
     SignView view;
     view.sign = sign.id;
@@ -52,6 +52,24 @@ std::vector<SignView> views_of_signs(const Scene& scene, const CameraModel& came
   return views;
 }
 
+void place_in_rows(const CameraModel& camera, const Motion& motion, const std::vector<Sign>& signs, double time,
+                   std::vector<SignView>* views) {
+  constexpr int kIterations = 30;  // each leaves a few per cent of the error
+  if (!camera.shutter.active()) return;
+  for (SignView& view : *views) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      Vector2<double> px = view.quad.corner[k];
+      bool seen = true;
+      for (int i = 0; seen && i < kIterations; ++i) {
+        const double then = time + camera.shutter.time(px[1]);
+        const Sign sign = signs[static_cast<std::size_t>(view.sign)].standing(then);
+        seen = project(camera, motion(then).inverse(), sign.corner[k], &px);
+      }
+      if (seen) view.quad.corner[k] = px;
+    }
+  }
+}
+
 std::string format_truth_quads(const std::vector<SignView>& views, const std::vector<Sign>& signs) {
   std::string text;
   for (const SignView& view : views) {
@@ -65,6 +83,7 @@ std::string format_truth_quads(const std::vector<SignView>& views, const std::ve
 std::string format_signs(const std::vector<Sign>& signs) {
   nlohmann::json list = nlohmann::json::array();
   for (const Sign& sign : signs) {
+    if (sign.carrier) continue;
     nlohmann::json corners = nlohmann::json::array();
     for (const Vector3<double>& c : sign.corner) corners.push_back(as_json(c));
     list.push_back({{"id", sign.id},

@@ -163,6 +163,7 @@ TEST(RendererConditions, RefusesWhatMakesNoSense) {
   refused("the jitter", [](RenderOptions& o) { o.detector.corner_sigma = -0.5; });
   refused("missed detections", [](RenderOptions& o) { o.detector.missed = 1.5; });
   refused("false detections", [](RenderOptions& o) { o.detector.false_per_frame = -1.0; });
+  refused("spanning detections", [](RenderOptions& o) { o.detector.spanning = 21.0; });
 }
 
 }  // namespace renderer_conditions_test

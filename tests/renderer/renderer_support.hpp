@@ -30,6 +30,19 @@ inline RadialTangential<double> test_lens() {
   return lens;
 }
 
+/// A fisheye whose domain ends 95 degrees off the axis, in a circle as wide as the image.
+inline CameraModel fisheye_camera(int width) {
+  constexpr double kEnd = 95 * M_PI / 180;
+  CameraModel camera;
+  camera.width = width;
+  camera.height = width * 3 / 4;
+  const double f = 0.5 * width / (kEnd * 8 / 9);
+  camera.raw = textplane::KannalaBrandt<double>{
+      {f, f, 0.5 * (camera.width - 1), 0.5 * (camera.height - 1)}, 0, 0, 0, -1 / (9 * std::pow(kEnd, 8))};
+  camera.fps = 30.0;
+  return camera;
+}
+
 }  // namespace textslam
 
 #endif  // TESTS_RENDERER_RENDERER_SUPPORT_HPP

@@ -92,12 +92,15 @@ void expect_quads_are_projected_signs(const RenderOptions& options) {
   EXPECT_LT(worst, 1e-6);
 }
 
-TEST(RendererTruth, SignsPosesAndCameraReadBackGiveTheQuads) {
-  const TemporaryFolder folder;
-  RenderOptions options = small("sparse", folder.path("a"), 12);
+RenderOptions at_full_size(RenderOptions options) {
   options.width = 640;
   options.height = 480;
-  expect_quads_are_projected_signs(options);
+  return options;
+}
+
+TEST(RendererTruth, SignsPosesAndCameraReadBackGiveTheQuads) {
+  const TemporaryFolder folder;
+  expect_quads_are_projected_signs(at_full_size(small("sparse", folder.path("a"), 12)));
 }
 
 TEST(RendererTruth, TheSameThroughALens) {
@@ -105,6 +108,11 @@ TEST(RendererTruth, TheSameThroughALens) {
   RenderOptions options = small("sparse", folder.path("a"), 12);
   options.lens = test_lens();
   expect_quads_are_projected_signs(options);
+}
+
+TEST(RendererTruth, TheSameThroughAFisheye) {
+  const TemporaryFolder folder;
+  expect_quads_are_projected_signs(at_full_size(small("fisheye", folder.path("a"), 4)));
 }
 
 TEST(RendererTruth, TheWordStandsInItsBox) {
@@ -236,8 +244,9 @@ TEST(RendererSequence, RefusesWhatItCannotRender) {
   tiny.width = 10;
   EXPECT_THROW(render_sequence(tiny), InputError);
   const std::vector<std::string> kinds = render_kinds();
-  for (const char* kind : {"room", "room-still", "corridor", "rapid", "lights", "night", "sparse", "notext", "loop",
-                           "standoff", "cylinders", "glass", "crowd", "cuts", "covered"}) {
+  for (const char* kind :
+       {"room", "room-still", "corridor", "rapid", "lights", "night", "sparse", "notext", "loop", "standoff",
+        "cylinders", "glass", "crowd", "moving", "cuts", "covered", "wide", "fisheye", "shutter"}) {
     EXPECT_EQ(std::count(kinds.begin(), kinds.end(), kind), 1) << kind;
   }
 }
