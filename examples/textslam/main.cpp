@@ -38,7 +38,24 @@ void add_run_options(CLI::App& app, textslam::RunOptions& run) {
       ->check(CLI::IsMember({"text", "points", "loose"}))
       ->default_str("text");
   textslam::add_sequence_options(app, run.input);
+  app.add_flag_callback(
+      "--calibrate", [&run] { run.calibrate = textslam::Calibrate::always; },
+      "Estimate the camera from the images first, beginning with the one given; so it is by itself where there is no "
+      "camera file");
+  app.add_flag_callback(
+         "--no-calibrate", [&run] { run.calibrate = textslam::Calibrate::never; },
+         "Take the camera as it is given, by --fov too")
+      ->excludes("--calibrate");
   textslam::add_detector_options(app, run.detector);
+  app.add_option_function<std::string>(
+         "--readout",
+         [&run](const std::string& text) {
+           run.parameters.estimate_readout = text == "auto";
+           run.readout = run.parameters.estimate_readout ? 0 : std::stod(text);
+         },
+         "Of a rolling shutter, from the first row to the last, s, in place of what the camera file says; 0: all rows "
+         "at once; auto: estimated with the map")
+      ->check(CLI::IsMember({"auto"}) | CLI::Range(-textslam::kLongestReadout, textslam::kLongestReadout));
   app.add_flag("--real-time", run.parameters.real_time,
                "Frames come at their time stamps; the local adjustment and the detector run in threads of their own. "
                "Without it each step waits for the one before, and the same input gives the same bytes");
@@ -77,6 +94,8 @@ void add_render_options(CLI::App& app, Command& command) {
   add("--jitter", render.detector.corner_sigma, "Standard deviation of detected corners, px")->capture_default_str();
   add("--missed", render.detector.missed, "Share of the signs that the detector misses, 0 to 1")->capture_default_str();
   add("--false", render.detector.false_per_frame, "Mean number of false detections a frame")->capture_default_str();
+  add("--spanning", render.detector.spanning, "Mean number of places in view that span two planes and pass for texts")
+      ->capture_default_str();
 }
 
 // Where no terminal shows how far it is, every quarter has a line, unless a program reads them.

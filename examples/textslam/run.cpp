@@ -1,10 +1,9 @@
 #include "textslam/run.hpp"
 
-#include <chrono>
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <thread>
+#include <optional>
 
 #include "cli/progress.hpp"
 #include "io/clock.hpp"
@@ -12,12 +11,14 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "io/output_file.hpp"
-#include "textplane/photometry/noise.hpp"
+#include "textslam/calibrate/self_calibration.hpp"
 #include "textslam/common/bounded_sampler.hpp"
 #include "textslam/detect/detection_thread.hpp"
 #include "textslam/detect/text_detector.hpp"
-#include "textslam/input/noise_filter.hpp"
-#include "textslam/input/undistorter.hpp"
+#include "textslam/input/frame_clock.hpp"
+#include "textslam/input/make_frame.hpp"
+#include "textslam/input/sequence_camera.hpp"
+#include "textslam/report/calibration.hpp"
 #include "textslam/report/frame_line.hpp"
 #include "textslam/report/outputs.hpp"
 #include "textslam/report/report.hpp"
@@ -29,14 +30,13 @@ namespace {
 using RawImage = DetectionThread::RawImage;
 using Pixels = DetectionThread::Pixels;
 
-// Loads, detects and undistorts. Frames are numbered in the order in which they were taken. Another thread may call
+// Loads and detects. Frames are numbered in the order in which they were taken. Another thread may call
 // detect().
 class FrameSource {
  public:
   FrameSource(const Sequence& sequence, const RunOptions& options)
       : sequence_(sequence),
         parameters_(at_size(options.parameters, sequence.camera.width, sequence.camera.height)),
-        undistort_(sequence.camera),
         detector_(options.own_detector ? options.own_detector : make_detector(options.detector, sequence)),
         reader_(options.parameters.mode == Mode::points ? nullptr : make_reader(options.detector)) {}
 
@@ -55,17 +55,10 @@ class FrameSource {
   std::vector<Detection> detect(int index, const Pixels& raw) {
     FrameRef frame = sequence_.frames[at(index)];
     frame.colour = raw.colour;
-    return undistort_(detector_->detect(frame, raw.grey.view()));
+    return detector_->detect(frame, raw.grey.view());
   }
-  Frame frame(int index, const Image<std::uint8_t>& raw) const {
-    Frame frame;
-    frame.index = index;
-    frame.timestamp = timestamp(index);
-    Image<std::uint8_t> image = undistort_(raw);
-    // Of the raw image: what was interpolated shows less.
-    smooth_noise(textplane::estimate_noise(raw.view()).sigma, parameters_, &image, &frame);
-    frame.image = std::make_shared<const Pyramid>(image.view(), parameters_.pyramid_levels);
-    return frame;
+  Frame frame(int index, Image<std::uint8_t> image) const {
+    return make_frame(index, timestamp(index), std::move(image), parameters_);
   }
   Frame frame(int index) const { return frame(index, load_frame(sequence_, at(index))); }
   void read_texts(System& system) const {
@@ -82,36 +75,8 @@ class FrameSource {
   Parameters parameters_;
   mutable std::mutex mutex_;        // of taken_
   std::vector<std::size_t> taken_;  // frames of the sequence
-  Undistorter undistort_;
   std::shared_ptr<TextDetector> detector_;
   std::unique_ptr<TextReader> reader_;
-};
-
-// Real time: frames come at their time stamps, counted from the first. A late frame is processed at once, none skipped.
-class Clock {
- public:
-  explicit Clock(bool real_time) : real_time_(real_time) {}
-
-  void wait_for(double timestamp) {
-    if (!real_time_) return;
-    if (start_ms_ < 0) {
-      start_ms_ = now_ms();
-      first_ = timestamp;
-    }
-    due_ms_ = start_ms_ + 1000 * (timestamp - first_);
-    const double early = due_ms_ - now_ms();
-    if (early > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(early));
-  }
-  void done() {
-    if (real_time_) latency_ms_.push_back(now_ms() - due_ms_);
-  }
-  /// Of each frame: from its arrival to its pose.
-  std::vector<double> latency_ms() { return std::move(latency_ms_); }
-
- private:
-  bool real_time_;
-  double start_ms_ = -1, due_ms_ = 0, first_ = 0;
-  std::vector<double> latency_ms_;
 };
 
 // Detection before each frame or, in real time, on a thread beside tracking. Files are always read before the frame.
@@ -201,7 +166,7 @@ RawImage take(std::size_t at, const RunOptions& options, FrameSource& source, Ru
 
 // Takes the frames one by one, until the last or a signal.
 void track_frames(const RunOptions& options, const Sequence& sequence, const std::vector<std::size_t>& asked,
-                  FrameSource& source, Clock& clock, Detections& detections, System& system, RunResult& result) {
+                  FrameSource& source, FrameClock& clock, Detections& detections, System& system, RunResult& result) {
   Progress progress("tracking");
   int index = 0;
   for (std::size_t i = 0; i < asked.size() && !result.interrupted; ++i) {
@@ -225,17 +190,43 @@ void track_frames(const RunOptions& options, const Sequence& sequence, const std
   }
 }
 
-}  // namespace
+// A camera file that knows nothing of rows means the middle one by its time stamps.
+void know_rows(const RunOptions& options, CameraModel* camera) {
+  textplane::RollingShutter& shutter = camera->shutter;
+  if (shutter.rows != camera->height) shutter = all_at_once(camera->height);
+  if (options.readout) shutter.readout = *options.readout;
+}
 
-RunResult run(const RunOptions& options) {
-  const Sequence sequence = read_sequence(options.sequence, options.input);
-  const std::vector<std::size_t> asked = frames_asked(sequence, options);
+// Gives the sequence the camera that its images tell, where they do.
+SelfCalibration estimate_camera(const RunOptions& options, const std::vector<std::size_t>& frames, Sequence* sequence) {
+  Progress progress("calibrating");
+  Parameters parameters = options.parameters;
+  // What the shutter of a fast camera does passes for a lens: where neither is known they are found together. The run
+  // does not take the readout over: with it redkitchen has twice the error, and nobody knows why (docs/cameras.md).
+  const bool given = options.readout && !parameters.estimate_readout;
+  parameters.estimate_readout = sequence->camera_origin != CameraOrigin::file && !given;
+  SelfCalibration found =
+      self_calibrate(*sequence, frames, parameters, CalibrationOptions(),
+                     [&](std::size_t done, std::size_t total) { progress.show(done, total, "by points alone"); });
+  if (found.determined) {
+    found.camera.fps = sequence->camera.fps;
+    found.camera.shutter = sequence->camera.shutter;
+    sequence->camera = found.camera;
+    sequence->approximate_fov = 0;
+  }
+  return found;
+}
+
+RunResult run_with_camera(const RunOptions& options, const Sequence& sequence, const std::vector<std::size_t>& asked,
+                          const std::optional<SelfCalibration>& calibration) {
+  const SequenceCamera camera(sequence.camera);
   FrameSource source(sequence, options);
   create_output_folder(options.output);
 
   RunResult result;
-  System system(sequence.camera.pinhole(), sequence.camera.width, sequence.camera.height, options.parameters);
-  Clock clock(options.parameters.real_time);
+  System system(camera.view(), sequence.camera.width, sequence.camera.height, options.parameters,
+                sequence.camera.shutter);
+  FrameClock clock(options.parameters.real_time);
   Detections detections(source, options);
   keep_going(result, [&] { track_frames(options, sequence, asked, source, clock, detections, system, result); });
   detections.end();
@@ -246,6 +237,7 @@ RunResult run(const RunOptions& options) {
   RunSummary& summary = result.summary;
   const std::size_t broken = summary.broken;
   summary = summarise(system, sequence, asked.size());
+  summary.calibration = calibration;
   summary.broken = broken;
   summary.latency_ms = clock.latency_ms();
   if (options.parameters.mode != Mode::points)
@@ -262,6 +254,11 @@ RunResult run(const RunOptions& options) {
   try {
     const auto image = [&](int index) { return source.name(index); };
     write_outputs(options.output, system, summary, image);
+    if (calibration || options.parameters.estimate_readout) {
+      CameraModel found = sequence.camera;
+      found.shutter = system.map().shutter;
+      write_file(options.output + "/camera.yaml", camera_yaml(found, calibration));
+    }
   } catch (const std::exception&) {
     failure = std::current_exception();
   }
@@ -278,6 +275,21 @@ RunResult run(const RunOptions& options) {
   if (options.json_lines) print_line(Json{{"summary", describe(summary).file}}.dump());
   if (failure) std::rethrow_exception(failure);
   return result;
+}
+
+}  // namespace
+
+RunResult run(const RunOptions& options) {
+  SequenceOptions input = options.input;
+  input.assumes_camera = options.calibrate != Calibrate::never;
+  Sequence sequence = read_sequence(options.sequence, input);
+  know_rows(options, &sequence.camera);
+  const std::vector<std::size_t> asked = frames_asked(sequence, options);
+  std::optional<SelfCalibration> calibration;
+  if (options.calibrate == Calibrate::always ||
+      (options.calibrate == Calibrate::automatic && sequence.camera_origin != CameraOrigin::file))
+    calibration = estimate_camera(options, asked, &sequence);
+  return run_with_camera(options, sequence, asked, calibration);
 }
 
 }  // namespace textslam

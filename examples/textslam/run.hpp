@@ -3,6 +3,7 @@
 #define TEXTSLAM_RUN_HPP
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,16 @@
 
 namespace textslam {
 
+constexpr double kLongestReadout = 0.2;  // s, either way
+
+/// Whether the camera is estimated from the images first, see calibrate/self_calibration.hpp. automatic: where there is
+/// no calibration.
+enum class Calibrate { automatic, always, never };
+
 struct RunOptions {
   std::string sequence, output;
   SequenceOptions input;  ///< What the sequence itself does not say.
+  Calibrate calibrate = Calibrate::automatic;
   DetectorOptions detector;
   std::shared_ptr<TextDetector> own_detector;  ///< If set, in place of `detector`.
   int first = 0;                               ///< Index of the first frame.
@@ -22,8 +30,9 @@ struct RunOptions {
   int every = 1;                               ///< One frame of so many is used.
   bool skip_broken = false;                    ///< Frames that cannot be read are passed over; else the first ends it.
   Parameters parameters;
-  bool report = true;       ///< Write report.html.
-  bool json_lines = false;  ///< An object a frame on standard output (frame_line()), then one with the metrics.
+  std::optional<double> readout;  ///< s, of a rolling shutter; in place of what the camera file says.
+  bool report = true;             ///< Write report.html.
+  bool json_lines = false;        ///< An object a frame on standard output (frame_line()), then one with the metrics.
   std::vector<std::string> command;  ///< The command line, for the report.
 };
 

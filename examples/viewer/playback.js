@@ -96,7 +96,7 @@ class Playback {
     const outline = (quad, colour, width, dash) => {
       if (!quad) return;
       pen.beginPath();
-      for (let i = 0; i < 8; i += 2) pen.lineTo(px(quad[i]), px(quad[i + 1]));
+      for (let i = 0; i < quad.length; i += 2) pen.lineTo(px(quad[i]), px(quad[i + 1]));
       pen.closePath();
       pen.setLineDash(dash);
       pen.lineWidth = width;

@@ -20,6 +20,8 @@ inline std::string image_name(int frame) {
   return "images/" + std::string(6 - digits.size(), '0') + digits + ".png";
 }
 
+inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 // A folder with a sequence `sequence` and room for the results.
 class TextslamInput : public testing::Test {
  protected:

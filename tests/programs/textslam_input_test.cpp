@@ -25,7 +25,7 @@ TEST_F(TextslamInput, MissingList) {
 TEST_F(TextslamInput, MissingCamera) {
   make_flat(1);
   fs::remove(sequence("camera.yaml"));
-  expect_refused(run(), 2, sequence("camera.yaml") + ": ", "No such file: give --camera");
+  expect_refused(run({"--no-calibrate"}), 2, sequence("camera.yaml") + ": ", "No such file: give --camera");
 }
 
 TEST_F(TextslamInput, EmptyList) {

@@ -89,22 +89,24 @@ TEST_F(TextslamInput, BlackFramesInTheMiddle) {
   }
 }
 
-// Without calibration: refused, or with an angle in its place, and then the outputs say so.
+// Without calibration, and not to be calibrated: refused, or with an angle in its place, and then the outputs say so.
 TEST_F(TextslamInput, CameraFromAnAngle) {
   make_room();
   fs::remove(sequence("camera.yaml"));
-  expect_refused(run(), 2, sequence("camera.yaml") + ": ", "--fov DEGREES");
+  expect_refused(run({"--no-calibrate"}), 2, sequence("camera.yaml") + ": ", "--fov DEGREES");
+  expect_refused(run({"--no-calibrate", "--calibrate"}), 2, "", "calibrate");
   expect_refused(run({"--fov", "180"}), 2, "", "--fov");
   expect_refused(run({"--fov", "60", "--camera", "x.yaml"}), 2, "", "--fov");
-  const ProgramResult result = run({"--fov", "60.5"});
+  const ProgramResult result = run({"--no-calibrate", "--fov", "60.5"});
   expect_refused(result, 0, "warning: ", "approximate, a pinhole of 60.5 degrees");
   EXPECT_EQ(metrics().at("approximate_camera").at("fov_deg"), 60.5);
   const Json data = Json::parse(report_block(bytes_of(output("report.html")), "data"));
   EXPECT_EQ(data.at("camera").at("approximate_fov_deg"), 60.5);
 
   // The same images by their names alone, at the same rate.
-  const ProgramResult by_name = textslam_program({sequence("images"), "--detections", sequence("detections"), "--fov",
-                                                  "60.5", "--fps", "30", "--output", folder_.path("names")});
+  const ProgramResult by_name =
+      textslam_program({sequence("images"), "--detections", sequence("detections"), "--no-calibrate", "--fov", "60.5",
+                        "--fps", "30", "--output", folder_.path("names")});
   EXPECT_EQ(by_name.code, 0) << by_name.err;
   EXPECT_EQ(bytes_of(folder_.path("names/text_map.json")), bytes_of(output("text_map.json")));
   EXPECT_EQ(bytes_of(folder_.path("names/trajectory.txt")), bytes_of(output("trajectory.txt")));

@@ -62,8 +62,12 @@ class Adjustment {
   }
 
   void write_back(Map& map) const {
-    for (std::size_t i = 0; i < frames_.size(); ++i)
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
       map.keyframe(frames_[i]).T_w_c = textplane::renormalised(window_.frames[i].T_w_c);
+      if (rows_[i])
+        map.set_rows(frames_[i], std::make_shared<const textplane::RowMotion>(
+                                     textplane::RowMotion{window_.frames[i].velocity, rows_[i]->shutter}));
+    }
     for (std::size_t i = 0; i < points_.size(); ++i) map.point(points_[i]).p_w = window_.points[i].p_w;
   }
 
@@ -101,7 +105,12 @@ class Adjustment {
     slot_of_[static_cast<std::size_t>(id)] = static_cast<int>(frames_.size());
     frames_.push_back(id);
     images_.push_back(map.keyframe(id).frame.image);
-    window_.frames.push_back({map.keyframe(id).T_w_c, fixed, images_.back()->view()});
+    rows_.push_back(map.keyframe(id).frame.rows);
+    window_.frames.push_back({map.keyframe(id).T_w_c, fixed, images_.back()->view(), rows_.back().get()});
+    textplane::WindowFrame& frame = window_.frames.back();
+    if (!frame.rows) return;
+    frame.velocity_sigma.head<3>().setConstant(parameters_.row_speed_sigma);
+    frame.velocity_sigma.tail<3>().setConstant(parameters_.row_turn_sigma);
   }
 
   void add_point(const Map& map, int id) {
@@ -140,10 +149,11 @@ class Adjustment {
   std::size_t text_views_;                       // at most, of a text
   int scale_frame_a_ = -1, scale_frame_b_ = -1;  // of the window
   textplane::Window window_;
-  std::vector<std::shared_ptr<const Pyramid>> images_;  // of the window's frames
-  std::vector<textplane::TextPatch> patches_;           // of its texts
-  std::vector<int> slot_of_;                            // key frame id -> frame of the window, -1: not in it
-  std::vector<int> frames_, points_, texts_;            // index in the window -> id
+  std::vector<std::shared_ptr<const Pyramid>> images_;             // of the window's frames
+  std::vector<std::shared_ptr<const textplane::RowMotion>> rows_;  // likewise
+  std::vector<textplane::TextPatch> patches_;                      // of its texts
+  std::vector<int> slot_of_;                                       // key frame id -> frame of the window, -1: not in it
+  std::vector<int> frames_, points_, texts_;                       // index in the window -> id
 };
 
 class StagedWindow : public StagedAdjustment {

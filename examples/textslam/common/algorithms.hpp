@@ -1,4 +1,4 @@
-// Small algorithms on vectors: order statistics (others are in textplane/landmarks/order.hpp) and removal.
+// Small algorithms on vectors: order statistics (others are in textplane/core/order.hpp) and removal.
 #ifndef TEXTSLAM_COMMON_ALGORITHMS_HPP
 #define TEXTSLAM_COMMON_ALGORITHMS_HPP
 
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "textplane/landmarks/order.hpp"
+#include "textplane/core/order.hpp"
 
 namespace textslam {
 

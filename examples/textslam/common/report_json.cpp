@@ -42,9 +42,9 @@ Json short_corners(const std::array<Vector3<double>, 4>& corners) {
   return out;
 }
 
-Json short_quad(const Quad<double>& quad) {
+Json short_polygon(const std::vector<Vector2<double>>& corners) {
   Json out = Json::array();
-  for (const auto& corner : quad.corner) {
+  for (const auto& corner : corners) {
     if (!corner.allFinite()) return nullptr;
     for (const double value : {corner.x(), corner.y()}) out.push_back(short_number(std::round(10 * value) / 10));
   }

@@ -22,8 +22,8 @@ Json short_vector(const Vector3<double>& v);
 Json short_pose(const SE3d& T);
 /// [[x, y, z], ...].
 Json short_corners(const std::array<Vector3<double>, 4>& corners);
-/// [x1, y1, ..., x4, y4] in tenths of a pixel; null where a corner is not finite.
-Json short_quad(const Quad<double>& quad);
+/// [x1, y1, x2, y2, ...] in tenths of a pixel; null where a corner is not finite.
+Json short_polygon(const std::vector<Vector2<double>>& corners);
 
 /// [[section, name, value, meaning], ...] in the order of the list.
 Json parameters_json(const Parameters& parameters);

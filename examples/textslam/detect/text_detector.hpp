@@ -18,9 +18,10 @@ class TextDetector {
   virtual ~TextDetector() = default;
   /// Whether frames of a video should bring their colours: FrameRef::colour. Files have theirs.
   virtual bool wants_colour() const { return false; }
-  /// Quads in raw image pixels, clockwise from the text's top left. May throw InputError. Called by one thread at a
-  /// time, not always the one that made it.
-  virtual std::vector<Detection> detect(const FrameRef& frame, ImageView8 raw_image) = 0;
+  /// Quads in pixels of the image, clockwise from the text's top left. May throw InputError. Called by one thread at a
+  /// time, not always the one that made it. The image is the frame's as it was taken, or where the lens bends lines of
+  /// text the view of it that make_detector() says.
+  virtual std::vector<Detection> detect(const FrameRef& frame, ImageView8 image) = 0;
 };
 
 /// Reads the text of a quad that another detector found.
@@ -31,7 +32,7 @@ class TextReader {
     std::string text = kUnreadText;
     double score = 0;  ///< 0 to 1.
   };
-  virtual Reading read(ImageView8 raw_image, const Quad<double>& quad) = 0;
+  virtual Reading read(ImageView8 image, const Quad<double>& quad) = 0;
 };
 
 struct DetectorOptions {
@@ -60,7 +61,9 @@ void register_plugin(TextPlugin plugin);
 std::vector<std::string> detector_names();
 std::vector<std::string> reader_names();
 
-/// The sequence must outlive the detector. Throws InputError where the plug-in was not built, and for a model that is
+/// The sequence must outlive the detector. Where its lens bends lines (rectified_view.hpp), all but "files", and
+/// readers, look at the middle of the image rectified, in grey unless the frame brings its colours; quads come back
+/// through the lens. Throws InputError where the plug-in was not built, and for a model that is
 /// missing or wrong; std::invalid_argument that lists the names for any other name.
 std::unique_ptr<TextDetector> make_detector(const DetectorOptions& options, const Sequence& sequence);
 

@@ -7,6 +7,7 @@
 #include "textslam/common/algorithms.hpp"
 #include "textslam/init/two_view.hpp"
 #include "textslam/map/observations.hpp"
+#include "textslam/map/point_normals.hpp"
 #include "textslam/track/feature_tracks.hpp"
 #include "textslam/track/point_mapper.hpp"
 #include "textslam/track/rotation_prior.hpp"
@@ -14,17 +15,17 @@
 
 namespace textslam {
 
-void Initialiser::restart(const Frame& frame) {
+void Initialiser::restart(const Frame& frame, const CameraView& camera) {
   reference_ = last_ = frame;
   tracks_.clear();
   std::vector<Quad<double>> quads;
   if (parameters_.mode == Mode::text) quads = quads_of(frame.detections);
-  add_corners(frame, 0, quads, parameters_, tracks_);
+  add_corners(frame, camera, 0, quads, parameters_, tracks_);
   corners_ = static_cast<int>(tracks_.size());
   hypotheses_.clear();
 }
 
-void Initialiser::add_detections(int frame, std::vector<Detection> detections) {
+void Initialiser::add_detections(int frame, std::vector<Detection> detections, const CameraView& camera) {
   if (tracks_.empty() || reference_.index != frame) return;
   reference_.detections = std::move(detections);
   // Hypotheses are judged by corners that were followed from their first view on.
@@ -36,25 +37,26 @@ void Initialiser::add_detections(int frame, std::vector<Detection> detections) {
     now.push_back(track.px);
     track.px = track.observations.front().px.cast<float>();
   }
-  const std::vector<Track> corners = track_from_keyframe(reference_, 0, quads, then, now, last_, parameters_);
+  const std::vector<Track> corners = track_from_keyframe(reference_, camera, 0, quads, then, now, last_, parameters_);
   tracks_.insert(tracks_.end(), corners.begin(), corners.end());
 }
 
 bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) {
   if (tracks_.empty()) {
-    restart(frame);
+    restart(frame, map.camera);
     return false;
   }
   const RotationPrior prior = find_rotation(last_, frame, map.camera, Eigen::Matrix3d::Identity(), parameters_);
   std::vector<Vec2f> guesses;
   for (const Track& track : tracks_) {
-    const Vec3 m = prior.R_b_a * map.camera.unproject(track.px.cast<double>());
-    guesses.push_back(map.camera.project(m).cast<float>());
+    const Vec3 m = prior.R_b_a * ray_of(map.camera, track.px.cast<double>());
+    guesses.push_back(map.camera.in_domain(m) ? map.camera.project(m).cast<float>() : track.px);
   }
-  advance_tracks(last_, frame, guesses, parameters_, tracks_);
+  advance_tracks(last_, frame, map.camera, guesses, parameters_, tracks_);
+  if (last_.index == reference_.index) beside_ = frame;
   last_ = frame;
   if (static_cast<int>(tracks_.size()) < matches_needed()) {
-    restart(frame);
+    restart(frame, map.camera);
     return false;
   }
   const std::optional<Motion> motion =
@@ -78,13 +80,13 @@ int Initialiser::matches_needed() const {
   return on_text >= parameters_.init_min_text_matches ? parameters_.init_min_text_matches : needed;
 }
 
-std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const Pinhole<double>& camera) {
+std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const CameraView& camera) {
   std::vector<Vec3> a, b;
   for (const Track& track : tracks_) {
-    a.push_back(camera.unproject(track.observations[0].px));
-    b.push_back(camera.unproject(track.px.cast<double>()));
+    a.push_back(ray_of(camera, track.observations[0].px));
+    b.push_back(ray_of(camera, track.px.cast<double>()));
   }
-  const TwoView view = estimate_two_view(a, b, camera.fx, parameters_);
+  const TwoView view = estimate_two_view(a, b, camera.pinhole.fx, parameters_);
   if (!view.ok || view.inliers < matches_needed() || view.parallax < parameters_.init_min_parallax ||
       view.direction_sigma > parameters_.init_max_direction || view.rms > parameters_.init_max_rms)
     return std::nullopt;
@@ -99,7 +101,7 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const Pinhol
   return std::nullopt;
 }
 
-std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const Pinhole<double>& camera) {
+std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const CameraView& camera) {
   std::vector<double> flow;
   for (const Track& track : tracks_) flow.push_back((track.observations.back().px - track.px.cast<double>()).norm());
   if (median(std::move(flow)) < parameters_.init_view_flow) return std::nullopt;
@@ -110,7 +112,7 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const Pinho
   }
   hypotheses_.judge(tracks_, camera, full);
   if (hypotheses_.rms() > parameters_.init_max_rms) {
-    restart(last_);
+    restart(last_, camera);
     return std::nullopt;
   }
   if (!hypotheses_.won() && last_.timestamp - began_ < parameters_.init_patience) return std::nullopt;
@@ -122,12 +124,12 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const Pinho
 }
 
 // Degrees, median over the inliers, the rotation removed.
-double Initialiser::parallax(const Motion& motion, const Pinhole<double>& camera) const {
+double Initialiser::parallax(const Motion& motion, const CameraView& camera) const {
   std::vector<double> angles;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!motion.inlier[i]) continue;
-    const Vec3 turned = motion.T_b_a.R * camera.unproject(tracks_[i].observations[0].px);
-    angles.push_back(degrees_between(turned, camera.unproject(tracks_[i].px.cast<double>())));
+    const Vec3 turned = motion.T_b_a.R * ray_of(camera, tracks_[i].observations[0].px);
+    angles.push_back(degrees_between(turned, ray_of(camera, tracks_[i].px.cast<double>())));
   }
   return median(std::move(angles));
 }
@@ -155,6 +157,7 @@ bool Initialiser::build(const Frame& frame, const Motion& motion, Map& map, std:
   }
   for (KeyFrame& keyframe : map.keyframes) keyframe.T_w_c.t /= depth;
   for (MapPoint& point : map.points) point.p_w /= depth;
+  for (const int id : map.keyframe_ids()) fit_point_normals(map, parameters_, id);
   erase_bad_tracks(map, kept);
   *tracks = std::move(kept);
   forget();

@@ -17,8 +17,10 @@ class Initialiser {
   /// Takes the next frame. True when `map` now holds two key frames (the reference and this frame) and their points,
   /// with a median depth of 1, and `tracks` the corners in this frame.
   bool add(const Frame& frame, Map& map, std::vector<Track>* tracks);
-  /// Late detections of a frame added before; used if it is the reference.
-  void add_detections(int frame, std::vector<Detection> detections);
+  /// Late detections of a frame added before; used if it is the reference. `camera`: of the map.
+  void add_detections(int frame, std::vector<Detection> detections, const CameraView& camera);
+  /// The frame after the reference of the map just made.
+  const Frame& beside() const { return beside_; }
   /// The next frame begins anew.
   void forget() {
     tracks_.clear();
@@ -32,19 +34,19 @@ class Initialiser {
     std::vector<char> inlier;  // per track
   };
 
-  void restart(const Frame& frame);
+  void restart(const Frame& frame, const CameraView& camera);
   int matches_needed() const;
-  std::optional<Motion> motion_of_two_views(const Pinhole<double>& camera);
-  std::optional<Motion> motion_of_hypotheses(const Pinhole<double>& camera);
-  double parallax(const Motion& motion, const Pinhole<double>& camera) const;
+  std::optional<Motion> motion_of_two_views(const CameraView& camera);
+  std::optional<Motion> motion_of_hypotheses(const CameraView& camera);
+  double parallax(const Motion& motion, const CameraView& camera) const;
   bool build(const Frame& frame, const Motion& motion, Map& map, std::vector<Track>* tracks);
 
   const Parameters& parameters_;
-  Frame reference_, last_;
-  std::vector<Track> tracks_;    // observations: in the reference frame, then in the views of the hypotheses
-  int corners_ = 0;              // that the reference frame had
-  MotionHypotheses hypotheses_;  // empty while two views may decide
-  double began_ = 0;             // time of the frame that the hypotheses are from, s
+  Frame reference_, beside_, last_;  // beside_: the frame after the reference
+  std::vector<Track> tracks_;        // observations: in the reference frame, then in the views of the hypotheses
+  int corners_ = 0;                  // that the reference frame had
+  MotionHypotheses hypotheses_;      // empty while two views may decide
+  double began_ = 0;                 // time of the frame that the hypotheses are from, s
 };
 
 }  // namespace textslam

@@ -18,12 +18,12 @@ struct Corner {
   bool ok = false;
 };
 
-std::vector<Corner> triangulate(const std::vector<Track>& tracks, const Pinhole<double>& camera,
+std::vector<Corner> triangulate(const std::vector<Track>& tracks, const CameraView& camera,
                                 const std::vector<SE3d>& T_c_a) {
   std::vector<Corner> points(tracks.size());
   std::vector<Vec3> rays(T_c_a.size());
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    for (std::size_t v = 0; v < T_c_a.size(); ++v) rays[v] = camera.unproject(tracks[i].observations[v].px);
+    for (std::size_t v = 0; v < T_c_a.size(); ++v) rays[v] = ray_of(camera, tracks[i].observations[v].px);
     points[i].ok = textplane::is_ok(
         textplane::triangulate_views(T_c_a.data(), rays.data(), static_cast<int>(rays.size()), &points[i].p_a));
   }
@@ -36,8 +36,8 @@ bool same_motion(const SE3d& x, const SE3d& y, const Parameters& parameters) {
 }
 
 // The reference's frame is fixed, the first; the distance to the second holds the scale.
-textplane::Window window_of(const std::vector<Track>& tracks, const Pinhole<double>& camera,
-                            const std::vector<SE3d>& T_c_a, const std::vector<Corner>& points, double sigma) {
+textplane::Window window_of(const std::vector<Track>& tracks, const CameraView& camera, const std::vector<SE3d>& T_c_a,
+                            const std::vector<Corner>& points, double sigma) {
   textplane::Window window;
   window.camera = camera;
   for (const SE3d& T : T_c_a) window.frames.push_back({T.inverse(), window.frames.empty(), {}});
@@ -62,7 +62,7 @@ void MotionHypotheses::begin(const std::vector<SE3d>& T_b_a) {
   for (const SE3d& T : T_b_a) hypotheses_.push_back({{SE3d{}, T}, 0, {}});
 }
 
-void MotionHypotheses::judge(const std::vector<Track>& tracks, const Pinhole<double>& camera, bool replaced) {
+void MotionHypotheses::judge(const std::vector<Track>& tracks, const CameraView& camera, bool replaced) {
   for (Hypothesis& hypothesis : hypotheses_) {
     if (replaced && hypothesis.T_c_a.size() > 2) hypothesis.T_c_a.pop_back();
     add_view(tracks, camera, hypothesis);
@@ -88,7 +88,7 @@ void MotionHypotheses::judge(const std::vector<Track>& tracks, const Pinhole<dou
 }
 
 // The newest view's pose, by the points of the views before.
-void MotionHypotheses::add_view(const std::vector<Track>& tracks, const Pinhole<double>& camera,
+void MotionHypotheses::add_view(const std::vector<Track>& tracks, const CameraView& camera,
                                 Hypothesis& hypothesis) const {
   const std::vector<Corner> points = triangulate(tracks, camera, hypothesis.T_c_a);
   std::vector<textplane::PosePointTerm> terms;
@@ -104,7 +104,7 @@ void MotionHypotheses::add_view(const std::vector<Track>& tracks, const Pinhole<
   hypothesis.T_c_a.push_back(pose);
 }
 
-void MotionHypotheses::adjust(const std::vector<Track>& tracks, const Pinhole<double>& camera,
+void MotionHypotheses::adjust(const std::vector<Track>& tracks, const CameraView& camera,
                               Hypothesis& hypothesis) const {
   const std::vector<Corner> points = triangulate(tracks, camera, hypothesis.T_c_a);
   textplane::Window window = window_of(tracks, camera, hypothesis.T_c_a, points, parameters_.window_point_sigma);

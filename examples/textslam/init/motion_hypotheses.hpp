@@ -28,7 +28,7 @@ class MotionHypotheses {
 
   /// Takes a further view. `tracks`: each with one observation a view, the newest last. `replaced`: the newest view
   /// replaces the one before. Drops hypotheses that are clearly worse than another, or the same as a better one.
-  void judge(const std::vector<Track>& tracks, const Pinhole<double>& camera, bool replaced);
+  void judge(const std::vector<Track>& tracks, const CameraView& camera, bool replaced);
 
   // Of the best hypothesis, as last judged.
   const SE3d& T_newest_a() const { return hypotheses_.front().T_c_a.back(); }
@@ -44,8 +44,8 @@ class MotionHypotheses {
     std::vector<char> inlier;
   };
 
-  void add_view(const std::vector<Track>& tracks, const Pinhole<double>& camera, Hypothesis& hypothesis) const;
-  void adjust(const std::vector<Track>& tracks, const Pinhole<double>& camera, Hypothesis& hypothesis) const;
+  void add_view(const std::vector<Track>& tracks, const CameraView& camera, Hypothesis& hypothesis) const;
+  void adjust(const std::vector<Track>& tracks, const CameraView& camera, Hypothesis& hypothesis) const;
 
   const Parameters& parameters_;
   std::vector<Hypothesis> hypotheses_;  // the best first

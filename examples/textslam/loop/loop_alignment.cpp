@@ -25,14 +25,13 @@ NormalEquations linearise(const Map& map, const Parameters& parameters, const Ma
     for (const Track& track : sighting.tracks) {
       if (map.point(track.point).bad) continue;
       const Vec3 q = S_k_w * map.point(track.point).p_w, p = T_j_k * q;
-      if (!(p.z() > 0)) continue;
+      if (!map.camera.in_domain(p)) continue;
       Eigen::Matrix<double, 2, 3> P;
-      P << map.camera.fx / p.z(), 0, -map.camera.fx * p.x() / (p.z() * p.z()),  //
-          0, map.camera.fy / p.z(), -map.camera.fy * p.y() / (p.z() * p.z());
+      const Vec2 px = map.camera.project(p, &P);
       Eigen::Matrix<double, 3, 7> Q;
       Q << -Eigen::Matrix3d::Identity(), textplane::hat(q), -q;
       const Eigen::Matrix<double, 2, 7> J = P * T_j_k.R * Q / parameters.point_sigma;
-      const Vec2 e = (map.camera.project(p) - track.px.cast<double>()) / parameters.point_sigma;
+      const Vec2 e = (px - track.px.cast<double>()) / parameters.point_sigma;
       const double w = e.norm() > parameters.loop_huber ? parameters.loop_huber / e.norm() : 1;
       out.H += w * J.transpose() * J;
       out.b -= w * J.transpose() * e;

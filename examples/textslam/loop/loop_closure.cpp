@@ -33,7 +33,7 @@ int old_points_in_view(const Map& map, const LocalMap& local, const Parameters& 
     const MapPoint& point = map.points[i];
     if (point.bad || local.has_point(static_cast<int>(i))) continue;
     const Vec3 p = T_c_w * point.p_w;
-    if (!(p.z() > 0)) continue;
+    if (!map.camera.in_domain(p)) continue;
     const Vec2 px = map.camera.project(p);
     if (!(px.x() >= 0 && px.y() >= 0 && px.x() < map.width && px.y() < map.height)) continue;
     const Vec3 from_host = point.p_w - map.keyframe(point.observations.front().keyframe).T_w_c.t;
@@ -145,7 +145,7 @@ Drift drift_left(const Map& map, const Parameters& parameters, const Loop& loop)
   const SE3d& T_w_c = map.keyframe(loop.keyframe).T_w_c;
   PoseEstimate refitted{T_w_c.inverse()};
   const std::vector<SeenPoint> old_points = seen_points(loop.seen.tracks, loop.seen.tracks.size());
-  if (!refit_pose(map, parameters, old_points, &refitted)) return left;
+  if (!refit_pose(map, parameters, map.view_of(loop.keyframe), old_points, &refitted)) return left;
   const SE3d& by_old = refitted.T_c_w;
   const SE3d T_c_w = T_w_c.inverse();
   std::vector<double> ratios;

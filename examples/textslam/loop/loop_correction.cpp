@@ -48,6 +48,7 @@ class DriftCorrection {
       if (point.bad) continue;
       const int host = point.observations.front().keyframe;
       point.p_w = node(nodes_, host) * (inverse(node(before_, host)) * point.p_w);
+      point.normal_w = node(nodes_, host).R * (node(before_, host).R.transpose() * point.normal_w);
     }
     for (TextObject& text : map_.texts) {
       const double s = node(nodes_, text.host).scale;
@@ -146,7 +147,7 @@ double shift_seen(const Map& map, const Loop& loop) {
   for (const Track& track : loop.seen.tracks) {
     if (track.point < 0 || !track.inlier) continue;
     const Vec3 p = T_c_w * map.point(track.point).p_w;
-    shifts.push_back(p.z() > 0 ? (map.camera.project(p) - track.px.cast<double>()).norm() : map.width);
+    shifts.push_back(map.camera.in_domain(p) ? (map.camera.project(p) - track.px.cast<double>()).norm() : map.width);
   }
   return median(std::move(shifts));
 }

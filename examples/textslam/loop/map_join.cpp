@@ -123,7 +123,7 @@ class Linker {
       return;
     const SE3d T_a_c = T_c_a.inverse(), T_b_c = T_c_b.inverse();
     for (const Vec2& corner : quad_a.corner) {
-      const Vec3 ray = a_.camera.unproject(corner);
+      const Vec3 ray = ray_of(a_.camera, corner);
       Vec3 in_a, in_b;
       if (textplane::is_ok(textplane::plane_point(theta_a, ray, &in_a)) &&
           textplane::is_ok(textplane::plane_point(theta_b, ray, &in_b)))
@@ -176,6 +176,7 @@ JoinedIds join_maps(Map& a, const Map& b, const MapLink& link, const Parameters&
     if (id < 0) {
       id = static_cast<int>(a.points.size());
       a.points.push_back({link.S_a_b * point.p_w});
+      a.points.back().normal_w = link.S_a_b.R * point.normal_w;
     }
     a.point(id).visible += point.visible;
     a.point(id).found += point.found;

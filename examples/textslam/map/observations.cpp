@@ -43,11 +43,11 @@ double reprojection_error(const Map& map) {
   double sum = 0;
   std::size_t count = 0;
   for (const int id : map.keyframe_ids()) {
-    const SE3d T_c_w = map.keyframe(id).T_w_c.inverse();
     for (const int point : map.keyframe(id).points) {
-      const Vec3 p = T_c_w * map.point(point).p_w;
       const Vec2* const seen = observed_in(map.point(point).observations, id);
-      if (!seen || !(p.z() > 0)) continue;
+      if (!seen) continue;
+      const Vec3 p = map.T_c_w_at(id, *seen) * map.point(point).p_w;
+      if (!map.camera.in_domain(p)) continue;
       sum += (map.camera.project(p) - *seen).squaredNorm();
       ++count;
     }

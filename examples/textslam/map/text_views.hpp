@@ -8,9 +8,18 @@
 
 namespace textslam {
 
-/// The text's quad as seen by the camera; false where a corner is behind it.
+/// The text's quad as seen by the camera; false where a corner is behind it, or beyond what its lens sees.
 inline bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Quad<double>* quad) {
   return textplane::project_text(text, map.T_c_h(T_c_w, text.host), map.camera, quad);
+}
+
+/// The text's quad in its host's image.
+inline Quad<double> host_quad(const Map& map, const TextObject& text) {
+  if (!map.camera.lens) return text.patch.quad;
+  Quad<double> quad;
+  for (std::size_t i = 0; i < 4; ++i)
+    quad.corner[i] = map.camera.pixel(text.patch.camera.unproject(text.patch.quad.corner[i]).head<2>());
+  return quad;
 }
 
 /// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
@@ -37,7 +46,7 @@ struct SurfacePoints {
       if (keyframe.culled) continue;
       const SE3d T_c_w = keyframe.T_w_c.inverse();
       const Vec3 p = T_c_w * point.p_w;
-      if (!(p.z() > 0)) continue;
+      if (!map.camera.in_domain(p)) continue;
       Eigen::Matrix<double, 2, 3> J;
       map.camera.project(p, &J);
       const Eigen::Matrix<double, 2, 3> J_w = J * T_c_w.R / sigma;

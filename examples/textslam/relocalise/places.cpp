@@ -153,7 +153,7 @@ void add_expected(const Map& map, const Parameters& parameters, const std::vecto
     const int point = looks[i].point;
     const Vec3 p = T_c_w * map.point(point).p_w;
     Vec2f px = Vec2f::Constant(-1e6F);  // out of reach
-    if (p.z() > 0) px = map.camera.project(p).cast<float>();
+    if (map.camera.in_domain(p)) px = map.camera.project(p).cast<float>();
     const CornerLook* found = nullptr;
     int best = parameters.place_max_bits + 1;
     for (; i < looks.size() && looks[i].point == point; ++i)
@@ -215,7 +215,8 @@ MatchedPose pose_by_places(const Map& map, const Parameters& parameters, FrameLo
   for (const int id : keyframes) {
     const std::vector<CornerLook> known = looks_still_observed(map, id, parameters);
     for (const LookMatch& match : match_looks(known, looks.all(), parameters))
-      matches.push_back(point_match(map, parameters, match.point, *match.found));
+      if (has_ray(map.camera, match.found->px.cast<double>()))
+        matches.push_back(point_match(map, parameters, match.point, *match.found));
   }
   MatchedPose pose = pose_of_matches(matches, map.camera, map.keyframe(keyframes.front()).T_w_c.inverse(), parameters);
   if (pose.inliers >= parameters.place_first_inliers) {

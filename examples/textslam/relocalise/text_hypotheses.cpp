@@ -25,10 +25,11 @@ class TextSearch {
       : map_(map), parameters_(parameters), frame_(frame) {}
 
   void compare(const Detection& detection, const TextObject& text) {
-    std::array<Vec3, 4> corners;
-    if (!textplane::is_ok(textplane::quad_points(text.patch.quad, map_.camera, text.theta, &corners))) return;
+    std::array<Vec3, 4> corners, rays;
+    if (!textplane::is_ok(textplane::text_corners(text, &corners)) || !rays_of(map_.camera, detection.quad, &rays))
+      return;
     Quad<double> image;
-    for (std::size_t i = 0; i < 4; ++i) image.corner[i] = map_.camera.unproject(detection.quad.corner[i]).hnormalized();
+    for (std::size_t i = 0; i < 4; ++i) image.corner[i] = rays[i].hnormalized();
     const PlanarPose pose = planar_pose(corners, image);
     for (int i = 0; i < pose.count; ++i) {
       const SE3d T_w_h = map_.keyframe(text.host).T_w_c;

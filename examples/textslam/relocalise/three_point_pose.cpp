@@ -42,14 +42,14 @@ class Draws {
   std::uint64_t state_ = 88172645463325252U;
 };
 
-bool agrees(const PointMatch& match, const Pinhole<double>& camera, const Parameters& parameters, const SE3d& T_c_w) {
+bool agrees(const PointMatch& match, const CameraView& camera, const Parameters& parameters, const SE3d& T_c_w) {
   const Vec3 p = T_c_w * match.p_w;
-  if (!(p.z() > 0)) return false;
+  if (!camera.in_domain(p)) return false;
   const double chi2 = (camera.project(p) - match.px).squaredNorm() / (match.sigma * match.sigma);
   return is_pose_inlier(parameters, static_cast<float>(chi2));
 }
 
-std::vector<PointMatch> agreeing(const std::vector<PointMatch>& matches, const Pinhole<double>& camera,
+std::vector<PointMatch> agreeing(const std::vector<PointMatch>& matches, const CameraView& camera,
                                  const Parameters& parameters, const SE3d& T_c_w) {
   std::vector<PointMatch> out;
   for (const PointMatch& match : matches)
@@ -57,7 +57,7 @@ std::vector<PointMatch> agreeing(const std::vector<PointMatch>& matches, const P
   return out;
 }
 
-bool fit(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, SE3d* T_c_w) {
+bool fit(const std::vector<PointMatch>& matches, const CameraView& camera, SE3d* T_c_w) {
   std::vector<textplane::PosePointTerm> terms;
   for (const PointMatch& match : matches) terms.push_back({match.p_w, match.px, match.sigma});
   const int count = static_cast<int>(terms.size());
@@ -105,7 +105,7 @@ Status three_point_pose(const std::array<Vec3, 3>& p_w, const std::array<Vec3, 3
   return Status::ok;
 }
 
-MatchedPose settled_pose(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, const SE3d& T_c_w,
+MatchedPose settled_pose(const std::vector<PointMatch>& matches, const CameraView& camera, const SE3d& T_c_w,
                          const Parameters& parameters) {
   MatchedPose best{T_c_w, 0};
   std::vector<PointMatch> agree = agreeing(matches, camera, parameters, T_c_w);
@@ -120,7 +120,7 @@ MatchedPose settled_pose(const std::vector<PointMatch>& matches, const Pinhole<d
   return best;
 }
 
-MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, const SE3d& T_near,
+MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const CameraView& camera, const SE3d& T_near,
                             const Parameters& parameters) {
   MatchedPose best;
   if (matches.size() < 3) return best;
@@ -131,7 +131,7 @@ MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const Pinhol
     for (std::size_t i = 0; i < 3; ++i) {
       const PointMatch& match = matches[draws.below(matches.size())];
       p_w[i] = match.p_w;
-      rays[i] = camera.unproject(match.px);
+      rays[i] = ray_of(camera, match.px);
       seen[i] = T_near * match.p_w;
     }
     // What looks larger than nearby is as much nearer.

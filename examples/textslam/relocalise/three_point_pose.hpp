@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "textplane/core/status.hpp"
-#include "textslam/common/geometry.hpp"
 #include "textslam/common/parameters.hpp"
+#include "textslam/common/rays.hpp"
 
 namespace textslam {
 
@@ -33,11 +33,11 @@ struct MatchedPose {
 };
 
 /// Fits a pose to the matches that agree with it, until no more do.
-MatchedPose settled_pose(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, const SE3d& T_c_w,
+MatchedPose settled_pose(const std::vector<PointMatch>& matches, const CameraView& camera, const SE3d& T_c_w,
                          const Parameters& parameters);
 
-/// `T_near`: pose of a similar view, world to camera.
-MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const Pinhole<double>& camera, const SE3d& T_near,
+/// `T_near`: pose of a similar view, world to camera. Pixels of the matches have rays.
+MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const CameraView& camera, const SE3d& T_near,
                             const Parameters& parameters);
 
 }  // namespace textslam

@@ -7,10 +7,10 @@
 namespace textslam {
 
 std::array<Vec3, 4> world_corners(const Map& map, const TextObject& text) {
-  std::array<Vec3, 4> corners;
+  std::array<Vec3, 4> corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  textplane::text_corners(text, &corners);
   const SE3d& T_w_h = map.keyframe(text.host).T_w_c;
-  for (std::size_t i = 0; i < 4; ++i)
-    corners[i] = T_w_h * textplane::plane_point<double>(text.theta, map.camera.unproject(text.patch.quad.corner[i]));
+  for (Vec3& corner : corners) corner = T_w_h * corner;
   return corners;
 }
 

@@ -24,7 +24,7 @@ struct ReportInput {
   const Sequence& sequence;
   const RunSummary& summary;
   const std::vector<TrueSign>& signs;                       ///< Empty where they are not known.
-  const std::map<int, std::vector<Detection>>& detections;  ///< By the frames that may be shown; undistorted px.
+  const std::map<int, std::vector<Detection>>& detections;  ///< By the frames that may be shown.
   ImageSource image;                                        ///< Called once for each picture.
   const std::vector<std::string>& command;                  ///< The command line, the program's name first.
   int first = 0, last = -1;                                 ///< Indices in the sequence of the frames.

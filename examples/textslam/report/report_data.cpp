@@ -24,7 +24,7 @@ double reprojection(const Map& map, const std::vector<SeenPoint>& seen, const SE
   int count = 0;
   for (const SeenPoint& s : seen) {
     const Vec3 p = T_c_w * map.point(s.point).p_w;
-    if (map.point(s.point).bad || !(p.z() > 0)) continue;
+    if (map.point(s.point).bad || !map.camera.in_domain(p)) continue;
     sum += (map.camera.project(p) - s.px.cast<double>()).squaredNorm();
     ++count;
   }

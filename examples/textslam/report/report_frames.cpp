@@ -9,6 +9,7 @@
 #include "textplane/landmarks/text_plane.hpp"
 #include "textplane/photometry/sample.hpp"
 #include "textslam/common/algorithms.hpp"
+#include "textslam/map/text_views.hpp"
 
 namespace textslam {
 namespace {
@@ -41,6 +42,38 @@ bool see_text(const Map& map, const Parameters& parameters, const TextObject& te
   return textplane::is_ok(cost.status);
 }
 
+constexpr int kPointsAnEdge = 8;  // of an outline that a lens bends
+
+// A detection whose sides are straight in the world, as the camera sees them. Where a corner has no ray: its corners.
+std::vector<Vec2> outline(const CameraView& camera, const Quad<double>& quad) {
+  std::array<Vec3, 4> rays;
+  std::vector<Vec2> corners(quad.corner.begin(), quad.corner.end()), points;
+  if (!camera.lens || !rays_of(camera, quad, &rays)) return corners;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (int k = 0; k < kPointsAnEdge; ++k) {
+      const double share = k / static_cast<double>(kPointsAnEdge);
+      const Vec3 p = (1 - share) * rays[i].normalized() + share * rays[(i + 1) % 4].normalized();
+      if (!camera.in_domain(p)) return corners;
+      points.push_back(camera.project(p));
+    }
+  return points;
+}
+
+// The text's outline as the camera sees it, whose lens bends its edges. Nothing is left out that a lens can show.
+std::vector<Vec2> outline(const Map& map, const TextObject& text, const SE3d& T_c_w, const Quad<double>& seen) {
+  if (!map.camera.lens) return {seen.corner.begin(), seen.corner.end()};
+  const SE3d T_c_h = map.T_c_h(T_c_w, text.host);
+  const auto& c = text.patch.quad.corner;
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (int k = 0; k < kPointsAnEdge; ++k) {
+      const Vec2 px = c[i] + k / static_cast<double>(kPointsAnEdge) * (c[(i + 1) % 4] - c[i]);
+      const Vec3 p = T_c_h * textplane::plane_point<double>(text.theta, text.patch.camera.unproject(px));
+      if (map.camera.in_domain(p)) points.push_back(map.camera.project(p));
+    }
+  return points;
+}
+
 }  // namespace
 
 std::string frame_jpeg(const Pyramid& image) {
@@ -64,7 +97,8 @@ std::string frame_jpeg(const Pyramid& image) {
 }
 
 std::string text_jpeg(const Map& map, const TextObject& text) {
-  const auto& c = text.patch.quad.corner;
+  const Quad<double> in_host = host_quad(map, text);
+  const auto& c = in_host.corner;
   const double wide = std::max((c[1] - c[0]).norm(), (c[2] - c[3]).norm());
   const double high = std::max((c[3] - c[0]).norm(), (c[2] - c[1]).norm());
   const Pyramid& image = *map.keyframe(text.host).frame.image;
@@ -72,15 +106,16 @@ std::string text_jpeg(const Map& map, const TextObject& text) {
   const int width = std::max(2, static_cast<int>(std::lround(scale * wide)));
   const int height = std::max(2, static_cast<int>(std::lround(scale * high)));
   const int level = level_for(image, std::max(wide, high), std::max(width, height));
-  const Pinhole<double> camera = map.camera.at_level(level);
+  const CameraView camera = map.camera.at_level(level);
   std::array<Vec3, 4> corner;
   for (std::size_t i = 0; i < 4; ++i)
-    corner[i] = textplane::plane_point<double>(text.theta, map.camera.unproject(c[i]));
+    corner[i] = textplane::plane_point<double>(text.theta, text.patch.camera.unproject(text.patch.quad.corner[i]));
   Image<std::uint8_t> picture(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const double u = (x + 0.5) / width, v = (y + 0.5) / height;
       const Vec3 p = (1 - v) * ((1 - u) * corner[0] + u * corner[1]) + v * ((1 - u) * corner[3] + u * corner[2]);
+      if (!camera.in_domain(p)) continue;
       const Vec2 px = camera.project(p);
       picture.view()(x, y) = sample(image.level(level), px.x(), px.y());
     }
@@ -109,7 +144,7 @@ Json frames_json(const System& system, const Parameters& parameters,
     const std::shared_ptr<const Pyramid> pyramid = image(index);
     Json found = Json::array(), points = Json::array(), texts = Json::array();
     for (const Detection& detection : detections.at(index))
-      found.push_back({{"quad", short_quad(detection.quad)}, {"text", detection.text}});
+      found.push_back({{"quad", short_polygon(outline(map.camera, detection.quad))}, {"text", detection.text}});
     for (const SeenPoint& seen : points_of(system, i))
       for (const float value : {seen.px.x(), seen.px.y()}) points.push_back(std::lround(value));
     if (record.state == FrameState::tracked) {
@@ -118,7 +153,9 @@ Json frames_json(const System& system, const Parameters& parameters,
         Quad<double> quad;
         double zncc = 0;
         if (text.state == TextState::mapped && see_text(map, parameters, text, *pyramid, T_c_w, &quad, &zncc))
-          texts.push_back({{"id", text.id}, {"quad", short_quad(quad)}, {"zncc", short_number(zncc)}});
+          texts.push_back({{"id", text.id},
+                           {"quad", short_polygon(outline(map, text, T_c_w, quad))},
+                           {"zncc", short_number(zncc)}});
       }
     }
     frames.push_back({{"frame", index},

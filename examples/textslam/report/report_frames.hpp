@@ -13,7 +13,7 @@
 
 namespace textslam {
 
-/// The image of a frame that was processed, undistorted; the frame's index counts from the run's first.
+/// The image of a frame that was processed; the frame's index counts from the run's first.
 using ImageSource = std::function<std::shared_ptr<const Pyramid>(int)>;
 
 // Bounds on the size of the report. A frame takes up to 4/3 kFrameBytes and 10 kB of marks, a map point 30 B.
@@ -31,6 +31,7 @@ std::string text_jpeg(const Map& map, const TextObject& text);
 
 /// The frames shown: [{"frame", "image", "detections":[{"quad","text"}], "points":[x,y,...],
 /// "texts":[{"id","quad","zncc"}]}], px of the whole image; the texts of the final map under the frame's final pose.
+/// Behind a lens the quad of such a text is curved: it has eight points an edge, from the first corner on.
 /// Shown are the processed frames among the keys of `detections`.
 Json frames_json(const System& system, const Parameters& parameters,
                  const std::map<int, std::vector<Detection>>& detections, const ImageSource& image);

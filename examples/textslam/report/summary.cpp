@@ -5,6 +5,7 @@
 #include "io/text_file.hpp"
 #include "textslam/common/algorithms.hpp"
 #include "textslam/map/observations.hpp"
+#include "textslam/report/calibration.hpp"
 
 namespace textslam {
 namespace {
@@ -67,7 +68,9 @@ void add_counts(Fields& fields, const RunSummary& s) {
   fields.add("maps", nullptr, s.map_frames.size());
   fields.add("map_frames", "map_frames", s.map_frames);
   add_loops(fields, s.loops);
+  if (s.readout != 0) fields.add("readout_s", nullptr, s.readout);
   if (s.approximate_fov > 0) fields.add("approximate_camera", nullptr, Json{{"fov_deg", s.approximate_fov}});
+  if (s.calibration) add_calibration(fields, *s.calibration, s.true_camera);
 }
 
 // The errors of a trajectory; the page has those of the final one, and the live one's ATE.
@@ -193,6 +196,8 @@ RunSummary summarise(const System& system, const Sequence& sequence, std::size_t
   s.reprojection_px = reprojection_error(map);
   s.notes = sequence.notes;
   s.approximate_fov = sequence.approximate_fov;
+  s.readout = system.map().shutter.readout;
+  s.true_camera = sequence.true_camera;
   s.has_detections = sequence.has_detections;
   s.has_truth = !sequence.groundtruth.empty();
   if (!s.has_truth) return s;
@@ -229,6 +234,10 @@ std::vector<std::string> warnings(const RunSummary& s) {
   if (s.approximate_fov > 0)
     out.push_back("the camera is approximate, a pinhole of " + shortest(s.approximate_fov) +
                   " degrees without lens distortion: take angles and shapes with care");
+  if (s.calibration && !s.calibration->determined)
+    out.push_back(
+        "the images do not tell the camera, for which it has to move and turn; it stays what it began with: " +
+        s.calibration->origin);
   if (s.map_frames.size() < 2) return out;
   std::string frames;
   for (const std::size_t count : s.map_frames) frames += (frames.empty() ? "" : ", ") + std::to_string(count);

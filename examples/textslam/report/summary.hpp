@@ -3,11 +3,13 @@
 #ifndef TEXTSLAM_REPORT_SUMMARY_HPP
 #define TEXTSLAM_REPORT_SUMMARY_HPP
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/evaluate.hpp"
 #include "io/sequence.hpp"
+#include "textslam/calibrate/self_calibration.hpp"
 #include "textslam/report/evaluate_poses.hpp"
 #include "textslam/report/evaluate_text.hpp"
 #include "textslam/report/fields.hpp"
@@ -20,13 +22,16 @@ struct RunSummary {
   int first_tracked_live = -1;  ///< Index of the frame at which the map began.
   std::size_t keyframes = 0, points = 0, texts = 0;
   std::vector<LoopRecord> loops;
-  std::vector<std::size_t> map_frames;  ///< Of each separate map, that of the outputs first.
-  double approximate_fov = 0;           ///< Degrees, of a guessed camera; 0: it is calibrated.
-  bool has_detections = false;          ///< The sequence has.
-  std::string detector;                 ///< Its name; empty where none ran.
-  std::size_t detected = 0;             ///< Boxes that it found.
-  std::size_t broken = 0;               ///< Frames that could not be read and were passed over.
-  std::vector<std::string> notes;       ///< Of the sequence.
+  std::vector<std::size_t> map_frames;         ///< Of each separate map, that of the outputs first.
+  double approximate_fov = 0;                  ///< Degrees, of a guessed camera; 0: it is calibrated.
+  double readout = 0;                          ///< s, of a rolling shutter, as known or estimated; 0: all rows at once.
+  std::optional<SelfCalibration> calibration;  ///< Where the camera was to be estimated.
+  std::optional<CameraModel> true_camera;      ///< Where the sequence has it.
+  bool has_detections = false;                 ///< The sequence has.
+  std::string detector;                        ///< Its name; empty where none ran.
+  std::size_t detected = 0;                    ///< Boxes that it found.
+  std::size_t broken = 0;                      ///< Frames that could not be read and were passed over.
+  std::vector<std::string> notes;              ///< Of the sequence.
   bool has_truth = false;
   TrajectoryEvaluation trajectory, live;
   PoseErrors final_live, filled_in;  ///< Of the final poses of frames that were live ones, and of the others.

@@ -3,7 +3,7 @@
 //   {"texts": [{"id", "text", "score", "readings": {word: votes}, "position", "normal", "image", "quad", "timestamp"}]}
 //
 // `position`, the centre of the text's quad, and `normal` are in the world frame. `image` is the file, in the
-// sequence's folder, of the key frame that shows the text largest; `quad` is where, in undistorted px. Each reading
+// sequence's folder, of the key frame that shows the text largest; `quad` is where, in px of it. Each reading
 // votes with its score for its word; `score` is the share of the text's own word.
 #ifndef TEXTSLAM_REPORT_TEXT_INDEX_HPP
 #define TEXTSLAM_REPORT_TEXT_INDEX_HPP

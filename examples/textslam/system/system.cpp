@@ -3,28 +3,26 @@
 #include <algorithm>
 
 #include "io/clock.hpp"
-#include "textplane/landmarks/text_merge.hpp"
 #include "textslam/adjust/adjustment.hpp"
 #include "textslam/common/algorithms.hpp"
+#include "textslam/common/wide_view.hpp"
 #include "textslam/map/culling.hpp"
-#include "textslam/relocalise/relocalisation.hpp"
-#include "textslam/text/loose_planes.hpp"
-#include "textslam/text/text_reading.hpp"
-#include "textslam/text/text_refiner.hpp"
+#include "textslam/map/point_normals.hpp"
 #include "textslam/track/feature_tracks.hpp"
-#include "textslam/track/observe_points.hpp"
 #include "textslam/track/point_mapper.hpp"
 
 namespace textslam {
 
-System::System(const Pinhole<double>& camera, int width, int height, const Parameters& parameters)
-    : parameters_(at_size(parameters, width, height)),
+System::System(const CameraView& camera, int width, int height, const Parameters& parameters,
+               const textplane::RollingShutter& shutter)
+    : parameters_(at_view(at_size(parameters, width, height), camera, width, height)),
       initialiser_(parameters_),
       text_mapper_(map_, local_, parameters_),
       adjuster_(parameters_) {
   map_.camera = camera;
   map_.width = width;
   map_.height = height;
+  map_.shutter = shutter.rows > 1 ? shutter : all_at_once(height);
 }
 
 const FrameRecord& System::process(const Frame& frame, double detect_ms) {
@@ -107,6 +105,7 @@ void System::begin_map(const Frame& frame, std::vector<Track> tracks, FrameRecor
   update_texts(frame, tracks);
   local_ = local_map(map_, parameters_, last_keyframe_);
   begin_tracking(frame, T_c_w, std::move(tracks));
+  roll_first_keyframe();
   record.map_ms = now_ms() - start;
 }
 
@@ -134,6 +133,8 @@ bool System::track(const Frame& frame, FrameRecord& record) {
 void System::follow(const Frame& frame, FrameRecord& record) {
   lost_frames_ = 0;
   set_pose(record, tracker_->pose());
+  record.rows = tracker_->frame().rows;
+  if (records_.size() > 1) roll(records_.size() - 2);
   const double start = now_ms();
   if (parameters_.mode != Mode::points) text_mapper_.associate(frame, tracker_->pose(), tracker_->tracks());
   record.seen = seen_points(tracker_->tracks(), static_cast<std::size_t>(parameters_.refit_max_points));
@@ -174,16 +175,22 @@ bool System::keyframe_needed(const Frame& frame) const {
 
 void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   std::vector<Track>& tracks = tracker_->tracks();
-  last_keyframe_ = insert_keyframe(map_, frame, tracker_->pose().inverse(), tracks);
+  last_keyframe_ = insert_keyframe(map_, tracker_->frame(), tracker_->pose().inverse(), tracks);
   record.information.setZero();  // from here on the pose is the key frame's
   const bool scarce = record.points < parameters_.scarce_points;
   triangulate_tracks(map_, parameters_, scarce ? parameters_.scarce_parallax : parameters_.min_parallax, tracks);
 
   const double start = now_ms();
-  adjuster_.keyframe_added(map_);
+  if (parameters_.estimate_readout && is_readout_due()) {
+    take_over(adjuster_.settle(map_));
+    estimate_readout();
+  } else {
+    adjuster_.keyframe_added(map_);
+  }
   record.adjust_ms = now_ms() - start;
   cull_points(map_, parameters_);
   erase_bad_tracks(map_, tracks);
+  fit_point_normals(map_, parameters_, last_keyframe_);
   map_changed(map_.keyframe(last_keyframe_).T_w_c.inverse(), &record);
   update_texts(frame, tracks);
   cull_keyframes();
@@ -202,7 +209,7 @@ void System::update_texts(const Frame& frame, std::vector<Track>& tracks) {
     text_mapper_.add_candidates(last_keyframe_, fresh);
     if (parameters_.mode == Mode::text) quads = quads_of(fresh);
   }
-  add_corners(frame, last_keyframe_, quads, parameters_, tracks);
+  add_corners(frame, map_.camera, last_keyframe_, quads, parameters_, tracks);
 }
 
 // The pose of a frame that is relative to a culled key frame becomes relative to the key frame before it.
@@ -231,67 +238,5 @@ void System::take_over(const Adjuster::Collected& adjusted) {
   records_[static_cast<std::size_t>(adjusted.frame)].adjust_ms = adjusted.ms;
   map_changed(tracker_ ? tracker_->pose() * adjusted.moved.inverse() : SE3d{}, nullptr);
 }
-
-void System::refit(FrameRecord& record) const {
-  if (record.state != FrameState::tracked || record.map != map_.number || record.seen.empty()) return;
-  PoseEstimate pose{final_pose(record).inverse(), parameters_.refit_live_weight * record.information};
-  if (!refit_pose(map_, parameters_, record.seen, &pose)) return;
-  record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * pose.T_c_w.inverse();
-  record.information = pose.information;
-}
-
-void System::fill_in(const std::function<Frame(int)>& load) {
-  if (map_.keyframes.size() < 2) return;
-  Tracker backwards(map_, parameters_);
-  bool going = false;  // the frame after this one was tracked backwards
-  for (int index = static_cast<int>(records_.size()) - 2; index >= 0; --index) {
-    FrameRecord& record = records_[static_cast<std::size_t>(index)];
-    const FrameRecord& next = records_[static_cast<std::size_t>(index) + 1];
-    if (record.state == FrameState::tracked || next.state != FrameState::tracked) {
-      going = false;
-      continue;
-    }
-    if (!going) {
-      const Frame start = load(index + 1);
-      const SE3d T_c_w = final_pose(next).inverse();
-      backwards.start(start, T_c_w, observe_from(map_, parameters_, start, T_c_w).tracks);
-    }
-    const TrackReport report = backwards.track(load(index));
-    going = report.ok;
-    if (!going) continue;
-    record.state = FrameState::tracked;
-    record.map = map_.number;
-    record.keyframe = next.keyframe;
-    record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * report.T_c_w.inverse();
-    record.points = report.inliers;
-    record.texts = report.texts;
-    record.information = report.information;
-    record.position_sigma = report.position_sigma;
-  }
-}
-
-void System::finish() {
-  take_over(adjuster_.settle(map_));
-  keep_largest();
-  if (map_.keyframes.size() < 2) return;
-  if (parameters_.mode == Mode::text && parameters_.loop_closure)
-    textplane::merge_duplicate_texts(parameters_.text, textplane::KeyframeLookup(map_), map_.texts);
-  adjust_all(map_, parameters_, parameters_.final_iterations);
-  // Poses are good to a pixel or two now: points are found where the tracker had lost them. That closes loops, too.
-  if (parameters_.loop_closure && observe_points_again(map_, parameters_) > 0)
-    adjust_all(map_, parameters_, parameters_.final_iterations);
-  if (parameters_.mode == Mode::loose) refresh_loose_planes(map_, parameters_);
-  if (parameters_.mode == Mode::text) {
-    // Observations were judged with early, rough planes. The adjusted planes are seen in more key frames, and a wider
-    // base settles their slant.
-    text_mapper_.observe_again();
-    adjust_all(map_, parameters_, parameters_.final_iterations);
-    refine_texts(map_, parameters_);
-  }
-  for (FrameRecord& record : records_) refit(record);
-  align_live_world();
-}
-
-void System::read_texts(TextReader& reader) { textslam::read_texts(map_, parameters_, reader); }
 
 }  // namespace textslam

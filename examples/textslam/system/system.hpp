@@ -52,13 +52,16 @@ struct FrameRecord {
   bool live = false;          ///< Tracked in the map when it came, not filled in or joined afterwards.
   double position_sigma = 0;  ///< Of the camera, as a share of the scene's depth, as tracked.
   int points = 0, texts = 0;
-  std::vector<SeenPoint> seen;  ///< Between key frames: what the pose rests on.
+  std::vector<SeenPoint> seen;                            ///< Between key frames: what the pose rests on.
+  std::shared_ptr<const textplane::RowMotion> rows = {};  ///< See Frame.
   double detect_ms = 0, track_ms = 0, klt_ms = 0, pose_ms = 0, reobserve_ms = 0, map_ms = 0, adjust_ms = 0;
 };
 
 class System {
  public:
-  System(const Pinhole<double>& camera, int width, int height, const Parameters& parameters);
+  /// The lens of the camera, if it has one, must outlive the system.
+  System(const CameraView& camera, int width, int height, const Parameters& parameters,
+         const textplane::RollingShutter& shutter = {});
 
   /// Takes the next frame; indices count up from 0. `detect_ms` is what the detector took, for the record.
   const FrameRecord& process(const Frame& frame, double detect_ms = 0);
@@ -100,6 +103,13 @@ class System {
   void cull_keyframes();
   void take_over(const Adjuster::Collected& adjusted);
   void map_changed(const SE3d& T_c_w, FrameRecord* newest, double scale = 1);
+  bool is_rolling() const;
+  bool is_readout_due() const;
+  void set_readout(double seconds);
+  void estimate_readout();
+  void roll_first_keyframe();
+  void roll(std::size_t index);
+  void roll_all();
   void set_pose(FrameRecord& record, const SE3d& T_c_w);
   void align_live_world();
   void refit(FrameRecord& record) const;

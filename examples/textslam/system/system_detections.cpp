@@ -10,7 +10,7 @@ void System::add_detections(int frame, std::vector<Detection> detections, double
   FrameRecord& record = records_[static_cast<std::size_t>(frame)];
   record.detect_ms = detect_ms;
   if (parameters_.mode == Mode::points) return;
-  if (map_.keyframes.empty()) return initialiser_.add_detections(frame, std::move(detections));
+  if (map_.keyframes.empty()) return initialiser_.add_detections(frame, std::move(detections), map_.camera);
   if (record.state != FrameState::tracked || record.map != map_.number) return;
 
   const auto newest_first = std::find_if(map_.keyframes.rbegin(), map_.keyframes.rend(),
@@ -43,7 +43,7 @@ void System::host_late(int id) {
   if (parameters_.mode == Mode::loose) return text_mapper_.add_candidates(id, fresh);
 
   const std::vector<Track> corners =
-      track_from_keyframe(host.frame, id, quads_of(fresh), then, now, tracker_->frame(), parameters_);
+      track_from_keyframe(host.frame, map_.camera, id, quads_of(fresh), then, now, tracker_->frame(), parameters_);
 
   std::vector<Track>& tracks = tracker_->tracks();
   for (const Detection& detection : fresh) {

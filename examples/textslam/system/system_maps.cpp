@@ -89,6 +89,7 @@ void System::join(std::size_t stored, const MapLink& link) {
   map_ = std::move(joined);
   last_keyframe_ += ids.first_keyframe;
 
+  roll_all();
   adjust_all(map_, parameters_, parameters_.final_iterations);
   if (parameters_.mode == Mode::text) text_mapper_.observe_again();
   erase_bad_tracks(map_, tracks);

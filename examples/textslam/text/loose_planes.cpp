@@ -49,7 +49,7 @@ PointsOfText points_in_quad(const Map& map, const TextObject& text) {
   for (std::size_t id = 0; id < map.points.size(); ++id) {
     if (map.points[id].bad) continue;
     const Vec3 p = T_h_w * map.points[id].p_w;
-    if (!(p.z() > 0) || !textplane::contains(text.patch.quad, map.camera.project(p))) continue;
+    if (!(p.z() > 0) || !textplane::contains(text.patch.quad, text.patch.camera.project(p))) continue;
     found.ids.push_back(static_cast<int>(id));
     found.m.push_back(p / p.z());
     found.rho.push_back(1 / p.z());
@@ -61,7 +61,7 @@ PointsOfText points_in_quad(const Map& map, const TextObject& text) {
 bool fit_text(const Map& map, const Parameters& parameters, TextObject& text, std::vector<int>* on_plane) {
   const PointsOfText points = points_in_quad(map, text);
   const LoosePlane plane = fit_loose_plane(points.m, points.rho, parameters);
-  if (!plane.ok || !is_plausible_plane(parameters.text, map.camera, text.patch.quad, plane.theta)) return false;
+  if (!plane.ok || !is_plausible_plane(parameters.text, text.patch.camera, text.patch.quad, plane.theta)) return false;
   text.theta = plane.theta;
   text.covariance = plane.covariance;
   on_plane->clear();

@@ -16,7 +16,8 @@ double depth_about(const Map& map, const Parameters& parameters, const SE3d& T_c
   std::vector<double> depths;
   for (const int id : map.keyframes.back().points) {
     const Vec3 p = T_c_w * map.point(id).p_w;
-    if (!map.point(id).bad && p.z() > 0 && (map.camera.project(p) - middle).norm() <= near) depths.push_back(p.z());
+    if (!map.point(id).bad && map.camera.in_domain(p) && (map.camera.project(p) - middle).norm() <= near)
+      depths.push_back(p.z());
   }
   return static_cast<int>(depths.size()) < parameters.text_carried_corners ? 0 : median(std::move(depths));
 }
@@ -27,7 +28,7 @@ bool PendingTexts::project(const Map& map, const SE3d& T_c_w, const Pending& pen
   if (pending.map != map.number) return false;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3 p = T_c_w * pending.corners[i];
-    if (!(p.z() > 0)) return false;
+    if (!map.camera.in_domain(p)) return false;
     quad->corner[i] = map.camera.project(p);
   }
   return true;
@@ -43,7 +44,8 @@ void PendingTexts::add(const Map& map, const Frame& frame, const SE3d& T_c_w,
   const SE3d T_w_c = T_c_w.inverse();
   for (const Detection& detection : detections) {
     const double depth = depth_about(map, parameters_, T_c_w, detection.quad);
-    if (!(depth > 0)) continue;
+    std::array<Vec3, 4> rays;
+    if (!(depth > 0) || !rays_of(map.camera, detection.quad, &rays)) continue;
     Pending pending;
     pending.map = map.number;
     pending.seen = frame.timestamp;
@@ -51,8 +53,7 @@ void PendingTexts::add(const Map& map, const Frame& frame, const SE3d& T_c_w,
     ++pending.count.detections;
     pending.count.shown = std::max(1, pending.count.shown);
     pending.newest = detection;
-    for (std::size_t i = 0; i < 4; ++i)
-      pending.corners[i] = T_w_c * Vec3(depth * map.camera.unproject(detection.quad.corner[i]));
+    for (std::size_t i = 0; i < 4; ++i) pending.corners[i] = T_w_c * Vec3(depth * rays[i]);
     all_.push_back(std::move(pending));
   }
 }

@@ -32,16 +32,17 @@ bool TextMapper::meets(const std::vector<Detection>& detections, const Quad<doub
 bool TextMapper::locate(const TextObject& text, const SE3d& T_c_w, const std::vector<Track>& tracks,
                         Quad<double>* quad) const {
   if (text.has_plane()) return facing(map_, text, T_c_w) > 0 && project_text(map_, text, T_c_w, quad);
+  const Quad<double> in_host = host_quad(map_, text);
   std::vector<double> dx, dy;
   for (const Track& track : tracks) {
     const Vec2* host_px = observed_in(observations_of(map_, track), text.host);
-    if (!host_px || !textplane::contains(text.patch.quad, *host_px)) continue;
+    if (!host_px || !textplane::contains(in_host, *host_px)) continue;
     dx.push_back(track.px.x() - host_px->x());
     dy.push_back(track.px.y() - host_px->y());
   }
   if (static_cast<int>(dx.size()) < parameters_.text_carried_corners) return false;
   const Vec2 shift(median(dx), median(dy));
-  for (std::size_t i = 0; i < 4; ++i) quad->corner[i] = text.patch.quad.corner[i] + shift;
+  for (std::size_t i = 0; i < 4; ++i) quad->corner[i] = in_host.corner[i] + shift;
   return true;
 }
 
@@ -60,18 +61,19 @@ bool TextMapper::has_parallax(const SE3d& T_c_w, const std::vector<Track>& track
     if (!waits || text.detections < 2 || text.detections < parameters_.text.detected_share * text.shown ||
         !local_.has_text(text.id) || !locate(text, T_c_w, tracks, &quad) || !is_whole(text, quad, T_c_w))
       return false;
+    const Quad<double> in_host = host_quad(map_, text);
     std::vector<double> parallax;
     for (const Track& track : tracks) {
       const auto& observations = observations_of(map_, track);
       const Vec2 *host_px = observed_in(observations, text.host), *then = observed_in(observations, last);
-      if (!host_px || !then || !textplane::contains(text.patch.quad, *host_px)) continue;
-      const Vec3 ray = map_.camera.unproject(Vec2(track.px.cast<double>()));
-      parallax.push_back(degrees_between(T_c_w.R.transpose() * ray, T_w_l.R * map_.camera.unproject(*then)));
+      if (!host_px || !then || !textplane::contains(in_host, *host_px)) continue;
+      const Vec3 ray = ray_of(map_.camera, track.px.cast<double>());
+      parallax.push_back(degrees_between(T_c_w.R.transpose() * ray, T_w_l.R * ray_of(map_.camera, *then)));
     }
     if (text.has_plane()) {
       const Vec3 centre =
           map_.keyframe(text.host).T_w_c *
-          textplane::plane_point(text.theta, map_.camera.unproject(textplane::centroid(text.patch.quad)));
+          textplane::plane_point(text.theta, text.patch.camera.unproject(textplane::centroid(text.patch.quad)));
       parallax.assign(1, degrees_between(centre - T_c_w.inverse().t, centre - T_w_l.t));
     }
     return !parallax.empty() && median(std::move(parallax)) >= parameters_.text_keyframe_parallax;
@@ -140,14 +142,24 @@ void TextMapper::add_candidates(int id, const std::vector<Detection>& detections
 // Rays of the corners tracked from the host to `keyframe`.
 TextMapper::Corners TextMapper::corners(const TextObject& text, int keyframe, const std::vector<Track>& tracks) const {
   Corners out;
+  const Quad<double> in_host = host_quad(map_, text);
   for (const Track& track : tracks) {
     const auto& observations = observations_of(map_, track);
     const Vec2 *host_px = observed_in(observations, text.host), *px = observed_in(observations, keyframe);
-    if (!host_px || !px || !textplane::contains(text.patch.quad, *host_px)) continue;
-    out.host.push_back(map_.camera.unproject(*host_px));
-    out.target.push_back(map_.camera.unproject(*px));
+    if (!host_px || !px || !textplane::contains(in_host, *host_px)) continue;
+    out.host.push_back(ray_of(map_.camera, *host_px));
+    out.target.push_back(ray_of(map_.camera, *px));
   }
   return out;
+}
+
+// The motion of key frame `id` from its time stamp to the row in the middle of these rays.
+SE3d TextMapper::middle_row(int id, const std::vector<Vec3>& rays) const {
+  const auto& rows = map_.keyframe(id).frame.rows;
+  if (!rows || rays.empty()) return {};
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& ray : rays) mean += ray / static_cast<double>(rays.size());
+  return map_.camera.in_domain(mean) ? rows->at(map_.camera.project(mean).y()) : SE3d{};
 }
 
 // The plane by the corners of key frame `id` and the images, and the views that agree with it. It replaces an earlier
@@ -156,9 +168,14 @@ bool TextMapper::find_plane(TextObject& text, int id, const std::vector<Track>& 
   TextObject found = text;
   Vec3 theta;
   const auto [host, target] = corners(text, id, tracks);
-  const Vec3 centre = map_.camera.unproject(textplane::centroid(text.patch.quad));
-  const SE3d T_t_h = map_.T_c_h(map_.keyframe(id).T_w_c.inverse(), text.host);
-  if (!plane_from_text_matches(parameters_.text, host, target, T_t_h, map_.camera.fx, centre, &theta) ||
+  const Vec3 centre = text.patch.camera.unproject(textplane::centroid(text.patch.quad));
+  SE3d T_t_h = map_.T_c_h(map_.keyframe(id).T_w_c.inverse(), text.host);
+  // Behind a rolling shutter between the rows in the middle of the corners.
+  const SE3d in_host = middle_row(text.host, host), in_target = middle_row(id, target);
+  if (map_.shutter.active()) T_t_h = in_target * T_t_h * in_host.inverse();
+  if (!plane_from_text_matches(parameters_.text, host, target, T_t_h, map_.camera.pinhole.fx, centre, &theta) ||
+      (map_.shutter.active() &&
+       !textplane::is_ok(textplane::reanchor_plane<double>(theta, in_host.inverse(), &theta))) ||
       !refine_text_plane(parameters_.text, KeyframeLookup(map_), {id}, theta, parameters_.text.min_zncc, found))
     return false;
   observe_until(found, id);

@@ -51,6 +51,7 @@ class TextMapper {
     std::vector<Vec3> host, target;
   };
   Corners corners(const TextObject& text, int keyframe, const std::vector<Track>& tracks) const;
+  SE3d middle_row(int id, const std::vector<Vec3>& rays) const;
   bool find_plane(TextObject& text, int id, const std::vector<Track>& tracks);
   bool plane_by_points(TextObject& text) const;
   void observe(TextObject& text, int keyframe, double min_share);

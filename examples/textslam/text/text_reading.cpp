@@ -17,9 +17,9 @@ struct Rectangle3 {
   Vec3 corner, along, down;
 };
 
-bool upright_rectangle(const Map& map, const TextObject& text, double max_length, Rectangle3* out) {
+bool upright_rectangle(const TextObject& text, double max_length, Rectangle3* out) {
   std::array<Vec3, 4> p;
-  if (!textplane::is_ok(textplane::quad_points(text.patch.quad, map.camera, text.theta, &p))) return false;
+  if (!textplane::is_ok(textplane::text_corners(text, &p))) return false;
   const Vec3 right = (p[1] - p[0] + p[2] - p[3]).normalized();
   const Vec3 down = right.cross(textplane::plane_normal(text.theta));
   double low_x = 0, high_x = 0, low_y = 0, high_y = 0;
@@ -60,7 +60,7 @@ SquareView square_view(const Map& map, const TextObject& text, int id, const Par
   const int height = parameters.reading_height;
   SquareView view;
   Rectangle3 rectangle;
-  if (!upright_rectangle(map, text, parameters.reading_max_length, &rectangle)) return view;
+  if (!upright_rectangle(text, parameters.reading_max_length, &rectangle)) return view;
   const SE3d T_k_h = map.T_c_h(map.keyframe(id).T_w_c.inverse(), text.host);
   const double step = rectangle.down.norm() / height;
   const int width = std::max(1, static_cast<int>(std::lround(rectangle.along.norm() / step)));
@@ -68,16 +68,16 @@ SquareView square_view(const Map& map, const TextObject& text, int id, const Par
   const Vec3 dx = T_k_h.R * rectangle.along / width, dy = T_k_h.R * rectangle.down / height;
   const Vec3 first = T_k_h * rectangle.corner + (0.5 - margin) * (dx + dy);  // centre of the picture's first pixel
   const Vec3 centre = first + 0.5 * (width + 2 * margin) * dx + 0.5 * (height + 2 * margin) * dy;
-  if (!(centre.z() > 0)) return view;
+  if (!map.camera.in_domain(centre)) return view;
 
   const Pyramid& image = *map.keyframe(id).frame.image;
-  const double px_a_step = map.camera.fx * step / centre.z();
+  const double px_a_step = focal_at(map.camera, centre) * step / centre.z();
   int level = 0;
   while (level + 1 < image.levels() && std::ldexp(px_a_step, -level) > parameters.reading_max_step) ++level;
   const ImageView8 pixels = image.level(level);
   const auto place = [&](double x, double y, Vec2* px) {
     const Vec3 p = first + x * dx + y * dy;
-    if (!(p.z() > 0)) return false;
+    if (!map.camera.in_domain(p)) return false;
     *px = ((map.camera.project(p).array() + 0.5) * std::ldexp(1.0, -level) - 0.5).matrix();
     return true;
   };

@@ -66,15 +66,15 @@ std::vector<textplane::KltResult> follow(const Frame& from, const Frame& to, con
 
 }  // namespace
 
-void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>& guesses, const Parameters& parameters,
-                    std::vector<Track>& tracks) {
+void advance_tracks(const Frame& from, const Frame& to, const CameraView& camera, const std::vector<Vec2f>& guesses,
+                    const Parameters& parameters, std::vector<Track>& tracks) {
   if (tracks.empty()) return;
   std::vector<Vec2f> start;
   for (const Track& track : tracks) start.push_back(track.px);
   const std::vector<textplane::KltResult> results = follow(from, to, start, guesses, parameters);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (!textplane::is_ok(results[i].status)) continue;
+    if (!textplane::is_ok(results[i].status) || !has_ray(camera, results[i].px.cast<double>())) continue;
     if (kept != i) tracks[kept] = std::move(tracks[i]);
     tracks[kept].px = results[i].px;
     ++kept;
@@ -82,8 +82,8 @@ void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>
   tracks.resize(kept);
 }
 
-void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double>>& quads, const Parameters& parameters,
-                 std::vector<Track>& tracks) {
+void add_corners(const Frame& frame, const CameraView& camera, int keyframe, const std::vector<Quad<double>>& quads,
+                 const Parameters& parameters, std::vector<Track>& tracks) {
   const textplane::ImageView8 image = frame.image->level(0);
   const int border = parameters.klt_radius + 2;
   std::vector<textplane::Corner> corners;
@@ -93,7 +93,8 @@ void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double
                          parameters.corner_choice * parameters.max_tracks, [](int threshold) { return threshold / 2; });
   const auto outside = [&](const textplane::Corner& c) {
     return c.x < static_cast<float>(border) || c.y < static_cast<float>(border) ||
-           c.x >= static_cast<float>(image.width() - border) || c.y >= static_cast<float>(image.height() - border);
+           c.x >= static_cast<float>(image.width() - border) || c.y >= static_cast<float>(image.height() - border) ||
+           !has_ray(camera, Vec2(c.x, c.y));
   };
   erase_if(corners, outside);
   const auto add = [&](std::vector<textplane::Corner>& candidates, int cell, int most) {

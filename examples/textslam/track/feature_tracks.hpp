@@ -8,14 +8,16 @@
 
 namespace textslam {
 
-/// Moves every track from frame `from` to frame `to`; those that fail are erased. `guesses` (px in `to`) may be empty.
-void advance_tracks(const Frame& from, const Frame& to, const std::vector<Vec2f>& guesses, const Parameters& parameters,
-                    std::vector<Track>& tracks);
+/// Moves every track from frame `from` to frame `to`, of one camera; those that fail, or come to a pixel without a ray,
+/// are erased. `guesses` (px in `to`) may be empty.
+void advance_tracks(const Frame& from, const Frame& to, const CameraView& camera, const std::vector<Vec2f>& guesses,
+                    const Parameters& parameters, std::vector<Track>& tracks);
 
-/// Adds corners of `frame` away from the tracks, up to max_tracks, and up to text_corners inside each of `quads`.
+/// Adds corners of `frame` that have a ray, away from the tracks, up to max_tracks, and up to text_corners inside each
+/// of `quads`.
 /// New tracks carry an observation in key frame `keyframe`.
-void add_corners(const Frame& frame, int keyframe, const std::vector<Quad<double>>& quads, const Parameters& parameters,
-                 std::vector<Track>& tracks);
+void add_corners(const Frame& frame, const CameraView& camera, int keyframe, const std::vector<Quad<double>>& quads,
+                 const Parameters& parameters, std::vector<Track>& tracks);
 
 }  // namespace textslam
 

@@ -18,12 +18,13 @@ int observe_points_again(Map& map, const Parameters& parameters) {
   for (const int id : map.keyframe_ids()) {
     const KeyFrame& keyframe = map.keyframe(id);
     const SE3d T_c_w = keyframe.T_w_c.inverse();
+    const CameraView camera = map.view_of(id);
     std::fill(observed.begin(), observed.end(), 0);
     for (const int point : keyframe.points) observed[static_cast<std::size_t>(point)] = 1;
     for (std::size_t k = 0; k < map.points.size(); ++k) {
       PointPrediction prediction;
       if (map.points[k].bad || observed[k] != 0 ||
-          !predict_point(map, parameters, map.points[k], T_c_w, keyframe.T_w_c.t, &prediction))
+          !predict_point(map, parameters, map.points[k], camera, T_c_w, keyframe.T_w_c.t, &prediction))
         continue;
       Vec2f px = prediction.px.cast<float>();
       if (find_point(map, parameters, prediction, keyframe.frame, 0, &px) &&

@@ -16,8 +16,8 @@ struct Rays {
 
   Rays(const Map& map, const Track& track) {
     for (const PointObservation& o : track.observations) {
-      poses.push_back(map.keyframe(o.keyframe).T_w_c.inverse());
-      rays.push_back(map.camera.unproject(o.px));
+      poses.push_back(map.T_c_w_at(o.keyframe, o.px));
+      rays.push_back(ray_of(map.camera, o.px));
     }
   }
   // Between the newest ray and any other, radians.
@@ -40,7 +40,8 @@ bool is_consistent(const Map& map, const Parameters& parameters, const Track& tr
                    const Vec3& p_w) {
   for (std::size_t i = 0; i < rays.poses.size(); ++i) {
     const Vec3 p = rays.poses[i] * p_w;
-    if (!(p.z() > 0) || !((map.camera.project(p) - track.observations[i].px).norm() < parameters.max_reprojection))
+    if (!map.camera.in_domain(p) ||
+        !((map.camera.project(p) - track.observations[i].px).norm() < parameters.max_reprojection))
       return false;
   }
   return true;

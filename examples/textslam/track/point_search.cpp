@@ -1,5 +1,6 @@
 #include "textslam/track/point_search.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -10,20 +11,35 @@
 namespace textslam {
 namespace {
 
-bool affine_to_host(const Pinhole<double>& camera, const SE3d& T_t_h, const Vec2& host_px, double host_depth,
+// The lens's derivative d m_d / d m.
+Eigen::Matrix2d lens_slope(const textplane::LensMap& lens, const Vec3& m) {
+  Eigen::Matrix2d D;
+  lens.distort({m.x() / m.z(), m.y() / m.z()}, &D);
+  return D;
+}
+
+// Plane of the point's surface in its host: parallel to the image where no normal is known.
+Vec3 surface_in_host(const Vec3& p, const Vec3& normal) {
+  constexpr double kLeastFacing = 0.2;  // a cosine; a surface at a greater slant was fitted from other views
+  if (normal.isZero(0)) return Vec3(0, 0, 1 / p.z());
+  const double height = normal.dot(p);
+  return height > kLeastFacing * p.norm() ? Vec3(normal / height) : Vec3(p / p.squaredNorm());
+}
+
+bool affine_to_host(const CameraView& camera, const SE3d& T_t_h, const Vec2& host_px, const Vec3& theta,
                     double max_area, Eigen::Matrix2f* A) {
-  const Vec3 theta(0, 0, 1 / host_depth);
-  const Vec3 m = camera.unproject(host_px);
+  const Vec3 m = ray_of(camera, host_px);
   const Eigen::Matrix3d H = textplane::plane_homography(theta, T_t_h);
   const Vec3 q = H * m;
-  if (!(q.z() > 0)) return false;
+  if (!camera.in_domain(q)) return false;
   Eigen::Matrix<double, 2, 3> P;
   P << 1 / q.z(), 0, -q.x() / (q.z() * q.z()), 0, 1 / q.z(), -q.y() / (q.z() * q.z());
   Eigen::Matrix2d forward = P * H.leftCols<2>();
-  forward.row(0) *= camera.fx;
-  forward.row(1) *= camera.fy;
-  forward.col(0) /= camera.fx;
-  forward.col(1) /= camera.fy;
+  if (camera.lens) forward = lens_slope(*camera.lens, q) * forward * lens_slope(*camera.lens, m).inverse();
+  forward.row(0) *= camera.pinhole.fx;
+  forward.row(1) *= camera.pinhole.fy;
+  forward.col(0) /= camera.pinhole.fx;
+  forward.col(1) /= camera.pinhole.fy;
   const double det = forward(0, 0) * forward(1, 1) - forward(0, 1) * forward(1, 0);
   if (!(std::abs(det) > 1 / max_area) || std::abs(det) > max_area) return false;
   Eigen::Matrix2d inverse;
@@ -34,11 +50,9 @@ bool affine_to_host(const Pinhole<double>& camera, const SE3d& T_t_h, const Vec2
 
 }  // namespace
 
-bool predict_point(const Map& map, const Parameters& parameters, const MapPoint& point, const SE3d& T_c_w,
-                   const Vec3& centre, PointPrediction* out) {
-  const Vec3 p = T_c_w * point.p_w;
-  if (!(p.z() > 0)) return false;
-  out->px = map.camera.project(p);
+bool predict_point(const Map& map, const Parameters& parameters, const MapPoint& point, const CameraView& camera,
+                   const SE3d& T_c_w, const Vec3& centre, PointPrediction* out) {
+  if (!show(camera, T_c_w * point.p_w, &out->px)) return false;
   const double border = parameters.point_patch_radius + 3;
   const Vec2& px = out->px;
   if (!(px.x() >= border && px.y() >= border && px.x() < map.width - border && px.y() < map.height - border))
@@ -57,7 +71,8 @@ bool predict_point(const Map& map, const Parameters& parameters, const MapPoint&
   if (!out->host) return false;
   const SE3d& T_w_h = map.keyframe(out->host->keyframe).T_w_c;
   const Vec3 in_host = T_w_h.inverse() * point.p_w;
-  return in_host.z() > 0 && affine_to_host(map.camera, T_c_w * T_w_h, out->host->px, in_host.z(),
+  return in_host.z() > 0 && affine_to_host(map.camera, T_c_w * T_w_h, out->host->px,
+                                           surface_in_host(in_host, T_w_h.R.transpose() * point.normal_w),
                                            parameters.point_patch_max_area, &out->A);
 }
 
@@ -92,7 +107,7 @@ bool find_point(const Map& map, const Parameters& parameters, const PointPredict
       return false;
     }
   }
-  return true;
+  return has_ray(map.camera, px->cast<double>());
 }
 
 }  // namespace textslam

@@ -27,7 +27,8 @@ std::vector<SeenPoint> seen_points(const std::vector<Track>& tracks, std::size_t
   return chosen;
 }
 
-bool refit_pose(const Map& map, const Parameters& parameters, const std::vector<SeenPoint>& seen, PoseEstimate* pose) {
+bool refit_pose(const Map& map, const Parameters& parameters, const CameraView& camera,
+                const std::vector<SeenPoint>& seen, PoseEstimate* pose) {
   std::vector<textplane::PosePointTerm> points;
   for (const SeenPoint& s : seen)
     if (!map.point(s.point).bad)
@@ -38,7 +39,7 @@ bool refit_pose(const Map& map, const Parameters& parameters, const std::vector<
   workspace.reserve(nullptr, 0, count);
   const textplane::PoseOptions options;
   std::vector<float> chi2(points.size());
-  const auto result = textplane::refine_pose(nullptr, 0, points.data(), count, textplane::PyramidView(), map.camera,
+  const auto result = textplane::refine_pose(nullptr, 0, points.data(), count, textplane::PyramidView(), camera,
                                              pose->T_c_w, options, workspace, nullptr, chi2.data());
   if (!textplane::is_ok(result.status)) return false;
   int inliers = 0;

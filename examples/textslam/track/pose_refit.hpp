@@ -22,9 +22,10 @@ inline bool is_pose_inlier(const Parameters& parameters, float chi2) {
 /// The inliers of the tracks, at most `most`, evenly spaced.
 std::vector<SeenPoint> seen_points(const std::vector<Track>& tracks, std::size_t most);
 
-/// The pose that fits what the frame saw, and the pose given, by their information. False, and the pose as it was,
-/// where too few points are left or fit.
-bool refit_pose(const Map& map, const Parameters& parameters, const std::vector<SeenPoint>& seen, PoseEstimate* pose);
+/// The pose that fits what the frame saw, and the pose given, by their information. `camera`: as it took the frame.
+/// False, and the pose as it was, where too few points are left or fit.
+bool refit_pose(const Map& map, const Parameters& parameters, const CameraView& camera,
+                const std::vector<SeenPoint>& seen, PoseEstimate* pose);
 
 }  // namespace textslam
 

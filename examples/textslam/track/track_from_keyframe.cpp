@@ -45,11 +45,12 @@ std::vector<Track> tracks_in_keyframe(const Map& map, int id, const std::vector<
   return in_keyframe;
 }
 
-std::vector<Track> track_from_keyframe(const Frame& then, int keyframe, const std::vector<Quad<double>>& quads,
-                                       const std::vector<Track>& tracks, const std::vector<Vec2f>& now,
-                                       const Frame& newest, const Parameters& parameters) {
+std::vector<Track> track_from_keyframe(const Frame& then, const CameraView& camera, int keyframe,
+                                       const std::vector<Quad<double>>& quads, const std::vector<Track>& tracks,
+                                       const std::vector<Vec2f>& now, const Frame& newest,
+                                       const Parameters& parameters) {
   std::vector<Track> corners = tracks;
-  add_corners(then, keyframe, quads, parameters, corners);
+  add_corners(then, camera, keyframe, quads, parameters, corners);
   corners.erase(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(tracks.size()));
   const auto outside = [&](const Track& corner) {
     return std::none_of(quads.begin(), quads.end(), [&](const Quad<double>& quad) {
@@ -59,7 +60,7 @@ std::vector<Track> track_from_keyframe(const Frame& then, int keyframe, const st
   erase_if(corners, outside);
   std::vector<Vec2f> guesses;
   for (const Track& corner : corners) guesses.push_back(guess(corner.px, tracks, now));
-  advance_tracks(then, newest, guesses, parameters, corners);
+  advance_tracks(then, newest, camera, guesses, parameters, corners);
   return corners;
 }
 

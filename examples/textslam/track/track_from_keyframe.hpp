@@ -15,9 +15,10 @@ std::vector<Track> tracks_in_keyframe(const Map& map, int id, const std::vector<
 
 /// New tracks inside the quads of `then`, a frame with id `keyframe`, tracked to `newest` in one step. They keep clear
 /// of the frame's `tracks`; `now`, where the first of these are in `newest`, tells where to expect them.
-std::vector<Track> track_from_keyframe(const Frame& then, int keyframe, const std::vector<Quad<double>>& quads,
-                                       const std::vector<Track>& tracks, const std::vector<Vec2f>& now,
-                                       const Frame& newest, const Parameters& parameters);
+std::vector<Track> track_from_keyframe(const Frame& then, const CameraView& camera, int keyframe,
+                                       const std::vector<Quad<double>>& quads, const std::vector<Track>& tracks,
+                                       const std::vector<Vec2f>& now, const Frame& newest,
+                                       const Parameters& parameters);
 
 }  // namespace textslam
 

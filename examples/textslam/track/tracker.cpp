@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 
 #include "io/clock.hpp"
-#include "textplane/landmarks/text_noise.hpp"
-#include "textplane/landmarks/text_view.hpp"
-#include "textplane/solver/pose.hpp"
-#include "textslam/common/algorithms.hpp"
-#include "textslam/map/observations.hpp"
 #include "textslam/track/feature_tracks.hpp"
-#include "textslam/track/pose_refit.hpp"
 #include "textslam/track/rotation_prior.hpp"
 
 namespace textslam {
@@ -30,15 +23,18 @@ void Tracker::correct(const SE3d& T_c_w, double scale) {
   velocity_.t *= scale;
 }
 
-TrackReport Tracker::track(const Frame& frame) {
+TrackReport Tracker::track(const Frame& taken) {
   TrackReport report;
   const double t0 = now_ms();
+  Frame frame = taken;
   const SE3d predicted = predict(frame);
+  roll(predicted, &frame);
   std::vector<Track> corners = take_corners();
   follow_points(frame, predicted);
   const double t1 = now_ms();
   SE3d pose = predicted;
   if (!fit_pose(frame, false, &pose, &report)) pose = predicted;
+  roll(pose, &frame);
   const double t2 = now_ms();
   follow_corners(frame, pose, std::move(corners));
   const double t3 = now_ms();
@@ -54,11 +50,25 @@ TrackReport Tracker::track(const Frame& frame) {
 
   for (const Track& track : tracks_)
     if (track.point >= 0 && track.inlier) report.found.push_back(track.point);
+  roll(pose, &frame);
   velocity_ = pose * T_c_w_.inverse();
+  seconds_ = frame.timestamp - frame_.timestamp;
+  speed_ = textplane::velocity_between(T_c_w_, pose, seconds_);
   moving_ = true;
   T_c_w_ = pose;
-  frame_ = frame;
+  frame_ = std::move(frame);
   return report;
+}
+
+// The motion of a frame's rows, if its pose is this: that between the last two frames, and as much on as it changed
+// there.
+void Tracker::roll(const SE3d& T_c_w, Frame* frame) const {
+  if (!map_.shutter.active() && !parameters_.estimate_readout) return;
+  const double seconds = frame->timestamp - frame_.timestamp;
+  const Vector6 speed = textplane::velocity_between(T_c_w_, T_c_w, seconds);
+  const double share = moving_ && seconds_ * seconds > 0 ? seconds / (seconds + seconds_) : 0;
+  frame->rows = std::make_shared<const textplane::RowMotion>(
+      textplane::RowMotion{speed + share * (speed - speed_), map_.shutter});
 }
 
 SE3d Tracker::predict(const Frame& frame) const {
@@ -84,9 +94,10 @@ std::vector<Track> Tracker::take_corners() {
   return corners;
 }
 
-Vec2f Tracker::guess(const Vec3& p_c, const Vec2f& otherwise) const {
+Vec2f Tracker::guess(const Frame& frame, const Vec3& p_c, const Vec2f& otherwise) const {
   constexpr double kMinDepth = 0.1;  // nearer, the projection of a guess means nothing
-  return p_c.z() > kMinDepth ? map_.camera.project(p_c).cast<float>() : otherwise;
+  Vec2 px;
+  return p_c.z() > kMinDepth && show(map_.view_of(frame), p_c, &px) ? px.cast<float>() : otherwise;
 }
 
 // Points of the map are expected where the predicted pose sees them.
@@ -94,10 +105,11 @@ void Tracker::follow_points(const Frame& frame, const SE3d& predicted) {
   const Eigen::Matrix3d turn = predicted.R * T_c_w_.R.transpose();
   std::vector<Vec2f> guesses;
   for (const Track& track : tracks_)
-    guesses.push_back(guess(track.inlier ? predicted * map_.point(track.point).p_w
-                                         : Vec3(turn * map_.camera.unproject(track.px.cast<double>())),
+    guesses.push_back(guess(frame,
+                            track.inlier ? predicted * map_.point(track.point).p_w
+                                         : Vec3(turn * ray_of(map_.camera, track.px.cast<double>())),
                             track.px));
-  advance_tracks(frame_, frame, guesses, parameters_, tracks_);
+  advance_tracks(frame_, frame, map_.camera, guesses, parameters_, tracks_);
 }
 
 // Corners without depth are expected as if they were as far away as the nearest point of the map.
@@ -110,24 +122,27 @@ void Tracker::follow_corners(const Frame& frame, const SE3d& T_c_w, std::vector<
   for (const Track& track : tracks_) {
     if (!track.inlier) continue;
     const Vec3 p = T_c_w_ * map_.point(track.point).p_w;
-    if (p.z() > 0) depths.push_back({map_.camera.project(p).cast<float>(), p.z()});
+    Vec2 px;
+    if (show(map_.view_of(frame_), p, &px)) depths.push_back({px.cast<float>(), p.z()});
   }
   const SE3d T_now_before = T_c_w * T_c_w_.inverse();
   std::vector<Vec2f> guesses;
   for (const Track& corner : corners) {
-    const Vec3 ray = map_.camera.unproject(corner.px.cast<double>());
+    const Vec3 ray = ray_of(map_.camera, corner.px.cast<double>());
     const auto nearest = std::min_element(depths.begin(), depths.end(), [&](const Depth& a, const Depth& b) {
       return (a.px - corner.px).squaredNorm() < (b.px - corner.px).squaredNorm();
     });
-    guesses.push_back(
-        guess(nearest == depths.end() ? Vec3(T_now_before.R * ray) : T_now_before * (nearest->z * ray), corner.px));
+    Vec3 p = nearest == depths.end() ? ray : Vec3(nearest->z * ray);
+    if (nearest != depths.end() && frame_.rows) p = frame_.rows->at(static_cast<double>(corner.px.y())).inverse() * p;
+    guesses.push_back(guess(frame, nearest == depths.end() ? Vec3(T_now_before.R * p) : T_now_before * p, corner.px));
   }
-  advance_tracks(frame_, frame, guesses, parameters_, corners);
+  advance_tracks(frame_, frame, map_.camera, guesses, parameters_, corners);
   tracks_.insert(tracks_.end(), std::make_move_iterator(corners.begin()), std::make_move_iterator(corners.end()));
 }
 
 void Tracker::reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report) {
   const Vec3 centre = T_c_w.inverse().t;
+  const CameraView camera = map_.view_of(frame);
   std::vector<int> track_of(map_.points.size(), -1);
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     if (tracks_[i].point >= 0) track_of[static_cast<std::size_t>(tracks_[i].point)] = static_cast<int>(i);
@@ -137,7 +152,7 @@ void Tracker::reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* repo
     Candidate candidate;
     candidate.point = static_cast<int>(id);
     if (!looks_for_point(candidate.point) ||
-        !predict_point(map_, parameters_, map_.points[id], T_c_w, centre, &candidate.prediction))
+        !predict_point(map_, parameters_, map_.points[id], camera, T_c_w, centre, &candidate.prediction))
       continue;
     report->visible.push_back(candidate.point);
     if (track_of[id] < 0) {
@@ -176,116 +191,6 @@ void Tracker::relocate(const Frame& frame, const Candidate& candidate) {
     return;
   }
   tracks_.push_back({px, candidate.point});
-}
-
-// Corners whose depth is not known yet, as points at the median depth of the key frame that saw them last: they hold
-// the rotation, and less of the position the farther the camera is from there.
-void Tracker::add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const {
-  const double focal = std::max(map_.camera.fx, map_.camera.fy);
-  std::map<int, double> depths;
-  for (const Track& track : tracks_) {
-    if (track.point >= 0 || track.observations.empty()) continue;
-    const PointObservation& seen = track.observations.back();
-    const auto [found, fresh] = depths.try_emplace(seen.keyframe, 0);
-    if (fresh) found->second = median_depth(map_, seen.keyframe);
-    const double depth = found->second;
-    if (!(depth > 0)) continue;
-    const SE3d& T_w_k = map_.keyframe(seen.keyframe).T_w_c;
-    const double shift = focal * (T_c_w * T_w_k).t.norm() / depth;
-    points.push_back({T_w_k * Vec3(depth * map_.camera.unproject(seen.px)), track.px.cast<double>(),
-                      std::hypot(parameters_.point_sigma, parameters_.hold_depth_spread * shift)});
-  }
-}
-
-// How many of the texts look as their patches do.
-int Tracker::agreeing(const Frame& frame, const std::vector<const TextObject*>& texts, const SE3d& T_c_w,
-                      const std::vector<float>& zncc) const {
-  int count = 0;
-  const textplane::TextImage image = map_.text_image(frame);
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const TextObject& text = *texts[i];
-    const double least = text_zncc_limit(parameters_.text, parameters_.text.min_zncc, text.patch, 0, text.theta,
-                                         map_.text_keyframe(text.host), image, map_.T_c_h(T_c_w, text.host));
-    count += zncc[i] >= least ? 1 : 0;
-  }
-  return count;
-}
-
-// False where the pose does not hold. The report gets what it rests on.
-bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report) {
-  std::vector<textplane::PosePointTerm> points;
-  std::vector<std::size_t> track_of;
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (tracks_[i].point < 0 || !looks_for_point(tracks_[i].point)) continue;
-    points.push_back({map_.point(tracks_[i].point).p_w, tracks_[i].px.cast<double>(), parameters_.point_sigma});
-    track_of.push_back(i);
-  }
-  const int map_points = static_cast<int>(points.size());
-  if (map_points < parameters_.hold_points) add_unmapped(*T_c_w, points);
-  std::vector<textplane::PoseTextTerm> texts;
-  std::vector<const TextObject*> seen;
-  if (with_text)
-    for (const TextObject& text : map_.texts) {
-      Quad<double> quad;
-      if (text.state != TextState::mapped || (local_ && !local_->has_text(text.id))) continue;
-      if (!text_in_view(parameters_.text, text, map_.T_c_h(*T_c_w, text.host), map_.text_image(frame), &quad)) continue;
-      texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)});
-      seen.push_back(&text);
-    }
-
-  const int text_count = static_cast<int>(texts.size()), point_count = static_cast<int>(points.size());
-  report->points = map_points;
-  report->inliers = report->texts = 0;
-  if (point_count < parameters_.pose_min_points && texts.empty()) return false;
-  textplane::PoseWorkspace workspace;
-  workspace.reserve(texts.data(), text_count, point_count);
-  textplane::PoseOptions options;
-  options.sigma_photo = parameters_.photometric_sigma;
-  options.coarsest_level = parameters_.text.levels - 1;
-  std::vector<float> zncc(texts.size()), chi2(points.size());
-  const auto result = textplane::refine_pose(texts.data(), text_count, points.data(), point_count, frame.image->view(),
-                                             map_.camera, *T_c_w, options, workspace, zncc.data(), chi2.data());
-  if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return false;
-  *T_c_w = textplane::renormalised(result.T_t_w);
-  report->information = result.information;
-  int held = 0;
-  for (std::size_t k = track_of.size(); k < points.size(); ++k) held += is_pose_inlier(parameters_, chi2[k]) ? 1 : 0;
-  for (std::size_t k = 0; k < track_of.size(); ++k) {
-    Track& track = tracks_[track_of[k]];
-    track.inlier = is_pose_inlier(parameters_, chi2[k]);
-    report->inliers += track.inlier ? 1 : 0;
-  }
-  report->texts = agreeing(frame, seen, *T_c_w, zncc);
-  judge_position(*T_c_w, points, map_points, texts, report);
-  if (!(report->position_sigma <= parameters_.max_position_sigma)) return false;
-  const int inliers = report->inliers;
-  // Corners without depth help to hold a pose. Alone they would pass it on from key frame to key frame.
-  const bool enough_points = 2 * inliers >= parameters_.min_inliers && inliers + held >= parameters_.min_inliers &&
-                             inliers + held >= parameters_.min_inlier_share * point_count;
-  return enough_points || report->texts >= parameters_.enough_texts ||
-         (report->texts > 0 && inliers >= parameters_.min_inliers / 2);
-}
-
-// The depths that corners are guessed at may all be wrong by the same factor: what they say of the position has that
-// error in common, which the information does not know.
-void Tracker::judge_position(const SE3d& T_c_w, const std::vector<textplane::PosePointTerm>& points, int map_points,
-                             const std::vector<textplane::PoseTextTerm>& texts, TrackReport* report) const {
-  std::vector<double> depths;
-  const double known = parameters_.point_sigma * parameters_.point_sigma;
-  double guessed = 0, all = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    depths.push_back((T_c_w * points[i].p_w).z());
-    const double weight = 1 / (points[i].sigma * points[i].sigma);
-    all += weight;
-    if (static_cast<int>(i) >= map_points)
-      guessed += weight * std::sqrt(std::max(0.0, points[i].sigma * points[i].sigma - known));
-  }
-  for (const textplane::PoseTextTerm& text : texts) {
-    const Vec3 corner = textplane::plane_point<double>(text.theta, map_.camera.unproject(text.patch->quad.corner[0]));
-    depths.push_back((T_c_w * (text.T_w_h * corner)).z());
-  }
-  const double focal = std::max(map_.camera.fx, map_.camera.fy), depth = median(std::move(depths));
-  report->position_sigma = position_sigma(report->information) / depth + (all > 0 ? guessed / all / focal : 0);
 }
 
 }  // namespace textslam

@@ -39,7 +39,7 @@ class Tracker {
   /// Begins at a frame of known pose, at rest, with tracks whose positions are in that frame.
   void start(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tracks);
   /// The next frame. On failure the tracks are those that survived and the pose is the prediction.
-  TrackReport track(const Frame& frame);
+  TrackReport track(const Frame& taken);
   /// After the map changed: the last frame's pose in it, and the factor of lengths around the frame.
   void correct(const SE3d& T_c_w, double scale = 1);
 
@@ -54,8 +54,9 @@ class Tracker {
   };
 
   SE3d predict(const Frame& frame) const;
+  void roll(const SE3d& T_c_w, Frame* frame) const;
   std::vector<Track> take_corners();
-  Vec2f guess(const Vec3& p_c, const Vec2f& otherwise) const;
+  Vec2f guess(const Frame& frame, const Vec3& p_c, const Vec2f& otherwise) const;
   void follow_points(const Frame& frame, const SE3d& predicted);
   void follow_corners(const Frame& frame, const SE3d& T_c_w, std::vector<Track> corners);
   void reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report);
@@ -73,7 +74,9 @@ class Tracker {
   const LocalMap* local_ = nullptr;
   Frame frame_;
   SE3d T_c_w_;
-  SE3d velocity_;  // T_now_before of the last two frames
+  SE3d velocity_;                    // T_now_before of the last two frames
+  Vector6 speed_ = Vector6::Zero();  // of these two: by the time between them
+  double seconds_ = 0;               // between them
   bool moving_ = false;
   std::vector<Track> tracks_;
 };

@@ -3,8 +3,53 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
+
 namespace textslam {
 namespace parameters_test {
+
+// How many fields an aggregate of numbers has: as many as it can be made of, and no more.
+struct AnyNumber {
+  template <class T>
+  operator T() const;
+};
+template <class Aggregate, class Indices, class = void>
+struct TakesFields : std::false_type {};
+template <class Aggregate, std::size_t... I>
+struct TakesFields<Aggregate, std::index_sequence<I...>,
+                   std::void_t<decltype(Aggregate{(static_cast<void>(I), AnyNumber())...})>> : std::true_type {};
+template <class Aggregate, std::size_t N = 0>
+constexpr std::size_t field_count() {
+  if constexpr (TakesFields<Aggregate, std::make_index_sequence<N + 1>>::value) {
+    return field_count<Aggregate, N + 1>();
+  } else {
+    return N;
+  }
+}
+
+// A number of TextOptions that has no line here is in no report, and no experiment can change it.
+TEST(ParametersOfTexts, AreAllListed) {
+  struct Three {
+    int a;
+    double b, c;
+  };
+  static_assert(field_count<Three>() == 3);
+  textplane::TextOptions options;
+  std::multiset<const void*> listed;
+#define SECTION(title)
+#define FIELD(type, name, value, meaning)
+#define TEXT_FIELD(name, member, meaning) listed.insert(&options.member);
+#include "textslam/common/parameters.inc"
+#undef TEXT_FIELD
+#undef FIELD
+#undef SECTION
+  EXPECT_EQ(std::set<const void*>(listed.begin(), listed.end()).size(), listed.size()) << "one is there twice";
+  EXPECT_EQ(listed.size(), field_count<textplane::TextOptions>());
+}
 
 TEST(ParametersAtSize, AreTheListsAt640By480) {
   const Parameters listed, p = at_size(listed, 640, 480);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "support/spots.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textplane/geometry/plane_fit.hpp"
 #include "textslam/init/initialiser.hpp"
@@ -21,18 +22,11 @@ class InitialiserTest : public testing::Test {
     map.height = 360;
   }
 
-  static double spot(int i, int j) {
-    std::uint32_t h = static_cast<std::uint32_t>(i) * 2654435761U ^ static_cast<std::uint32_t>(j) * 2246822519U;
-    h = (h ^ (h >> 15)) * 739982445U;
-    h = (h ^ (h >> 12)) * 695872825U;
-    return (h ^ (h >> 15)) % 2 == 0 ? 40 : 210;
-  }
   static double ink(double x, double y) {
-    const double u = x / 0.05, v = y / 0.05;
-    const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
-    const double a = u - i, b = v - j;
-    return (1 - b) * ((1 - a) * spot(i, j) + a * spot(i + 1, j)) +
-           b * ((1 - a) * spot(i, j + 1) + a * spot(i + 1, j + 1));
+    return textplane_test::between_spots(x / 0.05, y / 0.05, [](int i, int j) {
+      const auto column = static_cast<std::uint32_t>(i), row = static_cast<std::uint32_t>(j);
+      return textplane_test::spot_number(column, row) % 2 == 0 ? 40.0 : 210.0;
+    });
   }
 
   // Camera `index` on its way, with the boards' detections.
@@ -43,7 +37,7 @@ class InitialiserTest : public testing::Test {
     Image<std::uint8_t> image(map.width, map.height, 128);
     for (int y = 0; y < map.height; ++y)
       for (int x = 0; x < map.width; ++x) {
-        const Vec3 ray = T_b_c.R * map.camera.unproject(Vec2(x, y));
+        const Vec3 ray = T_b_c.R * map.camera.pinhole.unproject(Vec2(x, y));
         const Vec3 p = T_b_c.t - T_b_c.t.z() / ray.z() * ray;
         for (const Vec2& board : boards)
           if (std::abs(p.x() - board.x()) < kHalfWidth && std::abs(p.y() - board.y()) < kHalfHeight)

@@ -7,6 +7,7 @@
 
 #include "textslam/init/motion_hypotheses.hpp"
 #include "textslam/init/two_view.hpp"
+#include "textslam/lens_support.hpp"
 
 namespace textslam {
 namespace motion_hypotheses_test {
@@ -18,7 +19,8 @@ double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b
 // A camera that drifts past corners; each view adds an observation with noise to every track.
 class Drive {
  public:
-  Drive(unsigned seed, bool planar, int corners, double noise) : random_(seed), noise_(0, noise) {
+  Drive(unsigned seed, bool planar, int corners, double noise, const textplane::LensMap* lens = nullptr)
+      : camera({525, 525, 319.5, 239.5}, lens), random_(seed), noise_(0, noise) {
     const Vec3 normal(0.6 * uniform(), 0.6 * uniform(), 1);
     for (int i = 0; i < corners; ++i) {
       const Vec3 ray(0.5 * uniform(), 0.4 * uniform(), 1);
@@ -46,13 +48,13 @@ class Drive {
   TwoView two_view() const {
     std::vector<Vec3> a, b;
     for (const Track& track : tracks) {
-      a.push_back(camera.unproject(track.observations.front().px));
-      b.push_back(camera.unproject(track.observations.back().px));
+      a.push_back(ray_of(camera, track.observations.front().px));
+      b.push_back(ray_of(camera, track.observations.back().px));
     }
-    return estimate_two_view(a, b, camera.fx);
+    return estimate_two_view(a, b, camera.pinhole.fx);
   }
 
-  const Pinhole<double> camera{525, 525, 319.5, 239.5};
+  const CameraView camera;
   std::vector<Track> tracks;
   SE3d T_c_a;
 
@@ -80,12 +82,12 @@ TEST(MotionHypothesesTest, ClearRatioFallsWithTheNumberOfErrors) {
 
 // By two views the cheaper of the motions is the wrong one about as often as not; by further ones it never is. A camera
 // that goes straight ahead may leave a doubt, and it is not decided then.
-TEST(MotionHypothesesTest, FurtherViewsOfAPlaneLeaveTheRightMotion) {
+void expect_the_right_motion(const textplane::LensMap* lens) {
   const Parameters parameters;
   int begun = 0, wrong_at_first = 0, decided = 0;
   for (unsigned seed = 0; seed < 24; ++seed) {
     SCOPED_TRACE(seed);
-    Drive drive(seed, true, 150, 0.3);
+    Drive drive(seed, true, 150, 0.3, lens);
     for (int i = 0; i < 4; ++i) drive.move();
     drive.observe();
     const TwoView view = drive.two_view();
@@ -114,6 +116,9 @@ TEST(MotionHypothesesTest, FurtherViewsOfAPlaneLeaveTheRightMotion) {
   EXPECT_GT(begun, 10) << "two views of a plane leave a doubt";
   EXPECT_GT(wrong_at_first, 2) << "and the cheaper motion is often the wrong one";
 }
+
+TEST(MotionHypothesesTest, FurtherViewsOfAPlaneLeaveTheRightMotion) { expect_the_right_motion(nullptr); }
+TEST(MotionHypothesesTest, TheSameBehindALens) { expect_the_right_motion(&lens_support::wide_lens()); }
 
 TEST(MotionHypothesesTest, HypothesesThatBecomeTheSameAreOne) {
   Drive drive(3, false, 120, 0.2);

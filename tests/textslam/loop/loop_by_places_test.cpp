@@ -27,10 +27,10 @@ class LoopByPlacesTest : public PlacesTest {
       map.keyframes.push_back({frame_at(truth.back()), {drift.R * T_w_c.R, drift * T_w_c.t}, {}});
     }
     std::vector<Track> corners;
-    add_corners(map.keyframe(5).frame, 5, {}, parameters, corners);
+    add_corners(map.keyframe(5).frame, map.camera, 5, {}, parameters, corners);
     for (const Track& corner : corners) {
       const SE3d T_w_c = truth[0].inverse();
-      const Vec3 ray = T_w_c.R * map.camera.unproject(corner.px.cast<double>());
+      const Vec3 ray = T_w_c.R * ray_of(map.camera, corner.px.cast<double>());
       const Vec3 p = hit(T_w_c.t, ray, nullptr);
       map.points.push_back({drift * p});
       for (int k = 0; k < 2; ++k)

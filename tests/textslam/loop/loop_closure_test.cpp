@@ -8,6 +8,7 @@
 #include <set>
 
 #include "textplane/geometry/plane.hpp"
+#include "textslam/lens_support.hpp"
 #include "textslam/loop/circle_support.hpp"
 #include "textslam/loop/loop_alignment.hpp"
 #include "textslam/map/observations.hpp"
@@ -23,8 +24,8 @@ class LoopClosureTest : public testing::Test {
   static constexpr int kRound = 30, kKeyFrames = 33, kEach = 20;
   static constexpr double kGrowth = 1.004;
 
-  LoopClosureTest() {
-    map.camera = {262, 262, 159.5, 119.5};
+  explicit LoopClosureTest(const textplane::LensMap* lens = nullptr) {
+    map.camera = {{262, 262, 159.5, 119.5}, lens};
     map.width = 320;
     map.height = 240;
     const std::vector<Similarity> round = circle(kRound);
@@ -64,7 +65,7 @@ class LoopClosureTest : public testing::Test {
     text.host = 15;
     text.theta = Vec3(0.05, 0, 0.5);
     text.covariance = 1e-4 * Eigen::Matrix3d::Identity();
-    text.patch.camera = map.camera;
+    text.patch.camera = map.camera.pinhole;
     text.patch.quad.corner = {Vec2(100, 100), Vec2(200, 100), Vec2(200, 140), Vec2(100, 140)};
     map.texts.push_back(text);
   }
@@ -138,6 +139,27 @@ TEST_F(LoopClosureTest, DriftIsSpreadAndEverythingFollows) {
   const double s = correction.scales[15];
   EXPECT_LT((map.texts[0].theta - text.theta / s).norm(), 1e-12);
   EXPECT_LT((map.texts[0].covariance - text.covariance / (s * s)).norm(), 1e-12);
+}
+
+// The same behind a lens, which the derivatives of the pixels have, too.
+class WideLoopClosureTest : public LoopClosureTest {
+ protected:
+  WideLoopClosureTest() : LoopClosureTest(&lens_support::wide_lens()) {}
+};
+TEST_F(WideLoopClosureTest, AlignmentRestsOnOldPoints) {
+  const Similarity newest = similarity_of(map.keyframe(loop.keyframe).T_w_c), exact = compose(loop.link.S_a_b, newest);
+  loop.link.S_a_b = moved(loop.link.S_a_b, 0.02 * Vector7::Ones());
+  const LoopAlignment aligned = align_loop(map, parameters, loop.link, loop.keyframe);
+  ASSERT_TRUE(aligned.ok);
+  EXPECT_LT(distance(aligned.S_w_k, exact), 0.02);
+  map.camera.lens = nullptr;
+  EXPECT_GT(distance(align_loop(map, parameters, loop.link, loop.keyframe).S_w_k, exact), 0.025);
+}
+TEST_F(WideLoopClosureTest, DriftIsCorrected) {
+  parameters.loop_drift = 0.05;
+  const double before = error(loop.keyframe);
+  ASSERT_TRUE(close_loop(map, parameters, loop).corrected);
+  EXPECT_LT((map.keyframe(loop.keyframe).T_w_c.t - map.keyframe(loop.met).T_w_c.t).norm(), 0.02 * before);
 }
 
 // The link, which rests on young points, is off; the pixels of the old points put it right.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "support/spots.hpp"
 #include "textplane/features/select.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/common/parameters.hpp"
@@ -32,8 +33,8 @@ class TextRecoveryTest : public testing::Test {
     unsigned print;
   };
 
-  TextRecoveryTest() {
-    map.camera = {262, 262, 159.5, 119.5};
+  explicit TextRecoveryTest(const textplane::LensMap* lens = nullptr) {
+    map.camera = {{262, 262, 159.5, 119.5}, lens};
     map.width = 320;
     map.height = 240;
     map.number = 0;
@@ -62,19 +63,11 @@ class TextRecoveryTest : public testing::Test {
   static constexpr double kHalfWidth = 0.35, kHalfHeight = 0.15;
 
   // Letters of a kind: random spots of 6 cm, other ones for each print.
-  static double spot(int i, int j, unsigned print) {
-    std::uint32_t h =
-        static_cast<std::uint32_t>(i) * 2654435761U ^ static_cast<std::uint32_t>(j) * 2246822519U ^ print * 3266489917U;
-    h = (h ^ (h >> 15)) * 739982445U;
-    h = (h ^ (h >> 12)) * 695872825U;
-    return (h ^ (h >> 15)) % 2 == 0 ? 30 : 220;
-  }
   static double ink(double x, double y, unsigned print) {
-    const double u = x / 0.06, v = y / 0.06;
-    const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
-    const double a = u - i, b = v - j;
-    return (1 - b) * ((1 - a) * spot(i, j, print) + a * spot(i + 1, j, print)) +
-           b * ((1 - a) * spot(i, j + 1, print) + a * spot(i + 1, j + 1, print));
+    return textplane_test::between_spots(x / 0.06, y / 0.06, [print](int i, int j) {
+      const auto column = static_cast<std::uint32_t>(i), row = static_cast<std::uint32_t>(j);
+      return textplane_test::spot_number(column, row, print) % 2 == 0 ? 30.0 : 220.0;
+    });
   }
 
   Quad<double> quad_of(const Board& board, const SE3d& T_c_w) const {
@@ -93,9 +86,9 @@ class TextRecoveryTest : public testing::Test {
       for (int x = 0; x < map.width; ++x)
         for (const Board& board : boards) {
           const SE3d T_b_c = (T_c_w * board.T_w_b).inverse();
-          const Vec3 ray = T_b_c.R * map.camera.unproject(Vec2(x, y));
+          const Vec3 ray = T_b_c.R * ray_of(map.camera, Vec2(x, y));
           const Vec3 p = T_b_c.t - T_b_c.t.z() / ray.z() * ray;
-          if (std::abs(p.x()) > 1.1 * kHalfWidth || std::abs(p.y()) > 1.1 * kHalfHeight) continue;
+          if (!(std::abs(p.x()) <= 1.1 * kHalfWidth && std::abs(p.y()) <= 1.1 * kHalfHeight)) continue;
           image(x, y) = static_cast<std::uint8_t>(ink(p.x(), p.y(), board.print));
         }
     Frame frame;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "support/spots.hpp"
 #include "textslam/map/observations.hpp"
 #include "textslam/relocalise/boards_support.hpp"
 #include "textslam/relocalise/relocalisation.hpp"
@@ -25,10 +26,10 @@ using boards_support::turn_between;
 // The corner of a room, papered with spots of several sizes; two key frames, and points on what they see.
 class PlacesTest : public testing::Test {
  protected:
-  PlacesTest() {
+  explicit PlacesTest(const textplane::LensMap* lens = nullptr) {
     parameters.mode = Mode::points;
     parameters = at_size(parameters, 640, 480);
-    map.camera = {525, 525, 319.5, 239.5};
+    map.camera = {{525, 525, 319.5, 239.5}, lens};
     map.width = 640;
     map.height = 480;
     map.number = 0;
@@ -37,9 +38,9 @@ class PlacesTest : public testing::Test {
       map.keyframes.push_back({frame_at(T_w_c.inverse()), T_w_c, {}});
     }
     std::vector<Track> corners;
-    add_corners(map.keyframe(0).frame, 0, {}, parameters, corners);
+    add_corners(map.keyframe(0).frame, map.camera, 0, {}, parameters, corners);
     for (const Track& corner : corners) {
-      const Vec3 p = hit(Vec3::Zero(), map.camera.unproject(corner.px.cast<double>()), nullptr);
+      const Vec3 p = hit(Vec3::Zero(), ray_of(map.camera, corner.px.cast<double>()), nullptr);
       const Vec2 other = map.camera.project(map.keyframe(1).T_w_c.inverse() * p);
       if (!(other.x() > 20 && other.x() < 620)) continue;
       map.points.push_back({p});
@@ -49,18 +50,11 @@ class PlacesTest : public testing::Test {
     }
   }
 
-  static double spot(int i, int j, unsigned print) {
-    std::uint32_t h =
-        static_cast<std::uint32_t>(i) * 2654435761U ^ static_cast<std::uint32_t>(j) * 2246822519U ^ print * 3266489917U;
-    h = (h ^ (h >> 15)) * 739982445U;
-    h = (h ^ (h >> 12)) * 695872825U;
-    return (h ^ (h >> 15)) % 256;
-  }
   static double smooth(double u, double v, unsigned print) {
-    const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
-    const double a = u - i, b = v - j;
-    return (1 - b) * ((1 - a) * spot(i, j, print) + a * spot(i + 1, j, print)) +
-           b * ((1 - a) * spot(i, j + 1, print) + a * spot(i + 1, j + 1, print));
+    return textplane_test::between_spots(u, v, [print](int i, int j) {
+      const auto column = static_cast<std::uint32_t>(i), row = static_cast<std::uint32_t>(j);
+      return static_cast<double>(textplane_test::spot_number(column, row, print) % 256);
+    });
   }
 
   // Two walls and the floor: the first that the ray meets.
@@ -87,7 +81,7 @@ class PlacesTest : public testing::Test {
     for (int y = 0; y < map.height; ++y)
       for (int x = 0; x < map.width; ++x) {
         double grey = 0;
-        hit(T_w_c.t, T_w_c.R * map.camera.unproject(Vec2(x, y)), &grey);
+        hit(T_w_c.t, T_w_c.R * ray_of(map.camera, Vec2(x, y)), &grey);
         image(x, y) = static_cast<std::uint8_t>(grey);
       }
     Frame frame;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "textslam/lens_support.hpp"
 #include "textslam/relocalise/places_support.hpp"
 
 namespace textslam {
@@ -20,6 +21,17 @@ TEST_F(PlacesTest, AnotherViewOfAPlaceIsFound) {
   expect_found(around(25 * kDegree, 1, 0));
   expect_found(around(-20 * kDegree, 1.5, 0));
   expect_found(around(20 * kDegree, 1 / 1.5, 0));
+  expect_found(around(10 * kDegree, 1.2, 50 * kDegree));
+}
+
+class WidePlacesTest : public PlacesTest {
+ protected:
+  WidePlacesTest() : PlacesTest(&lens_support::wide_lens()) {}
+};
+
+TEST_F(WidePlacesTest, AnotherViewIsFoundBehindALens) {
+  ASSERT_GT(map.points.size(), 200u);
+  expect_found(around(20 * kDegree, 1, 0));
   expect_found(around(10 * kDegree, 1.2, 50 * kDegree));
 }
 
@@ -44,7 +56,7 @@ TEST_F(PlacesTest, LooksFollowThePointsOfAKeyFrame) {
   EXPECT_GT(half.inliers, before.inliers / 4);
   EXPECT_LT(half.inliers, before.inliers * 3 / 4) << "what has left the map is not matched";
   EXPECT_EQ(map.keyframe(0).looks, kept) << "nothing is described again";
-  const Vec3 p = hit(Vec3::Zero(), map.camera.unproject(Vec2(300, 200)), nullptr);
+  const Vec3 p = hit(Vec3::Zero(), ray_of(map.camera, Vec2(300, 200)), nullptr);
   map.points.push_back({p});
   for (int k = 0; k < 2; ++k)
     add_observation(map, static_cast<int>(map.points.size()) - 1, k,

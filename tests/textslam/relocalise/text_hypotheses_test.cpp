@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "textslam/lens_support.hpp"
 #include "textslam/relocalise/boards_support.hpp"
 #include "textslam/relocalise/relocalisation.hpp"
 
@@ -28,6 +29,43 @@ TEST_F(TextRecoveryTest, OneSignGivesThePose) {
     // So small a sign looks much the same from two places; its pixels tell them apart.
     expect_pose(found[0].T_c_w, truth, 0.02, 0.5);
   }
+}
+
+// Signs of a raw image, through either lens.
+template <bool kFisheye>
+class BehindLens : public TextRecoveryTest {
+ protected:
+  BehindLens() : TextRecoveryTest(kFisheye ? &lens_support::fisheye() : &lens_support::wide_lens()) {}
+
+  void expect_found() {
+    const SE3d truth = moved({0.3, -0.1, 0.2}, {0.02, -0.1, 0.05});
+    Frame frame = frame_at(truth);
+    frame.detections = {detection(1, truth, "OPEN")};
+    const auto found = text_hypotheses(map, parameters, frame, WordMatch::same);
+    ASSERT_FALSE(found.empty());
+    EXPECT_GT(found[0].zncc, 0.9);
+    expect_pose(found[0].T_c_w, truth, 0.03, 0.7);
+    for (const std::size_t i : {0U, 2U})
+      frame.detections.push_back(detection(i, truth, textplane::consensus(map.texts[i].votes)));
+    const Relocalisation recovery = relocalise(map, parameters, frame);
+    ASSERT_TRUE(recovery.ok);
+    EXPECT_EQ(recovery.texts, 3);
+    expect_pose(recovery.T_c_w, truth, 0.006, 0.12);
+  }
+};
+using WideTextRecoveryTest = BehindLens<false>;
+using FisheyeTextRecoveryTest = BehindLens<true>;
+TEST_F(WideTextRecoveryTest, SignsGiveThePose) { expect_found(); }
+TEST_F(FisheyeTextRecoveryTest, SignsGiveThePose) { expect_found(); }
+// The same images without their lens: the poses are off, so the tests above can fail.
+TEST_F(WideTextRecoveryTest, WithoutTheLensThePoseIsOff) {
+  const SE3d truth = moved({0.3, -0.1, 0.2}, {0.02, -0.1, 0.05});
+  Frame frame = frame_at(truth);
+  for (std::size_t i = 0; i < 3; ++i)
+    frame.detections.push_back(detection(i, truth, textplane::consensus(map.texts[i].votes)));
+  map.camera.lens = nullptr;
+  const Relocalisation recovery = relocalise(map, parameters, frame);
+  EXPECT_TRUE(!recovery.ok || (recovery.T_c_w.inverse().t - truth.inverse().t).norm() > 0.01);
 }
 
 TEST_F(TextRecoveryTest, SeveralSignsConfirmEachOther) {

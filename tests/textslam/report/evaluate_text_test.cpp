@@ -31,7 +31,7 @@ class EvaluateTextTest : public testing::Test {
     text.state = state;
     text.host = 0;
     text.theta = textplane::plane_from_normal<double>(normal, 3);
-    text.patch.camera = map.camera;
+    text.patch.camera = map.camera.pinhole;
     text.patch.quad.corner = {Vec2(x, 200), Vec2(x + 80, 200), Vec2(x + 80, 230), Vec2(x, 230)};
     text.votes[word] = 2;
     map.texts.push_back(text);

@@ -22,11 +22,10 @@ TEST(Report, NumbersAreShortAndFinite) {
   EXPECT_EQ(short_number(1e300).dump(), "1e+300");
   EXPECT_TRUE(short_number(std::nan("")).is_null());
   EXPECT_TRUE(short_number(-std::numeric_limits<double>::infinity()).is_null());
-  Quad<double> quad;
-  for (auto& corner : quad.corner) corner = {1.26, 2};
-  EXPECT_EQ(short_quad(quad).dump(), "[1.3,2,1.3,2,1.3,2,1.3,2]");
-  quad.corner[2].x() = std::nan("");
-  EXPECT_TRUE(short_quad(quad).is_null());
+  std::vector<Vector2<double>> polygon(5, {1.26, 2});
+  EXPECT_EQ(short_polygon(polygon).dump(), "[1.3,2,1.3,2,1.3,2,1.3,2,1.3,2]");
+  polygon[2].x() = std::nan("");
+  EXPECT_TRUE(short_polygon(polygon).is_null());
 }
 
 TEST(Report, NoWordEndsTheScript) {

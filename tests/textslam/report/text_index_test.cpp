@@ -32,7 +32,7 @@ Map map_of_one_text() {
   text.host = 0;
   text.views = {1, 2};
   const Vec3 corners[4] = {{-0.3, -0.1, 3}, {0.3, -0.1, 3}, {0.3, 0.1, 3}, {-0.3, 0.1, 3}};
-  text.patch.camera = map.camera;
+  text.patch.camera = map.camera.pinhole;
   for (std::size_t i = 0; i < 4; ++i) text.patch.quad.corner[i] = map.camera.project(corners[i]);
   text.theta = Vec3(0, 0, 1.0 / 3);
   text.votes = {{"EXIT", 1.5}, {"EX1T", 0.5}};

@@ -95,16 +95,17 @@ class LoosePlanesTest : public testing::Test {
     std::mt19937 random(4);
     const Vec3 theta = textplane::plane_from_normal<double>(normal, 3);
     for (int i = 0; i < 40; ++i)
-      map.points.push_back({textplane::plane_point<double>(
-                                theta, map.camera.unproject({uniform(random, 250, 390), uniform(random, 210, 270)})),
-                            {},
-                            0,
-                            0,
-                            false});
+      map.points.push_back(
+          {textplane::plane_point<double>(
+               theta, map.camera.pinhole.unproject({uniform(random, 250, 390), uniform(random, 210, 270)})),
+           {},
+           0,
+           0,
+           false});
     TextObject text;
     text.id = 0;
     text.host = 0;
-    text.patch.camera = map.camera;
+    text.patch.camera = map.camera.pinhole;
     text.patch.quad.corner = {Vec2(260, 215), Vec2(380, 215), Vec2(380, 265), Vec2(260, 265)};
     text.detections = 4;
     map.texts.push_back(text);

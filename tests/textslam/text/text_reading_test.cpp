@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "textplane/geometry/plane.hpp"
+#include "textslam/lens_support.hpp"
 
 namespace textslam {
 namespace text_reading_test {
@@ -22,8 +23,8 @@ struct Wall {
 
 class TextReading : public testing::Test {
  protected:
-  TextReading() {
-    map.camera = {525, 525, 319.5, 239.5};
+  explicit TextReading(const textplane::LensMap* lens = nullptr) {
+    map.camera = {{525, 525, 319.5, 239.5}, lens};
     map.width = 640;
     map.height = 480;
     map.keyframes.resize(3);
@@ -38,15 +39,15 @@ class TextReading : public testing::Test {
     text.theta = textplane::plane_from_normal<double>(normal, -normal.dot(wall.centre));
     // A box round a sheared word: its sides are not at right angles on the wall.
     const double u[4] = {-0.3, 0.26, 0.3, -0.26}, v[4] = {-0.1, -0.1, 0.1, 0.1};
-    text.patch.camera = map.camera;
-    for (std::size_t i = 0; i < 4; ++i) text.patch.quad.corner[i] = map.camera.project(wall.at(u[i], v[i]));
+    text.patch.camera = map.camera.pinhole;
+    for (std::size_t i = 0; i < 4; ++i) text.patch.quad.corner[i] = text.patch.camera.project(wall.at(u[i], v[i]));
   }
 
   std::shared_ptr<const Pyramid> image_of(const SE3d& T_w_c) const {
     Image<std::uint8_t> image(map.width, map.height);
     for (int y = 0; y < map.height; ++y)
       for (int x = 0; x < map.width; ++x) {
-        const Vec3 ray = wall.R.transpose() * (T_w_c.R * map.camera.unproject(Vec2(x, y)));
+        const Vec3 ray = wall.R.transpose() * (T_w_c.R * ray_of(map.camera, Vec2(x, y)));
         const Vec3 from = wall.R.transpose() * (T_w_c.t - wall.centre);
         const Vec3 p = from - from.z() / ray.z() * ray;
         image(x, y) = static_cast<std::uint8_t>(std::lround(Wall::grey(p.x(), p.y())));
@@ -54,29 +55,37 @@ class TextReading : public testing::Test {
     return std::make_shared<const Pyramid>(image.view(), 3);
   }
 
+  void expect_square_views() const {
+    constexpr int kHeight = 40;
+    for (const int id : {0, 1, 2}) {
+      SCOPED_TRACE(id);
+      const SquareView view = square_view(map, text, id, Parameters{});
+      ASSERT_GT(view.picture.width(), 0);
+      const auto& c = view.quad.corner;
+      EXPECT_EQ((c[3] - c[0]).norm(), kHeight);
+      EXPECT_EQ((c[1] - c[0]).norm(), 3 * kHeight) << "0.6 by 0.2";
+      double worst = 0;
+      for (int y = 0; y < view.picture.height(); ++y)
+        for (int x = 0; x < view.picture.width(); ++x) {
+          const double u = -0.3 + (x - c[0].x()) * 0.2 / kHeight, v = -0.1 + (y - c[0].y()) * 0.2 / kHeight;
+          worst = std::max(worst, std::abs(view.picture(x, y) - Wall::grey(u, v)));
+        }
+      EXPECT_LT(worst, 4);
+    }
+  }
+
   Wall wall;
   Map map;
   TextObject text;
 };
 
-TEST_F(TextReading, ASquareViewShowsTheWallAsItIs) {
-  constexpr int kHeight = 40;
-  for (const int id : {0, 1, 2}) {
-    SCOPED_TRACE(id);
-    const SquareView view = square_view(map, text, id, Parameters{});
-    ASSERT_GT(view.picture.width(), 0);
-    const auto& c = view.quad.corner;
-    EXPECT_EQ((c[3] - c[0]).norm(), kHeight);
-    EXPECT_EQ((c[1] - c[0]).norm(), 3 * kHeight) << "0.6 by 0.2";
-    double worst = 0;
-    for (int y = 0; y < view.picture.height(); ++y)
-      for (int x = 0; x < view.picture.width(); ++x) {
-        const double u = -0.3 + (x - c[0].x()) * 0.2 / kHeight, v = -0.1 + (y - c[0].y()) * 0.2 / kHeight;
-        worst = std::max(worst, std::abs(view.picture(x, y) - Wall::grey(u, v)));
-      }
-    EXPECT_LT(worst, 4);
-  }
-}
+TEST_F(TextReading, ASquareViewShowsTheWallAsItIs) { expect_square_views(); }
+
+class TextReadingByFisheye : public TextReading {
+ protected:
+  TextReadingByFisheye() : TextReading(&lens_support::fisheye()) {}
+};
+TEST_F(TextReadingByFisheye, ASquareViewShowsTheWallAsItIs) { expect_square_views(); }
 
 TEST_F(TextReading, WhatAnImageCutsOffIsNotShown) {
   map.keyframes[1].T_w_c = {Eigen::Matrix3d::Identity(), Vec3(2, 0, 0)};

@@ -37,7 +37,7 @@ class PoseRefitTest : public testing::Test {
 
 TEST_F(PoseRefitTest, WithoutInformationIsByThePoints) {
   PoseEstimate pose{textplane::se3_exp<double>((Vector6() << 0.02, 0, 0.02, 0.01, 0, 0).finished()) * truth};
-  ASSERT_TRUE(refit_pose(map, parameters, seen, &pose));
+  ASSERT_TRUE(refit_pose(map, parameters, map.camera, seen, &pose));
   EXPECT_LT(error(pose.T_c_w), 4 * position_sigma(pose.information));
   EXPECT_LT(position_sigma(pose.information), 0.01);
 }
@@ -45,23 +45,23 @@ TEST_F(PoseRefitTest, WithoutInformationIsByThePoints) {
 // The position that two sources know equally well lies midway between theirs.
 TEST_F(PoseRefitTest, WeighsWhatWasKnownByItsInformation) {
   PoseEstimate by_points{truth};
-  ASSERT_TRUE(refit_pose(map, parameters, seen, &by_points));
+  ASSERT_TRUE(refit_pose(map, parameters, map.camera, seen, &by_points));
   const Vector6 apart = (Vector6() << 2e-3, -1e-3, 1e-3, 1e-3, 0, -1e-3).finished();
   PoseEstimate pose{textplane::se3_exp<double>(apart) * by_points.T_c_w, by_points.information};
-  ASSERT_TRUE(refit_pose(map, parameters, seen, &pose));
+  ASSERT_TRUE(refit_pose(map, parameters, map.camera, seen, &pose));
   const Vector6 moved = textplane::se3_log<double>(pose.T_c_w * by_points.T_c_w.inverse());
   EXPECT_LT((moved - 0.5 * apart).norm(), 0.02 * apart.norm());
   EXPECT_LT((pose.information - 2 * by_points.information).norm(), 0.01 * pose.information.norm());
 
   PoseEstimate exact{truth, 1e6 * by_points.information};
-  ASSERT_TRUE(refit_pose(map, parameters, seen, &exact));
+  ASSERT_TRUE(refit_pose(map, parameters, map.camera, seen, &exact));
   EXPECT_LT(error(exact.T_c_w), 0.01 * error(by_points.T_c_w));
 }
 
 TEST_F(PoseRefitTest, LeavesThePoseWhereFewPointsAreLeft) {
   seen.resize(static_cast<std::size_t>(parameters.refit_min_points) - 1);
   PoseEstimate pose{truth, Matrix6::Identity()};
-  EXPECT_FALSE(refit_pose(map, parameters, seen, &pose));
+  EXPECT_FALSE(refit_pose(map, parameters, map.camera, seen, &pose));
   EXPECT_EQ(pose.T_c_w.t, truth.t);
   EXPECT_EQ(pose.information, Matrix6::Identity());
 }

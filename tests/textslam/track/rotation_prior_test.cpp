@@ -6,8 +6,12 @@
 #include <memory>
 #include <random>
 
+#include "textslam/lens_support.hpp"
+
 namespace textslam {
 namespace rotation_prior_test {
+
+using lens_support::LensMap;
 
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kWaves = 30;  // radians of phase a radian: some 100 px
@@ -15,7 +19,7 @@ constexpr double kWaves = 30;  // radians of phase a radian: some 100 px
 Pinhole<double> camera() { return {500, 500, 319.5, 239.5}; }
 
 // What a camera sees of a pattern infinitely far away.
-Frame frame_of(const Eigen::Matrix3d& R_c_w, unsigned seed) {
+Frame frame_of(const Eigen::Matrix3d& R_c_w, unsigned seed, const CameraView& view = camera()) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   std::vector<Vec3> waves;
@@ -24,10 +28,11 @@ Frame frame_of(const Eigen::Matrix3d& R_c_w, unsigned seed) {
     waves.emplace_back(kWaves * normal(random), kWaves * normal(random), kWaves * normal(random));
     phases.push_back(10 * normal(random));
   }
-  Image<std::uint8_t> image(kWidth, kHeight);
+  Image<std::uint8_t> image(kWidth, kHeight, 0);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
-      const Vec3 ray = (R_c_w.transpose() * camera().unproject(Vec2(x, y))).normalized();
+      if (!has_ray(view, Vec2(x, y))) continue;
+      const Vec3 ray = (R_c_w.transpose() * ray_of(view, Vec2(x, y))).normalized();
       double grey = 128;
       for (std::size_t i = 0; i < waves.size(); ++i) grey += 12 * std::sin(waves[i].dot(ray) + phases[i]);
       image(x, y) = static_cast<std::uint8_t>(std::min(255.0, std::max(0.0, grey)));
@@ -53,6 +58,26 @@ TEST(FindRotation, FindsWhatTheDescentAloneDoesNot) {
     EXPECT_LT(degrees(found.R_b_a.transpose() * R), 0.2);
   }
   EXPECT_GT(missed, 0);
+}
+
+// A fisheye's image turns as a whole, though none of its lines stays straight, and has no ray in its corners.
+TEST(FindRotation, FindsItBehindALens) {
+  const Parameters parameters;
+  const LensMap* const lenses[] = {&lens_support::wide_lens(), &lens_support::fisheye()};
+  for (const LensMap* lens : lenses) {
+    const CameraView view({lens == lenses[0] ? 500.0 : 230.0, lens == lenses[0] ? 500.0 : 230.0, 319.5, 239.5}, lens);
+    ASSERT_EQ(has_ray(view, {0, 0}), lens == lenses[0]);
+    for (unsigned seed = 1; seed <= 2; ++seed) {
+      SCOPED_TRACE(seed);
+      const Eigen::Matrix3d R = textplane::so3_exp<double>(Vec3(0.03, 0.12, 0.087));
+      const Frame a = frame_of(Eigen::Matrix3d::Identity(), seed, view), b = frame_of(R, seed, view);
+      const RotationPrior found = find_rotation(a, b, view, Eigen::Matrix3d::Identity(), parameters);
+      EXPECT_GT(found.zncc, 0.93);
+      EXPECT_LT(degrees(found.R_b_a.transpose() * R), 0.2);
+      const RotationPrior straight = find_rotation(a, b, view.pinhole, Eigen::Matrix3d::Identity(), parameters);
+      EXPECT_LT(straight.zncc, found.zncc - 0.01);
+    }
+  }
 }
 
 TEST(FindRotation, SaysWhereNothingAgrees) {

@@ -1,0 +1,53 @@
+// Self-calibration: the camera of a sequence from its images alone.
+//
+// The sequence is mapped by points with a first guess of the camera, the map gives a better one (map_calibration.hpp),
+// and so on until the camera stays. Where nothing is known of it, the guesses are a few angles of view.
+#ifndef TEXTSLAM_CALIBRATE_SELF_CALIBRATION_HPP
+#define TEXTSLAM_CALIBRATE_SELF_CALIBRATION_HPP
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "io/sequence.hpp"
+#include "textslam/calibrate/map_calibration.hpp"
+
+namespace textslam {
+
+struct CalibrationOptions {
+  CalibrationPriors priors;
+  /// Degrees, horizontal: what is tried in turn where nothing is known, the most likely first.
+  std::vector<double> guesses = {60, 85, 45};
+  double assumed_focal = 0.5;    ///< Standard deviation of the focal length of these, as a share of it.
+  double given_focal = 0.2;      ///< The same of a camera that a file, EXIF data or the user gave.
+  int probe_frames = 200;        ///< Mapped with each guess; the best one goes on.
+  int most_frames = 900;         ///< Mapped to refine it.
+  int passes = 6;                ///< At most, of mapping and calibrating.
+  double converged_px = 0.1;     ///< camera_distance() of two passes that ends them.
+  double converged_sigma = 0.1;  ///< So does a focal length that moved by less than this share of its deviation.
+  /// Of the frames mapped that must be tracked for a guess to count.
+  double least_tracked = 0.3;
+};
+
+/// What was assumed, and what came of it.
+struct SelfCalibration {
+  CameraModel camera;         ///< The estimate; the start where `determined` is false.
+  std::vector<double> sigma;  ///< Standard deviations in the order of its parameters; 0: it kept its start.
+  bool determined = false;
+  CameraModel start;             ///< What it began with,
+  std::string origin;            ///< and where that came from, for people: "the camera file".
+  std::size_t frames = 0;        ///< Mapped in the last pass.
+  std::size_t observations = 0;  ///< Of points, that fit the estimate,
+  double reprojection_px = 0;    ///< and how well, rms.
+  int passes = 0;                ///< Over the frames, after the first guess was found.
+};
+
+/// `frames` are indices of the sequence's frames, in order. It begins with the sequence's camera. `progress` is called
+/// with the frames mapped and how many there are in this pass. Throws InputError for a frame that cannot be read.
+SelfCalibration self_calibrate(const Sequence& sequence, const std::vector<std::size_t>& frames,
+                               const Parameters& parameters, const CalibrationOptions& options,
+                               const std::function<void(std::size_t, std::size_t)>& progress);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_CALIBRATE_SELF_CALIBRATION_HPP

@@ -1,0 +1,80 @@
+// System, the part that comes after the last frame.
+#include "textplane/landmarks/text_merge.hpp"
+#include "textslam/adjust/adjustment.hpp"
+#include "textslam/relocalise/relocalisation.hpp"
+#include "textslam/system/system.hpp"
+#include "textslam/text/loose_planes.hpp"
+#include "textslam/text/text_reading.hpp"
+#include "textslam/text/text_refiner.hpp"
+#include "textslam/track/observe_points.hpp"
+
+namespace textslam {
+
+void System::refit(FrameRecord& record) const {
+  if (record.state != FrameState::tracked || record.map != map_.number || record.seen.empty()) return;
+  PoseEstimate pose{final_pose(record).inverse(), parameters_.refit_live_weight * record.information};
+  const CameraView camera(map_.camera.pinhole, map_.camera.lens, record.rows.get());
+  if (!refit_pose(map_, parameters_, camera, record.seen, &pose)) return;
+  record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * pose.T_c_w.inverse();
+  record.information = pose.information;
+}
+
+void System::fill_in(const std::function<Frame(int)>& load) {
+  if (map_.keyframes.size() < 2) return;
+  Tracker backwards(map_, parameters_);
+  bool going = false;  // the frame after this one was tracked backwards
+  for (int index = static_cast<int>(records_.size()) - 2; index >= 0; --index) {
+    FrameRecord& record = records_[static_cast<std::size_t>(index)];
+    const FrameRecord& next = records_[static_cast<std::size_t>(index) + 1];
+    if (record.state == FrameState::tracked || next.state != FrameState::tracked) {
+      going = false;
+      continue;
+    }
+    if (!going) {
+      const Frame start = load(index + 1);
+      const SE3d T_c_w = final_pose(next).inverse();
+      backwards.start(start, T_c_w, observe_from(map_, parameters_, start, T_c_w).tracks);
+    }
+    const TrackReport report = backwards.track(load(index));
+    going = report.ok;
+    if (!going) continue;
+    record.state = FrameState::tracked;
+    record.map = map_.number;
+    record.keyframe = next.keyframe;
+    record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * report.T_c_w.inverse();
+    record.points = report.inliers;
+    record.texts = report.texts;
+    record.information = report.information;
+    record.position_sigma = report.position_sigma;
+  }
+}
+
+void System::finish() {
+  take_over(adjuster_.settle(map_));
+  keep_largest();
+  if (map_.keyframes.size() < 2) return;
+  if (parameters_.mode == Mode::text && parameters_.loop_closure)
+    textplane::merge_duplicate_texts(parameters_.text, textplane::KeyframeLookup(map_), map_.texts);
+  if (parameters_.estimate_readout) estimate_readout();
+  roll_all();
+  adjust_all(map_, parameters_, parameters_.final_iterations);
+  roll_all();
+  // Poses are good to a pixel or two now: points are found where the tracker had lost them. That closes loops, too.
+  if (parameters_.loop_closure && observe_points_again(map_, parameters_) > 0)
+    adjust_all(map_, parameters_, parameters_.final_iterations);
+  if (parameters_.mode == Mode::loose) refresh_loose_planes(map_, parameters_);
+  if (parameters_.mode == Mode::text) {
+    // Observations were judged with early, rough planes. The adjusted planes are seen in more key frames, and a wider
+    // base settles their slant.
+    text_mapper_.observe_again();
+    roll_all();
+    adjust_all(map_, parameters_, parameters_.final_iterations);
+    refine_texts(map_, parameters_);
+  }
+  for (FrameRecord& record : records_) refit(record);
+  align_live_world();
+}
+
+void System::read_texts(TextReader& reader) { textslam::read_texts(map_, parameters_, reader); }
+
+}  // namespace textslam

@@ -1,0 +1,106 @@
+// System, the part that knows how the camera moved while a rolling shutter took the rows of a frame: by its neighbours.
+#include <algorithm>
+#include <cmath>
+
+#include "textslam/adjust/adjustment.hpp"
+#include "textslam/adjust/readout.hpp"
+#include "textslam/system/system.hpp"
+#include "textslam/track/tracker.hpp"
+
+namespace textslam {
+namespace {
+
+constexpr double kLongest = 0.1;  // s, readout either way
+
+}  // namespace
+
+bool System::is_rolling() const { return map_.shutter.active() || parameters_.estimate_readout; }
+
+// The first key frame of a new map has no frame before it: the one after it tells.
+void System::roll_first_keyframe() {
+  const KeyFrame& first = map_.keyframe(0);
+  const Frame& beside = initialiser_.beside();
+  if (!is_rolling() || beside.index != first.frame.index + 1) return;
+  Tracker tracker(map_, parameters_);
+  const SE3d T_c_w = first.T_w_c.inverse();
+  tracker.start(first.frame, T_c_w, tracks_of_keyframe(map_, 0));
+  const TrackReport report = tracker.track(beside);
+  if (!report.ok) return;
+  const textplane::RowMotion rows{
+      textplane::velocity_between(T_c_w, report.T_c_w, beside.timestamp - first.frame.timestamp), map_.shutter};
+  map_.set_rows(0, std::make_shared<const textplane::RowMotion>(rows));
+}
+
+// The motion of the frame `index` by the frames on both sides of it, or on one where it has no motion yet.
+void System::roll(std::size_t index) {
+  constexpr double kFarthest = 0.25;  // s; motion does not stay the same for longer
+  FrameRecord& record = records_[index];
+  const auto is_tracked = [&](const FrameRecord& r) {
+    return r.state == FrameState::tracked && r.map == map_.number &&
+           std::abs(r.timestamp - record.timestamp) <= kFarthest;
+  };
+  if (!is_rolling() || !is_tracked(record)) return;
+  const bool has_before = index > 0 && is_tracked(records_[index - 1]),
+             has_after = index + 1 < records_.size() && is_tracked(records_[index + 1]);
+  const int id = record.keyframe;
+  const bool is_keyframe = map_.keyframe(id).frame.index == static_cast<int>(index);
+  const bool known = (is_keyframe ? map_.keyframe(id).frame.rows : record.rows) != nullptr;
+  if ((!has_before && !has_after) || (known && !(has_before && has_after))) return;
+  const FrameRecord &before = has_before ? records_[index - 1] : record,
+                    &after = has_after ? records_[index + 1] : record;
+  const Vector6 velocity = textplane::velocity_between(final_pose(before).inverse(), final_pose(after).inverse(),
+                                                       after.timestamp - before.timestamp);
+  record.rows = std::make_shared<const textplane::RowMotion>(textplane::RowMotion{velocity, map_.shutter});
+  if (is_keyframe) map_.set_rows(id, record.rows);
+}
+
+void System::roll_all() {
+  for (std::size_t i = 0; i < records_.size(); ++i) roll(i);
+}
+
+// While the map is young, each time that its key frames are half as many again.
+bool System::is_readout_due() const {
+  const std::size_t n = map_.keyframe_ids().size();
+  return n == 5 || n == 8 || n == 12 || n == 18 || n == 27;
+}
+
+// All key frames as if their rows took so long.
+void System::set_readout(double seconds) {
+  map_.shutter.readout = seconds;
+  for (Map& map : stored_) map.shutter.readout = seconds;
+  for (FrameRecord& record : records_)
+    if (record.rows)
+      record.rows =
+          std::make_shared<const textplane::RowMotion>(textplane::RowMotion{record.rows->velocity, map_.shutter});
+  for (const int id : map_.keyframe_ids())
+    if (const auto rows = map_.keyframe(id).frame.rows)
+      map_.set_rows(id,
+                    std::make_shared<const textplane::RowMotion>(textplane::RowMotion{rows->velocity, map_.shutter}));
+}
+
+// The readout with the least adjusted cost: the root of its slope, by the secant through the last two readouts. The
+// first step is that of the points alone, with the map held, which is too short.
+void System::estimate_readout() {
+  constexpr int kRounds = 6;
+  constexpr double kSettled = 2e-5;  // s
+  double before = 0, slope_before = 0;
+  // Velocities that could change would take the readout's part.
+  Parameters held = parameters_;
+  held.row_speed_sigma = held.row_turn_sigma = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    roll_all();
+    adjust_all(map_, held, held.window_iterations);
+    const ReadoutSlope now = readout_slope(map_, held);
+    const double readout = map_.shutter.readout;
+    if (!(now.curvature > 0)) return;
+    const double change = round > 0 ? (now.slope - slope_before) / (readout - before) : 0;
+    // Where the secant bends the wrong way, or hardly, the map is too small to tell.
+    const double step = -now.slope / std::max(change, 0.005 * now.curvature);
+    before = readout;
+    slope_before = now.slope;
+    set_readout(std::clamp(readout + (round > 0 ? step : -now.slope / now.curvature), -kLongest, kLongest));
+    if (std::abs(map_.shutter.readout - before) < kSettled) return;
+  }
+}
+
+}  // namespace textslam

@@ -1,0 +1,129 @@
+// Tracker, the part that fits the pose of a frame and judges it.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "textplane/landmarks/text_noise.hpp"
+#include "textplane/landmarks/text_view.hpp"
+#include "textplane/solver/pose.hpp"
+#include "textslam/common/algorithms.hpp"
+#include "textslam/map/observations.hpp"
+#include "textslam/track/pose_refit.hpp"
+#include "textslam/track/tracker.hpp"
+
+namespace textslam {
+
+// Corners whose depth is not known yet, as points at the median depth of the key frame that saw them last: they hold
+// the rotation, and less of the position the farther the camera is from there.
+void Tracker::add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const {
+  const double focal = std::max(map_.camera.pinhole.fx, map_.camera.pinhole.fy);
+  std::map<int, double> depths;
+  for (const Track& track : tracks_) {
+    if (track.point >= 0 || track.observations.empty()) continue;
+    const PointObservation& seen = track.observations.back();
+    const auto [found, fresh] = depths.try_emplace(seen.keyframe, 0);
+    if (fresh) found->second = median_depth(map_, seen.keyframe);
+    const double depth = found->second;
+    if (!(depth > 0)) continue;
+    const SE3d& T_w_k = map_.keyframe(seen.keyframe).T_w_c;
+    const double shift = focal * (T_c_w * T_w_k).t.norm() / depth;
+    Vec3 p = depth * ray_of(map_.camera, seen.px);
+    if (const auto& rows = map_.keyframe(seen.keyframe).frame.rows) p = rows->at(seen.px.y()).inverse() * p;
+    points.push_back({T_w_k * p, track.px.cast<double>(),
+                      std::hypot(parameters_.point_sigma, parameters_.hold_depth_spread * shift)});
+  }
+}
+
+// How many of the texts look as their patches do.
+int Tracker::agreeing(const Frame& frame, const std::vector<const TextObject*>& texts, const SE3d& T_c_w,
+                      const std::vector<float>& zncc) const {
+  int count = 0;
+  const textplane::TextImage image = map_.text_image(frame);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const TextObject& text = *texts[i];
+    const double least = text_zncc_limit(parameters_.text, parameters_.text.min_zncc, text.patch, 0, text.theta,
+                                         map_.text_keyframe(text.host), image, map_.T_c_h(T_c_w, text.host));
+    count += zncc[i] >= least ? 1 : 0;
+  }
+  return count;
+}
+
+// False where the pose does not hold. The report gets what it rests on.
+bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report) {
+  std::vector<textplane::PosePointTerm> points;
+  std::vector<std::size_t> track_of;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (tracks_[i].point < 0 || !looks_for_point(tracks_[i].point)) continue;
+    points.push_back({map_.point(tracks_[i].point).p_w, tracks_[i].px.cast<double>(), parameters_.point_sigma});
+    track_of.push_back(i);
+  }
+  const int map_points = static_cast<int>(points.size());
+  if (map_points < parameters_.hold_points) add_unmapped(*T_c_w, points);
+  std::vector<textplane::PoseTextTerm> texts;
+  std::vector<const TextObject*> seen;
+  if (with_text)
+    for (const TextObject& text : map_.texts) {
+      Quad<double> quad;
+      if (text.state != TextState::mapped || (local_ && !local_->has_text(text.id))) continue;
+      if (!text_in_view(parameters_.text, text, map_.T_c_h(*T_c_w, text.host), map_.text_image(frame), &quad)) continue;
+      texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)});
+      seen.push_back(&text);
+    }
+
+  const int text_count = static_cast<int>(texts.size()), point_count = static_cast<int>(points.size());
+  report->points = map_points;
+  report->inliers = report->texts = 0;
+  if (point_count < parameters_.pose_min_points && texts.empty()) return false;
+  textplane::PoseWorkspace workspace;
+  workspace.reserve(texts.data(), text_count, point_count);
+  textplane::PoseOptions options;
+  options.sigma_photo = parameters_.photometric_sigma;
+  options.coarsest_level = parameters_.text.levels - 1;
+  std::vector<float> zncc(texts.size()), chi2(points.size());
+  const auto result = textplane::refine_pose(texts.data(), text_count, points.data(), point_count, frame.image->view(),
+                                             map_.view_of(frame), *T_c_w, options, workspace, zncc.data(), chi2.data());
+  if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return false;
+  *T_c_w = textplane::renormalised(result.T_t_w);
+  report->information = result.information;
+  int held = 0;
+  for (std::size_t k = track_of.size(); k < points.size(); ++k) held += is_pose_inlier(parameters_, chi2[k]) ? 1 : 0;
+  for (std::size_t k = 0; k < track_of.size(); ++k) {
+    Track& track = tracks_[track_of[k]];
+    track.inlier = is_pose_inlier(parameters_, chi2[k]);
+    report->inliers += track.inlier ? 1 : 0;
+  }
+  report->texts = agreeing(frame, seen, *T_c_w, zncc);
+  judge_position(*T_c_w, points, map_points, texts, report);
+  if (!(report->position_sigma <= parameters_.max_position_sigma)) return false;
+  const int inliers = report->inliers;
+  // Corners without depth help to hold a pose. Alone they would pass it on from key frame to key frame.
+  const bool enough_points = 2 * inliers >= parameters_.min_inliers && inliers + held >= parameters_.min_inliers &&
+                             inliers + held >= parameters_.min_inlier_share * point_count;
+  return enough_points || report->texts >= parameters_.enough_texts ||
+         (report->texts > 0 && inliers >= parameters_.min_inliers / 2);
+}
+
+// The depths that corners are guessed at may all be wrong by the same factor: what they say of the position has that
+// error in common, which the information does not know.
+void Tracker::judge_position(const SE3d& T_c_w, const std::vector<textplane::PosePointTerm>& points, int map_points,
+                             const std::vector<textplane::PoseTextTerm>& texts, TrackReport* report) const {
+  std::vector<double> depths;
+  const double known = parameters_.point_sigma * parameters_.point_sigma;
+  double guessed = 0, all = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    depths.push_back((T_c_w * points[i].p_w).z());
+    const double weight = 1 / (points[i].sigma * points[i].sigma);
+    all += weight;
+    if (static_cast<int>(i) >= map_points)
+      guessed += weight * std::sqrt(std::max(0.0, points[i].sigma * points[i].sigma - known));
+  }
+  for (const textplane::PoseTextTerm& text : texts) {
+    const Vec3 corner =
+        textplane::plane_point<double>(text.theta, text.patch->camera.unproject(text.patch->quad.corner[0]));
+    depths.push_back((T_c_w * (text.T_w_h * corner)).z());
+  }
+  const double focal = std::max(map_.camera.pinhole.fx, map_.camera.pinhole.fy), depth = median(std::move(depths));
+  report->position_sigma = position_sigma(report->information) / depth + (all > 0 ? guessed / all / focal : 0);
+}
+
+}  // namespace textslam
