@@ -4,7 +4,8 @@
 # minute for each.
 if(TEXTPLANE_TEST_TIER STREQUAL "threads")
   set(alone adjust/adjuster adjust/adjustment adjust/adjustment_selection detect/detection_thread
-    map/observations track/feature_tracks track/point_search track/rotation_prior track/track track/tracker)
+    map/observations track/feature_tracks track/point_search track/rotation_prior track/track track/tracker
+    track/tracker_pose)
   list(TRANSFORM alone REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/examples/textslam/\\1.cpp")
   add_executable(adjuster_alone_test textslam/adjust/adjuster_test.cpp textslam/detect/detection_thread_test.cpp ${alone})
   target_include_directories(adjuster_alone_test PRIVATE ${PROJECT_SOURCE_DIR}/examples)
@@ -61,6 +62,7 @@ textplane_add_program_test(textslam_recovery_test)
 textplane_add_program_test(textslam_report_test)
 textplane_add_program_test(textslam_run_test first_look)
 textplane_add_program_test(textslam_unusual_input_test first_look sanitizers)
+textplane_add_program_test(textslam_calibrate_test first_look)
 
 # The numbered examples: each runs, and a number that it prints is checked.
 function(textplane_test_example name text bound)

@@ -11,7 +11,8 @@ import sys
 ROOT = pathlib.Path(sys.argv[1])
 INCLUDE = ROOT / "include/textplane"
 ADAPTER_NEEDS = {"ceres": "ceres/", "ceres_pose": "ceres/", "ceres_text_rows": "ceres/",
-                 "ceres_window": "ceres/", "opencv": "opencv2/"}
+                 "ceres_window": "ceres/", "ceres_text_map": "ceres/", "opencv": "opencv2/",
+                 "opencv_lens": "opencv2/"}
 
 SYSTEM = re.compile(r"(Eigen/(Core|Geometry)|c?[a-z_]+|(immintrin|arm_neon|cpuid)\.h)$")
 OBJECT = re.compile(r"^(inline |static |thread_local |extern )+(?!constexpr)[\w:<>,\s*&]+?\b(\w+)\s*"

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/text_wall.hpp"
 #include "textplane/features/align.hpp"
 #include "textplane/features/fast.hpp"
 #include "textplane/photometry/candidates.hpp"
@@ -139,6 +140,37 @@ void count_batch(const Scene& scene, int n) {
   });
 }
 
+// The same 4000 pixels behind a lens, as it shows them.
+template <class Model>
+void count_lens(const Scene& scene, const Model& model) {
+  constexpr int kPixels = 4000;
+  const tp::LensMap lens{model};
+  Pixels pixels(kPixels);
+  tp::PhotometricInput input = pixels.input(scene);
+  if (!model.is_pinhole()) input.lens = &lens;
+  const tp::CameraView camera(input.target_camera, input.lens);
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    const tp::Vector3<double> m =
+        input.host_camera.unproject({static_cast<double>(pixels.x[i]), static_cast<double>(pixels.y[i])});
+    const tp::Vector2<double> px = camera.project(scene.T_t_h.R * m + scene.T_t_h.t * scene.theta.dot(m));
+    tp::sample_bilinear(input.target, static_cast<float>(px[0]), static_cast<float>(px[1]), &pixels.value[i]);
+    if (i % 10 == 9) pixels.value[i] += 70.0F;
+  }
+  tp::PhotometricWorkspace workspace(kPixels);
+  tp::TemplatePatch prepared;
+  prepared.prepare(input.patch);
+  const tp::ResidualRequest request{input, scene.theta, scene.T_t_h};
+  const auto name = [](const char* kernel) { return std::string(kernel) + "_" + Model::kName + "/4000"; };
+  const auto by_kernel = [](const auto& result) { return is_ok(result.status) && result.path == tp::Path::kernel; };
+  count(name("pose"), [&] { return by_kernel(tp::linearise<tp::Parameters::pose>(request, workspace)); });
+  count(name("pose_plane"), [&] { return by_kernel(tp::linearise<tp::Parameters::pose_plane>(request, workspace)); });
+  count(name("cost"), [&] { return by_kernel(tp::evaluate(request, workspace)); });
+  count(name("template_huber"), [&] {
+    return by_kernel(tp::linearise<tp::Parameters::pose_plane>(
+        request.by(tp::LinearisePolicy::template_jacobian, &prepared), workspace));
+  });
+}
+
 template <class S, class D>
 void count_warp(const char* name, const tp::Image<S>& image) {
   const tp::Matrix3<double> H =
@@ -168,16 +200,32 @@ void count_features(const Scene& scene) {
   });
 }
 
+// A frame with twenty signs in view and two hundred points, against maps of so many texts.
+void count_track() {
+  const textplane_test::TextWall wall;
+  for (const int texts : {20, 1000}) {
+    tp::TextMap map(wall.camera);
+    wall.fill(map, texts);
+    count("track_20/" + std::to_string(texts),
+          [&] { return map.track(wall.frame, wall.start, wall.points).texts == textplane_test::TextWall::kInView; });
+  }
+}
+
 }  // namespace
 
 int main() {
   const Scene scene;
   for (const int n : {15, 64, 256, 1000, 4000}) count_residual(scene, n);
   for (const int n : {15, 256, 4000}) count_policies(scene, n);
+  count_lens(scene, tp::Pinhole<double>());
+  count_lens(scene, tp::RadialTangential<double>{{}, -0.28, 0.07, 1e-3, -5e-4, 0});
+  count_lens(scene, tp::KannalaBrandt<double>{{}, 0.01, -0.003, 0.002, -0.001});
+  count_lens(scene, tp::DoubleSphere<double>{{}, -0.2, 0.6});
   count_batch(scene, 15);
   count_warp<std::uint8_t, float>("warp_u8_f32/100x40", scene.image);
   count_warp<std::uint8_t, std::uint8_t>("warp_u8_u8/100x40", scene.image);
   count_warp<float, float>("warp_f32_f32/100x40", scene.image_f);
   count_features(scene);
+  count_track();
   return failures == 0 ? 0 : 1;
 }

@@ -15,7 +15,7 @@ FLAGS = ["-std=c++17", "-w", "-DTEXTPLANE_EXTERN_KERNELS", "-D_GLIBCXX_ASSERTION
 if "clang" in CXX:
     FLAGS += ["-ferror-limit=0", "-Wno-invalid-constexpr", "-fsanitize=bounds", "-fsanitize-trap=bounds"]
 # Slow tests are compiled with -O1, which takes longer: they run for half a minute without it.
-SLOW = ("tests/solver/", "tests/support/", "tests/features/", "tests/geometry/plane_fit", "tests/geometry/triangulate")
+SLOW = ("tests/solver/", "tests/support/", "tests/features/", "tests/geometry/plane_fit", "tests/geometry/triangulate", "tests/landmarks/")
 # What defines things that these headers declare.
 LINKED = {"textplane/simd/targets.hpp": "cmake/kernels.cpp", "tests/support/dense.hpp": "tests/support/dense.cpp",
           "textplane/geometry/plane_fit.hpp": "cmake/kernels.cpp"}
