@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 176 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 9175c3860dd0ba88
+// Hash of these files: e52170ed87d9dc93
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 9175c3860dd0ba88"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 e52170ed87d9dc93"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -45,11 +45,12 @@
 // textplane: version, inline ABI namespace and assert hook.
 //
 // Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of
-// the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's largest alignment,
-// and the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two translation units built with different
-// flags therefore keep their own copies, and passing a type from one to the other is a link error instead of a corrupt
-// heap. It protects textplane's own functions. Those of Eigen and of the standard library that a compiler does not
-// inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none (tests/simd/isa).
+// the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's two largest
+// alignments, and the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two translation units built
+// with different flags therefore keep their own copies, and passing a type from one to the other is a link error
+// instead of a corrupt heap. It protects textplane's own functions. Those of Eigen and of the standard library that a
+// compiler does not inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none
+// (tests/simd/isa).
 //
 // This header and simd/targets are the only ones that read compiler macros.
 #ifndef TEXTPLANE_CONFIG_HPP
@@ -81,6 +82,7 @@
 #define TEXTPLANE_ABI_MATH ieee
 #endif
 
+// What Eigen allocates, and the members that it puts into objects, have settings of their own.
 #if EIGEN_MAX_ALIGN_BYTES >= 64
 #define TEXTPLANE_ABI_ALIGN a64
 #elif EIGEN_MAX_ALIGN_BYTES >= 32
@@ -91,6 +93,16 @@
 #define TEXTPLANE_ABI_ALIGN a0
 #endif
 
+#if EIGEN_MAX_STATIC_ALIGN_BYTES >= 64
+#define TEXTPLANE_ABI_STATIC s64
+#elif EIGEN_MAX_STATIC_ALIGN_BYTES >= 32
+#define TEXTPLANE_ABI_STATIC s32
+#elif EIGEN_MAX_STATIC_ALIGN_BYTES >= 16
+#define TEXTPLANE_ABI_STATIC s16
+#else
+#define TEXTPLANE_ABI_STATIC s0
+#endif
+
 #if defined(TEXTPLANE_TARGET)
 #define TEXTPLANE_ABI_FIXED_(target) _only_##target
 #define TEXTPLANE_ABI_FIXED(target) TEXTPLANE_ABI_FIXED_(target)
@@ -99,13 +111,13 @@
 #define TEXTPLANE_ABI_TARGET
 #endif
 
-#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target) \
-  v##major##_##minor##_##isa##_##math##_##align##target
-#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, target) \
-  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target)
+#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target) \
+  v##major##_##minor##_##isa##_##math##_##align##fixed##target
+#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, fixed, target) \
+  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target)
 #define TEXTPLANE_ABI                                                                                         \
   TEXTPLANE_ABI_JOIN(TEXTPLANE_VERSION_MAJOR, TEXTPLANE_VERSION_MINOR, TEXTPLANE_ABI_ISA, TEXTPLANE_ABI_MATH, \
-                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_TARGET)
+                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_STATIC, TEXTPLANE_ABI_TARGET)
 
 #define TEXTPLANE_BEGIN_NAMESPACE \
   namespace textplane {           \
@@ -27165,14 +27177,14 @@ constexpr double kBendOfTurn = 4;
 // A text's own coordinates: (u, v) in [-1, 1] along and across its lines.
 struct TextAxes {
   Vector2<double> centre;
-  Eigen::Matrix2d to_uv;  // of px about the centre
+  FixedMatrix<double, 2, 2> to_uv;  // of px about the centre
   Vector2<double> slope;  // turn of the normal from end to end (tangent), for a relative inverse depth of u^2 or v^2
 };
 
 inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, const Pinhole<double>& camera,
                     TextAxes* axes) {
   const auto& c = quad.corner;
-  Eigen::Matrix2d half;
+  FixedMatrix<double, 2, 2> half;
   half.col(0) = 0.25 * (c[1] - c[0] + c[2] - c[3]);
   half.col(1) = 0.25 * (c[3] - c[0] + c[2] - c[1]);
   if (!(std::abs(half.determinant()) > 1)) return false;

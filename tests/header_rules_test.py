@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Rules that headers keep for those who include them. Run as header_rules_test.py ROOT.
 
-Macros have the prefix; there is no using-directive; outside adapters/ only Eigen and the standard library are included,
-and no adapter; the one global object is the atomic of the dispatch. The version is the same wherever it is written.
+Macros have the prefix; matrices say how they are stored; there is no using-directive; outside adapters/ only Eigen and
+the standard library are included, and no adapter; the one global object is the atomic of the dispatch. The version is the same wherever it is written.
 """
 import pathlib
 import re
@@ -17,6 +17,9 @@ ADAPTER_NEEDS = {"ceres": "ceres/", "ceres_pose": "ceres/", "ceres_text_rows": "
 SYSTEM = re.compile(r"(Eigen/(Core|Geometry)|c?[a-z_]+|(immintrin|arm_neon|cpuid)\.h)$")
 OBJECT = re.compile(r"^(inline |static |thread_local |extern )+(?!constexpr)[\w:<>,\s*&]+?\b(\w+)\s*"
                     r"(\{[^}]*\}|=[^=].*)?;", re.M)
+# A matrix whose order of storage is left to EIGEN_DEFAULT_TO_ROW_MAJOR: neither side is 1, and no order follows.
+UNORDERED = re.compile(r"Eigen::Matrix<[^,<>]+,(?!\s*1\s*,)[^,<>]+,(?!\s*1\s*[,>])[^,<>]+>"
+                       r"|Eigen::(Matrix|Array)(XX?|[2-4]X?)[dfi]\b")
 OBJECTS_ALLOWED = {"simd_target"}
 VERSIONS = [("include/textplane/config.hpp", r'VERSION_STRING "([\d.]+)"'),
             ("CMakeLists.txt", r"project\(textplane VERSION ([\d.]+)"),
@@ -49,6 +52,8 @@ def check(path):
             yield number, f'includes "{own[1]}", which is not relative to include/'
         if own and not adapter and "adapters/" in own[1]:
             yield number, "includes an adapter"
+        if UNORDERED.search(line):
+            yield number, "a matrix that does not say how it is stored; FixedMatrix does"
     for found in OBJECT.finditer(text):
         if "(" not in found[0] and found[2] not in OBJECTS_ALLOWED:
             yield text[: found.start()].count("\n") + 1, f"the object {found[2]}"
@@ -71,6 +76,8 @@ def self_test():
     objects = [m[2] for m in OBJECT.finditer(code)]
     assert objects == ["a", "b"], objects
     assert SYSTEM.match("vector") and SYSTEM.match("Eigen/Core")
+    assert UNORDERED.search("Eigen::Matrix<double, 3, 3>") and UNORDERED.search("Eigen::Matrix4d m;")
+    assert not UNORDERED.search("Eigen::Matrix<S, 3, 1> Eigen::Matrix<S, 7, 6, Eigen::RowMajor> Eigen::Matrix<S, 1, 4>")
     assert not SYSTEM.match("Eigen/Dense") and not SYSTEM.match("opencv2/core.hpp")
 
 

@@ -16,6 +16,11 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     "-DFLAGS=-O0 -Wall -Wextra -Werror -fno-exceptions -fno-rtti -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
     -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
   textplane_label(headers.no_exceptions sanitizers)
+  add_test(NAME headers.eigen_settings COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_CXX_COMPILER}
+    "-DFLAGS=-O0 -Wall -Wextra -Werror -DTEXTPLANE_TARGET=scalar -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}"
+    -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/eigen_settings.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -DALL=${TEXTPLANE_TEST_LONG}
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/eigen_settings.cmake)
+  textplane_label(headers.eigen_settings)
   # A unit whose target is fixed holds the kernels of that target alone.
   find_program(TEXTPLANE_NM nm)
   set(targets scalar)

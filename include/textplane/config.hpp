@@ -1,11 +1,12 @@
 // textplane: version, inline ABI namespace and assert hook.
 //
 // Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of
-// the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's largest alignment,
-// and the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two translation units built with different
-// flags therefore keep their own copies, and passing a type from one to the other is a link error instead of a corrupt
-// heap. It protects textplane's own functions. Those of Eigen and of the standard library that a compiler does not
-// inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none (tests/simd/isa).
+// the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's two largest
+// alignments, and the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two translation units built
+// with different flags therefore keep their own copies, and passing a type from one to the other is a link error
+// instead of a corrupt heap. It protects textplane's own functions. Those of Eigen and of the standard library that a
+// compiler does not inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none
+// (tests/simd/isa).
 //
 // This header and simd/targets are the only ones that read compiler macros.
 #ifndef TEXTPLANE_CONFIG_HPP
@@ -37,6 +38,7 @@
 #define TEXTPLANE_ABI_MATH ieee
 #endif
 
+// What Eigen allocates, and the members that it puts into objects, have settings of their own.
 #if EIGEN_MAX_ALIGN_BYTES >= 64
 #define TEXTPLANE_ABI_ALIGN a64
 #elif EIGEN_MAX_ALIGN_BYTES >= 32
@@ -47,6 +49,16 @@
 #define TEXTPLANE_ABI_ALIGN a0
 #endif
 
+#if EIGEN_MAX_STATIC_ALIGN_BYTES >= 64
+#define TEXTPLANE_ABI_STATIC s64
+#elif EIGEN_MAX_STATIC_ALIGN_BYTES >= 32
+#define TEXTPLANE_ABI_STATIC s32
+#elif EIGEN_MAX_STATIC_ALIGN_BYTES >= 16
+#define TEXTPLANE_ABI_STATIC s16
+#else
+#define TEXTPLANE_ABI_STATIC s0
+#endif
+
 #if defined(TEXTPLANE_TARGET)
 #define TEXTPLANE_ABI_FIXED_(target) _only_##target
 #define TEXTPLANE_ABI_FIXED(target) TEXTPLANE_ABI_FIXED_(target)
@@ -55,13 +67,13 @@
 #define TEXTPLANE_ABI_TARGET
 #endif
 
-#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target) \
-  v##major##_##minor##_##isa##_##math##_##align##target
-#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, target) \
-  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, target)
+#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target) \
+  v##major##_##minor##_##isa##_##math##_##align##fixed##target
+#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, fixed, target) \
+  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target)
 #define TEXTPLANE_ABI                                                                                         \
   TEXTPLANE_ABI_JOIN(TEXTPLANE_VERSION_MAJOR, TEXTPLANE_VERSION_MINOR, TEXTPLANE_ABI_ISA, TEXTPLANE_ABI_MATH, \
-                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_TARGET)
+                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_STATIC, TEXTPLANE_ABI_TARGET)
 
 #define TEXTPLANE_BEGIN_NAMESPACE \
   namespace textplane {           \

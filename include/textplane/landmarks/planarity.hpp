@@ -42,14 +42,14 @@ constexpr double kBendOfTurn = 4;
 // A text's own coordinates: (u, v) in [-1, 1] along and across its lines.
 struct TextAxes {
   Vector2<double> centre;
-  Eigen::Matrix2d to_uv;  // of px about the centre
+  FixedMatrix<double, 2, 2> to_uv;  // of px about the centre
   Vector2<double> slope;  // turn of the normal from end to end (tangent), for a relative inverse depth of u^2 or v^2
 };
 
 inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, const Pinhole<double>& camera,
                     TextAxes* axes) {
   const auto& c = quad.corner;
-  Eigen::Matrix2d half;
+  FixedMatrix<double, 2, 2> half;
   half.col(0) = 0.25 * (c[1] - c[0] + c[2] - c[3]);
   half.col(1) = 0.25 * (c[3] - c[0] + c[2] - c[1]);
   if (!(std::abs(half.determinant()) > 1)) return false;

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Runs corners, KLT, patch, pose and plane on the image (width x height, 8 bits) as host and target; `result` receives
-/// six numbers. True when each of them succeeded.
+/// eight numbers. True when each of them succeeded.
 bool TEXTPLANE_TEST_UNIT(const std::uint8_t* pixels, int width, int height, double* result) {
   namespace tp = textplane;
   const tp::ImageView<const std::uint8_t> image(pixels, width, height, width);
@@ -39,5 +39,7 @@ bool TEXTPLANE_TEST_UNIT(const std::uint8_t* pixels, int width, int height, doub
   result[3] = pose.zncc;
   result[4] = pose.T_t_h.t.norm();
   result[5] = plane.zncc;
+  result[6] = pose.T_t_h.R(0, 2);
+  result[7] = plane.theta[0];
   return is_ok(pose.status);
 }
