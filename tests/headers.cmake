@@ -66,7 +66,7 @@ if(all_tiers AND NOT CMAKE_CROSSCOMPILING)
   add_executable(test_stored_by_rows ${by_rows} support/dense.cpp)
   # Each unit compiles all kernels.
   set_target_properties(test_stored_by_rows PROPERTIES UNITY_BUILD ${TEXTPLANE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 5)
-  set_source_files_properties(support/dense.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set_source_files_properties(support/dense.cpp solver/window_linear_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_link_libraries(test_stored_by_rows PRIVATE textplane_developer GTest::gtest GTest::gtest_main)
   target_include_directories(test_stored_by_rows PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(test_stored_by_rows PRIVATE EIGEN_DEFAULT_TO_ROW_MAJOR)

@@ -1,5 +1,5 @@
-// What is allocated: calls of malloc, calloc, realloc and their aligned kin are counted (count.cpp). The global operator
-// new and Eigen take their memory from there.
+// What is allocated: calls of malloc, calloc, realloc and their aligned kin are counted (count.cpp). The global
+// operator new and Eigen take their memory from there.
 #ifndef TEXTPLANE_TESTS_ALLOCATION_COUNT_HPP
 #define TEXTPLANE_TESTS_ALLOCATION_COUNT_HPP
 
