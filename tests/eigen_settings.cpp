@@ -9,7 +9,6 @@
 #include <textplane/photometry/patch.hpp>
 #include <textplane/photometry/pyramid.hpp>
 #include <textplane/photometry/residual.hpp>
-#include <textplane/photometry/warp_patch.hpp>
 
 namespace tp = textplane;
 
@@ -52,24 +51,9 @@ bool print_photometry(const tp::SE3d& T) {
   const tp::Pinhole<double> camera(100, 90, 48, 32);
   const tp::Quad<double> quad{{tp::Vector2<double>(20, 15), tp::Vector2<double>(60, 17), tp::Vector2<double>(58, 40),
                                tp::Vector2<double>(21, 38)}};
-  const std::vector<std::vector<tp::Vector2<float>>> inside = {{{22, 18},
-                                                                {25, 19},
-                                                                {30, 22},
-                                                                {33, 25},
-                                                                {40, 20},
-                                                                {41, 31},
-                                                                {44, 24},
-                                                                {45, 35},
-                                                                {48, 29},
-                                                                {50, 33},
-                                                                {52, 21},
-                                                                {53, 27},
-                                                                {55, 30},
-                                                                {26, 30},
-                                                                {28, 35},
-                                                                {35, 33},
-                                                                {37, 19},
-                                                                {24, 26}}};
+  std::vector<std::vector<tp::Vector2<float>>> inside(1);
+  for (int i = 0; i < 18; ++i)
+    inside[0].emplace_back(static_cast<float>(23 + 5 * (i % 6)), static_cast<float>(20 + 6 * (i / 6) + i % 3));
   const tp::Pyramid pyramid(image, 1);
   const tp::TextPatch patch = tp::patch_from_pixels(pyramid, camera, quad, inside);
   tp::PhotometricWorkspace workspace;

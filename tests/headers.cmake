@@ -36,7 +36,7 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     textplane_label(headers.fixed_target first_look sanitizers)
   endif()
 endif()
-# Every header compiles after a using-directive and macros that hide std::min and std::max. Templates need not be used
+# Every header compiles after a using-directive and the macros of windows.h, which hide std::min and std::max. Templates need not be used
 # for that: their names are looked up where they are defined.
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/textplane/*.hpp)
 list(FILTER headers EXCLUDE REGEX "/adapters/")
