@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 176 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: e52170ed87d9dc93
+// textplane 0.1.0 in one header, made of 179 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: ac11df5c4a32a0a4
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 e52170ed87d9dc93"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 ac11df5c4a32a0a4"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -25556,22 +25556,32 @@ struct PhotometricOptions {
 ///   template_jacobian  dI = c . dq,  c = H^-T a_h,  a_h = dI_host/dm~: where the images match, I_target(H m~) and
 ///                      I_host(m~) have the same derivatives by m~, and m~ moves by H^-1 dq. Constant but for H^-1
 ///   esm                the mean of the two normalised rows, right to second order near the match
+///   hybrid             b of forward; H = ratio H_template, H_template by the rows of template_jacobian over the whole
+///                      patch, without weights; ratio = w (sum |J^T a_t|^2 / s_t^2) / (sum |a_h|^2 / s_h^2): the mean
+///                      weight, and the energies of the gradients of target (visible pixels) and host (all pixels),
+///                      a_t by the target's rays, J = d ray / d host pixel at the patch's centre
 ///
-/// All three vanish together at a perfect match. Elsewhere only the first is a gradient of the cost, so a solver must
-/// judge the steps of the others by the cost. Ours do.
+/// All vanish together at a perfect match. Elsewhere b of forward and hybrid alone is a gradient of the cost, so a
+/// solver must judge the steps of the others by the cost. Ours do.
 enum class LinearisePolicy : std::uint8_t {
   forward,            ///< Gradients of the target: the derivative of the cost itself.
   template_jacobian,  ///< Gradients of the host, prepared once: the cheapest iteration.
   esm,                ///< The mean of both: the widest basin.
-  automatic,          ///< A coarse-to-fine solver chooses by level: see policy_at_level().
+  /// The exact gradient of the cost with the template's H: half the work of forward, and the same minimum. Needs
+  /// `prepared`; without it, with a mask, and where no more than kHybridPixels are visible it is forward.
+  hybrid,
+  automatic,  ///< A coarse-to-fine solver chooses by level: see policy_at_level().
 };
 
-/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where forward ends at the minimum of
-/// the cost. The other policies are themselves on every level.
+/// So few visible pixels are linearised by their own rows as fast as by what is prepared: hybrid is forward.
+constexpr int kHybridPixels = 256;
+
+/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where hybrid (forward, where nothing is
+/// prepared) ends at the minimum of the cost. The other policies are themselves on every level.
 constexpr LinearisePolicy policy_at_level(LinearisePolicy policy, int level, int finest_level) noexcept {
   return policy != LinearisePolicy::automatic ? policy
          : level > finest_level               ? LinearisePolicy::esm
-                                              : LinearisePolicy::forward;
+                                              : LinearisePolicy::hybrid;
 }
 
 class TemplatePatch;
@@ -25590,7 +25600,8 @@ struct ResidualRequest {
   PerturbationSide side = PerturbationSide::right;  ///< Of both world poses; see world_request().
 
   /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if
-  /// given, is of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
+  /// given, is of input.patch; LinearisePolicy::template_jacobian is faster by it, and hybrid is forward without. It
+  /// must outlive the request.
   PolicyRequest<T> by(LinearisePolicy policy, const TemplatePatch* prepared = nullptr) const noexcept {
     return {*this, policy, prepared};
   }
@@ -26138,6 +26149,10 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 
+// The double reference of LinearisePolicy::hybrid: its H. residual_request.hpp has the formula.
+#ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
+#define TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
+
 // Photometric residuals through rolling shutters: a request whose images take their rows one after the other becomes
 // one of still images by the warp of geometry/row_warp.hpp, and what comes back is seen through it.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_ROWS_HPP
@@ -26227,6 +26242,101 @@ class RowForm {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_RESIDUAL_ROWS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+
+// Whether the policy hybrid has what it needs; else it is forward.
+template <class T>
+bool takes_hybrid(const PolicyRequest<T>& q, int visible) noexcept {
+  return q.prepared && !q.input.patch.mask && visible > kHybridPixels;
+}
+
+// Of the visible pixels, whose weights are in the workspace: the mean weight times sum |J^T a|^2.
+template <class T>
+double pulled_energy(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
+  const auto& in = request.input;
+  const Pinhole<double>&h = in.host_camera, &c = in.target_camera;
+  const Matrix3<double> H = plane_homography(request.theta, request.T_t_h);
+  const Vector3<double> middle = H * patch_centre(in);
+  FixedMatrix<double, 2, 2> J;
+  for (int r = 0; r < 2; ++r) {
+    const double ray = middle[r] / middle[2];
+    J(r, 0) = (H(r, 0) - ray * H(2, 0)) / (middle[2] * h.fx);
+    J(r, 1) = (H(r, 1) - ray * H(2, 1)) / (middle[2] * h.fy);
+  }
+  const std::uint8_t* visible = workspace.visible();
+  const double* w = workspace.intensities();
+  double energy = 0, weights = 0;
+  int seen = 0;
+  for (int i = 0; i < in.patch.n; ++i) {
+    if (!visible[i]) continue;
+    const Vector3<double> q = H * h.unproject({in.patch.x[i], in.patch.y[i]});
+    Vector2<double> m(q[0] / q[2], q[1] / q[2]);
+    FixedMatrix<double, 2, 2> D = FixedMatrix<double, 2, 2>::Identity();
+    if (in.lens) m = in.lens->distort(m, &D);
+    double value, gx, gy;
+    sample_inside(in.target, c.fx * m[0] + c.cx, c.fy * m[1] + c.cy, &value, &gx, &gy);
+    const double a = gx * c.fx, b = gy * c.fy, by_u = a * D(0, 0) + b * D(1, 0), by_v = a * D(0, 1) + b * D(1, 1);
+    for (int j = 0; j < 2; ++j) {
+      const double pulled = J(0, j) * by_u + J(1, j) * by_v;
+      energy += pulled * pulled;
+    }
+    weights += w[seen++];
+  }
+  return weights / seen * energy;
+}
+
+// The template's H of the whole patch, times `energy` of the target's normalised gradients over that of the host's. The
+// workspace's numbers are lost.
+template <int P, class T>
+FixedMatrix<double, P, P> hybrid_matrix(const PolicyRequest<T>& request, const Matrix3<double>& inverse, double energy,
+                                        PhotometricWorkspace& workspace) noexcept {
+  const PatchView& patch = request.input.patch;
+  const Pinhole<double>& camera = request.input.host_camera;
+  const Matrix3<double> H = plane_homography(request.theta, request.T_t_h);
+  const double* t = request.T_t_h.t.data();
+  const bool exact = request.options.normalisation == Normalisation::exact;
+  double host_energy = 0, mean = 0, squares = 0;
+  for (int i = 0; i < patch.n; ++i) mean += static_cast<double>(patch.intensity[i]) / patch.n;
+  double *rows = workspace.rows(), *h = workspace.residuals();
+  for (int i = 0; i < patch.n; ++i) {
+    h[i] = static_cast<double>(patch.intensity[i]) - mean;
+    squares += h[i] * h[i];
+    const Vector3<double> m = camera.unproject({patch.x[i], patch.y[i]}), q = H * m;
+    const double gx = static_cast<double>(patch.gx[i]), gy = static_cast<double>(patch.gy[i]);
+    host_energy += gx * gx + gy * gy;
+    const double au = gx * camera.fx, av = gy * camera.fy, aw = -(au * m[0] + av * m[1]);
+    double a[3];
+    for (int j = 0; j < 3; ++j) a[j] = au * inverse(0, j) + av * inverse(1, j) + aw * inverse(2, j);
+    intensity_row<P>(m[0], m[1], q.data(), request.theta.dot(m), a, t, rows + static_cast<std::ptrdiff_t>(i) * P);
+  }
+  double e[kLength<P>] = {}, c[kLength<P>] = {};
+  for (int i = 0; exact && i < patch.n; ++i)
+    for (int j = 0; j < P; ++j) {
+      e[j] += rows[i * P + j] / patch.n;
+      c[j] += h[i] / squares * rows[i * P + j];
+    }
+  FixedMatrix<double, P, P> out = FixedMatrix<double, P, P>::Zero();
+  for (int i = 0; i < patch.n; ++i) {
+    double row[kLength<P>];
+    for (int j = 0; j < P; ++j) row[j] = rows[i * P + j] - e[j] - h[i] * c[j];
+    for (int r = 0; r < P; ++r)
+      for (int k = 0; k < P; ++k) out(r, k) += row[r] * row[k];
+  }
+  // 1 / s_h^2 of the rows and of the host's energy cancel.
+  const double scale = energy / host_energy;
+  for (int r = 0; r < P; ++r)
+    for (int k = 0; k < P; ++k) out(r, k) *= scale;
+  return out;
+}
+
+}  // namespace detail
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
 // The normal equations of pose and plane, seen through the world poses of host and target.
 #ifndef TEXTPLANE_PHOTOMETRY_WORLD_PARAMETERS_HPP
 #define TEXTPLANE_PHOTOMETRY_WORLD_PARAMETERS_HPP
@@ -26327,8 +26437,8 @@ Preamble begin(const ResidualRequest<T>& q, const std::uint8_t* on_set, std::uin
 template <class T>
 Status check_policy(const PolicyRequest<T>& q, Matrix3<double>* inverse) noexcept {
   if (q.policy == LinearisePolicy::forward) return Status::ok;
-  if (q.policy != LinearisePolicy::template_jacobian && q.policy != LinearisePolicy::esm)
-    return Status::invalid_argument;
+  if (q.policy == LinearisePolicy::hybrid && !takes_hybrid(q, q.input.patch.n)) return Status::ok;
+  if (q.policy >= LinearisePolicy::automatic) return Status::invalid_argument;
   if (q.input.patch.n > 0 && (!q.input.patch.gx || !q.input.patch.gy)) return Status::invalid_argument;
   return plane_homography_inverse(q.theta, q.T_t_h, inverse);
 }
@@ -26401,10 +26511,15 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
     if (!is_ok(out.status)) return out;
     const int n = start.seen.visible;
     detail::project<P>(n, start.target.s, request.options.normalisation, workspace);
-    if (request.policy != LinearisePolicy::forward)
+    const bool hybrid = request.policy == LinearisePolicy::hybrid;
+    if (request.policy != LinearisePolicy::forward && !hybrid)
       detail::add_host_rows<P>(request, inverse, start.host.s, n, workspace);
     const detail::WeightedCost sum = detail::weigh(n, request.options.robust, workspace);
     detail::accumulate<P>(n, workspace, &out.H, &out.b);
+    if (hybrid && detail::takes_hybrid(request, n)) {
+      const double energy = detail::pulled_energy(request, workspace) / (start.target.s * start.target.s);
+      out.H = detail::hybrid_matrix<P>(request, inverse, energy, workspace);
+    }
     if (!all_finite(out.H) || !all_finite(out.b) || !is_finite(sum.cost)) {
       out.clear();
       out.status = Status::non_finite;
@@ -32906,7 +33021,8 @@ TEXTPLANE_END_NAMESPACE
 #include <algorithm>
 #include <cstddef>
 
-// linearise() by a policy: gradients of the target (forward), the host (template Jacobian), or both (ESM).
+// linearise() by a policy: gradients of the target (forward), the host (template Jacobian), both (ESM), or b by the
+// target's and H by the host's (hybrid).
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 
@@ -37616,15 +37732,924 @@ class TemplatePatch {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_TEMPLATE_PATCH_HPP
+// Normal equations whose b is the gradient of the cost, exact, and whose H is the template's times one number: raw
+// pointers in, sums out. photometry/residual_request.hpp says what they are (LinearisePolicy::hybrid), and
+// docs/equations.md has the formulas.
+//
+// A pixel takes sampling with gradients, its residual, one factor, and eight sums; the 27 products of rows and all that
+// belongs to them are those of the prepared host patch. Error against the reference as that of simd/residual.hpp; of H
+// besides that of the template's rounded columns (simd/template.hpp).
+#ifndef TEXTPLANE_SIMD_HYBRID_HPP
+#define TEXTPLANE_SIMD_HYBRID_HPP
+
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/hybrid.inl"
+#ifndef TEXTPLANE_SIMD_KERNEL
+#error "define TEXTPLANE_SIMD_KERNEL as the file to include"
+#endif
+#if TEXTPLANE_HAS_KERNELS
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(precise, on, push)
+#endif
+#pragma clang fp contract(off)
+#elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
+#endif
+#define TEXTPLANE_SIMD_SLOT 0
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+// The kernel of simd/hybrid.hpp. Include before: residual/large.inl, residual/host_basis.inl.
+//
+// e = r sqrt(N) of a pixel is pulled to w e by the robust cost. With the projections through mean and norm taken from
+// it, one factor f a pixel is left, and b is a sum of rows times f:
+//
+//   f = w e - T0 / N - Tn n,   T0 = sum w e,  Tn = sum w e n,   b8 = -sum f j / (s sqrt(N))
+
+// Sums over all pixels, in the order in which they lie in an array of doubles: of e^2 and rho(e^2); of w e, w e i and w;
+// of A A, A B and B B.
+enum : int { kPullSums = 8 };
+
+// Residuals become w e in s.d. The sums of costs are those of add_costs(), to the bit: trials are compared with them.
+// `all`: Cauchy and Tukey, which weigh every pixel.
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+
+// Sums of the eight rows times f = w e - k0 - k1 i over the pixels from `begin` to `end`. Rows are zero beyond the last.
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+
+// The energy of the target's gradients, pulled back to the host by the warp's derivative at the patch's centre.
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 1
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 2
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 3
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(pop)
+#else
+#pragma STDC FP_CONTRACT DEFAULT
+#endif
+#elif defined(__GNUC__)
+#pragma GCC pop_options
+#pragma GCC diagnostic pop
+#endif
+#endif
+#undef TEXTPLANE_SIMD_KERNEL
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace simd {
+
+/// Normal equations for (v, omega, theta): H (9 x 9) and b (9), of which nothing may be used unless the status is ok.
+/// `args` are of the pixels that `model` was prepared of. Status::unsupported also where no more than 256 pixels are
+/// visible (linearise_pose_plane() is quicker then), or a host intensity is not finite.
+TEXTPLANE_KERNEL void linearise_hybrid(const TemplateModel& model, const ResidualArgs& args, ResidualInfo* out,
+                                       double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_hybrid(model, args, out, H, b));
+
+}  // namespace simd
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SIMD_HYBRID_HPP
 
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
+// Of the sums by (v, omega, theta) those by the unknowns.
+template <int P>
+void take_parameters(const double* H, const double* b, NormalEquations<P>* out) noexcept {
+  constexpr int at = P == 3 ? 6 : 0;
+  for (int c = 0; c < P; ++c) {
+    out->b[c] = b[at + c];
+    for (int r = 0; r < P; ++r) out->H(r, c) = H[9 * (at + r) + at + c];
+  }
+}
+
 // The policies with the host's gradients, by the kernels; false where they do not take the request or declined.
 template <Parameters Unknowns>
 bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricWorkspace& workspace,
                               NormalEquations<dof(Unknowns)>* out) noexcept {
-  constexpr int P = dof(Unknowns), at = P == 3 ? 6 : 0;
+  constexpr int P = dof(Unknowns);
   const bool esm = q.policy == LinearisePolicy::esm;
   const PatchView& patch = q.input.patch;
   if ((!esm && q.policy != LinearisePolicy::template_jacobian) || !patch.gx || !patch.gy || !kernels_take(q, workspace))
@@ -37644,11 +38669,29 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
   // Not all of the patch is visible: the sums of what is.
   if (info.status == Status::unsupported) info = simd::linearise_esm(args, H, b);
   if (!take_info(info, q.options.min_visible, out)) return false;
-  if (P != 9 && is_ok(out->status))
-    for (int c = 0; c < P; ++c) {
-      out->b[c] = b[at + c];
-      for (int r = 0; r < P; ++r) out->H(r, c) = H[9 * (at + r) + at + c];
-    }
+  if (P != 9 && is_ok(out->status)) take_parameters<P>(H, b, out);
+  return true;
+}
+
+// The policy hybrid likewise; forward where that is what it means.
+template <Parameters Unknowns>
+bool kernel_linearise_hybrid(const PolicyRequest<std::uint8_t>& q, PhotometricWorkspace& workspace,
+                             NormalEquations<dof(Unknowns)>* out) noexcept {
+  constexpr int P = dof(Unknowns);
+  const PatchView& patch = q.input.patch;
+  if (!takes_hybrid(q, patch.n)) return kernel_linearise<Unknowns>(q, workspace, out);
+  if (!kernels_take(q, workspace) || !patch.gx || !patch.gy || q.prepared->size() != patch.n) return false;
+  simd::ResidualArgs args = kernel_args(q, workspace, workspace.visible_flags(), nullptr);
+  simd::LensFit fit;
+  if (q.input.lens && !fit_request(q, &args, &fit)) return false;
+  double all_H[81], all_b[9];
+  double *H = P == 9 ? out->H.data() : all_H, *b = P == 9 ? out->b.data() : all_b;
+  simd::ResidualInfo info;
+  simd::linearise_hybrid(q.prepared->model(), args, &info, H, b);
+  if (info.status == Status::unsupported && info.visible <= kHybridPixels)
+    return kernel_linearise<Unknowns>(q, workspace, out);
+  if (!take_info(info, q.options.min_visible, out)) return false;
+  if (P != 9 && is_ok(out->status)) take_parameters<P>(H, b, out);
   return true;
 }
 }  // namespace detail
@@ -37658,7 +38701,7 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
 /// rounded to 1/64 grey level and target intensities within 0.025 of the interpolant (simd/template.hpp): E and the
 /// entries of b, in units of sqrt(H_ii), are within 0.08 / sigma of the reference's, sigma being the lesser standard
 /// deviation of the two sides, and H within 3e-4 of sqrt(H_ii H_jj) without weights. Otherwise the bounds are those of
-/// simd/residual.hpp.
+/// simd/residual.hpp, of hybrid's H with that of the template's besides.
 template <Parameters Unknowns, class T>
 NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
   NormalEquations<dof(Unknowns)> out{detail::Unset()};
@@ -37673,8 +38716,9 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
     }
     bool taken = false;
     if constexpr (std::is_same<T, std::uint8_t>::value)
-      taken = request.policy == LinearisePolicy::forward
-                  ? detail::kernel_linearise<Unknowns>(request, workspace, &out)
+      taken = request.policy == LinearisePolicy::forward ? detail::kernel_linearise<Unknowns>(request, workspace, &out)
+              : request.policy == LinearisePolicy::hybrid
+                  ? detail::kernel_linearise_hybrid<Unknowns>(request, workspace, &out)
                   : detail::kernel_linearise_by_host<Unknowns>(request, workspace, &out);
     if (!taken) out = reference::linearise<Unknowns>(request, workspace);
   }
@@ -37737,7 +38781,7 @@ struct PoseTextTerm {
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< Multiplies lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(), for targets that see it at another size.
-  /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian, or null.
+  /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian and hybrid, or null.
   const TemplatePatch* prepared = nullptr;
   int camera = 0;  ///< Which camera of a rig sees it; 0 where there is one.
 };
@@ -38135,7 +39179,7 @@ class PoseProblem {
     path_ = (std::max)(path_, n.path);
     if (!is_ok(n.status)) return n.status;
     // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
-    if (q.prepared && q.policy != LinearisePolicy::forward) {
+    if (q.prepared && q.policy != LinearisePolicy::forward && q.policy != LinearisePolicy::hybrid) {
       const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
       if (is_ok(c.status)) n.cost = c.cost;
     }
