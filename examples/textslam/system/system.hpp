@@ -49,6 +49,7 @@ struct FrameRecord {
   SE3d T_k_c;         ///< Camera to that key frame.
   Matrix6 information = Matrix6::Zero();  ///< Of that, see PoseEstimate; zero where the pose is a key frame's.
   SE3d T_w_c_live;            ///< Camera to the live world as known when the frame was processed; tracked frames alone.
+  SE3d T_w_m_live;            ///< The same at the time of the middle row, see System::at_stamp().
   bool live = false;          ///< Tracked in the map when it came, not filled in or joined afterwards.
   double position_sigma = 0;  ///< Of the camera, as a share of the scene's depth, as tracked.
   int points = 0, texts = 0;
@@ -59,7 +60,7 @@ struct FrameRecord {
 
 class System {
  public:
-  /// The lens of the camera, if it has one, must outlive the system.
+  /// The lens of the camera, if it has one, must outlive the system. Time stamps belong to the row0 of `shutter`.
   System(const CameraView& camera, int width, int height, const Parameters& parameters,
          const textplane::RollingShutter& shutter = {});
 
@@ -88,8 +89,8 @@ class System {
   /// Map to the live world, in which live poses are given. Adjustments move all of a monocular map. This similarity
   /// fits the poses of all frames, as the map has them now, to their live poses, so that the live world stays in place.
   const Similarity& live_world() const { return live_world_; }
-  /// Final pose of a tracked frame.
-  SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
+  /// Final pose of a tracked frame, at its time stamp.
+  SE3d final_pose(const FrameRecord& record) const { return at_stamp(record, middle_pose(record)); }
 
  private:
   bool track(const Frame& frame, FrameRecord& record);
@@ -103,6 +104,8 @@ class System {
   void cull_keyframes();
   void take_over(const Adjuster::Collected& adjusted);
   void map_changed(const SE3d& T_c_w, FrameRecord* newest, double scale = 1);
+  SE3d middle_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
+  SE3d at_stamp(const FrameRecord& record, const SE3d& T_w_c) const;
   bool is_rolling() const;
   bool is_readout_due() const;
   void set_readout(double seconds);
@@ -131,6 +134,7 @@ class System {
   std::map<int, std::size_t> frames_by_map() const;
 
   Parameters parameters_;
+  double stamp_row_;  // that time stamps belong to; see at_stamp()
   Map map_;
   LocalMap local_;           // around the newest key frame
   std::vector<Map> stored_;  // in the order in which they were left

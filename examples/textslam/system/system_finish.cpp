@@ -12,7 +12,7 @@ namespace textslam {
 
 void System::refit(FrameRecord& record) const {
   if (record.state != FrameState::tracked || record.map != map_.number || record.seen.empty()) return;
-  PoseEstimate pose{final_pose(record).inverse(), parameters_.refit_live_weight * record.information};
+  PoseEstimate pose{middle_pose(record).inverse(), parameters_.refit_live_weight * record.information};
   const CameraView camera(map_.camera.pinhole, map_.camera.lens, record.rows.get());
   if (!refit_pose(map_, parameters_, camera, record.seen, &pose)) return;
   record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * pose.T_c_w.inverse();
@@ -32,7 +32,7 @@ void System::fill_in(const std::function<Frame(int)>& load) {
     }
     if (!going) {
       const Frame start = load(index + 1);
-      const SE3d T_c_w = final_pose(next).inverse();
+      const SE3d T_c_w = middle_pose(next).inverse();
       backwards.start(start, T_c_w, observe_from(map_, parameters_, start, T_c_w).tracks);
     }
     const TrackReport report = backwards.track(load(index));
