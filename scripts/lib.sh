@@ -19,7 +19,7 @@ packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang l
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
   pandoc libjs-katex fonts-katex clang-format"
 packages_all="$packages_ci python3-sympy libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
-  g++-11-s390x-linux-gnu"
+  g++-11-s390x-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32 nodejs"
 
 say() { printf '\n== %s\n' "$*"; }
 warn() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
