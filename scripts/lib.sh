@@ -13,7 +13,7 @@ fi
 # signs, and tests and measurements need the same four everywhere: hence both packages of fonts.
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
-  nlohmann-json3-dev libyaml-cpp-dev fonts-dejavu-core fonts-dejavu-extra"
+  nlohmann-json3-dev libyaml-cpp-dev libsqlite3-dev fonts-dejavu-core fonts-dejavu-extra"
 packages_test="$packages_demo libgtest-dev"
 packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen

@@ -1,12 +1,14 @@
-// textslam-map: questions to the text map of an output folder.
+// textslam-map: questions to the text map of an output folder, or to a map file.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "cli/command_line.hpp"
 #include "io/input_error.hpp"
+#include "textslam_map/map_queries.hpp"
 #include "textslam_map/text_query.hpp"
 
 namespace {
@@ -53,6 +55,25 @@ int show_angles(const std::vector<textslam::IndexedText>& texts, double within, 
   return kNotFound;
 }
 
+std::vector<textslam::IndexedText> read_texts(const std::string& map) {
+  return std::filesystem::is_directory(map) ? textslam::read_text_index(map + "/text_index.json")
+                                            : textslam::read_map_texts(map);
+}
+
+int show_info(const std::string& map, bool json) {
+  const textslam::MapInfo info = textslam::read_map_info(map);
+  std::printf("%s", (json ? textslam::info_json(info) : textslam::info_text(info)).c_str());
+  return 0;
+}
+
+int check(const std::string& map) {
+  const std::vector<std::string> problems = textslam::problems_of(map);
+  for (const std::string& problem : problems)
+    std::fprintf(stderr, "textslam-map: %s: %s\n", map.c_str(), problem.c_str());
+  if (problems.empty()) std::printf("%s: ok\n", map.c_str());
+  return problems.empty() ? 0 : kInputError;
+}
+
 int execute(int argc, char** argv) {
   std::string folder, word;
   std::vector<std::string> words;
@@ -62,17 +83,26 @@ int execute(int argc, char** argv) {
   app.require_subcommand(1);
   CLI::App* query = app.add_subcommand(
       "query", "Where is a word? Position and normal in the world frame, and the key frame that shows it best");
-  query->add_option("DIR", folder, "Output folder of textslam")->required();
+  const char* const kMap = "Output folder of textslam, or a map file";
+  query->add_option("MAP", folder, kMap)->required();
   query->add_option("WORD", word, "Or a part of it, or one like it; letters' case does not matter")->required();
   query->add_flag("--json", json, "Print it as text_index.json has it");
   CLI::App* angles = app.add_subcommand("angles", "How do texts lie to each other? The angles between their normals");
-  angles->add_option("DIR", folder, "Output folder of textslam")->required();
+  angles->add_option("MAP", folder, kMap)->required();
   angles->add_option("WORD", words, "Of each the text that query finds first; without any, all texts of the map");
   angles->add_flag("--json", json, "Print texts, the angles between them and the largest as JSON");
   angles->add_option("--within", within, "Degrees: exit code 1 where two normals are farther apart")
       ->check(textslam::within(0, 180));
+  CLI::App* info = app.add_subcommand("info", "What is in a map file? Its camera, its sessions, and how much of what");
+  info->add_option("FILE", folder, "Map file")->required();
+  info->add_flag("--json", json, "Print it as JSON");
+  CLI::App* whole = app.add_subcommand(
+      "check", "Is a map file whole? Integrity, references, finite numbers; exit code 2 and a line each where not");
+  whole->add_option("FILE", folder, "Map file")->required();
   if (const auto code = textslam::parse_command_line(app, "textslam-map", argc, argv)) return *code;
-  const std::vector<textslam::IndexedText> texts = textslam::read_text_index(folder + "/text_index.json");
+  if (info->parsed()) return show_info(folder, json);
+  if (whole->parsed()) return check(folder);
+  const std::vector<textslam::IndexedText> texts = read_texts(folder);
   if (angles->parsed() && words.empty()) return show_angles(texts, within, json);
   if (query->parsed()) words = {word};
   std::vector<textslam::IndexedText> found;

@@ -32,6 +32,7 @@ const FrameRecord& System::process(const Frame& frame, double detect_ms) {
   record.timestamp = frame.timestamp;
   record.detect_ms = detect_ms;
   const double start = now_ms();
+  if (only_localises_) return localise(frame, record);
   take_over(adjuster_.collect(map_));
   const bool found = (tracker_ && lost_frames_ == 0 && track(frame, record)) || recover(frame, record);
   record.track_ms = now_ms() - start;
@@ -127,6 +128,7 @@ bool System::track(const Frame& frame, FrameRecord& record) {
   record.points = report.inliers;
   record.texts = report.texts;
   if (!report.ok) return false;
+  record.by = FoundBy::tracking;
   record.information = report.information;
   record.position_sigma = report.position_sigma;
   for (const int id : report.visible) ++map_.point(id).visible;
@@ -222,9 +224,9 @@ void System::cull_keyframes() {
     const KeyFrame& keyframe = map_.keyframe(id);
     const int before = keyframe_before(map_, id);
     const SE3d T_before_id = map_.keyframe(before).T_w_c.inverse() * keyframe.T_w_c;
-    const auto frame = static_cast<std::size_t>(keyframe.frame.index);
-    if (records_.size() - frame <= static_cast<std::size_t>(parameters_.refit_frames))
-      records_[frame].seen =
+    const int frame = keyframe.frame.index;  // negative where it is of an earlier session
+    if (frame >= 0 && static_cast<int>(records_.size()) - frame <= parameters_.refit_frames)
+      records_[static_cast<std::size_t>(frame)].seen =
           seen_points(tracks_of_keyframe(map_, id), static_cast<std::size_t>(parameters_.refit_max_points));
     for (FrameRecord& record : records_) {
       if (record.map != map_.number || record.keyframe != id) continue;

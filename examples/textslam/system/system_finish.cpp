@@ -20,7 +20,7 @@ void System::refit(FrameRecord& record) const {
 }
 
 void System::fill_in(const std::function<Frame(int)>& load) {
-  if (map_.keyframes.size() < 2) return;
+  if (map_.keyframes.size() < 2 || only_localises_) return;
   Tracker backwards(map_, parameters_);
   bool going = false;  // the frame after this one was tracked backwards
   for (int index = static_cast<int>(records_.size()) - 2; index >= 0; --index) {
@@ -50,6 +50,7 @@ void System::fill_in(const std::function<Frame(int)>& load) {
 }
 
 void System::finish() {
+  if (only_localises_) return;
   take_over(adjuster_.settle(map_));
   keep_largest();
   if (map_.keyframes.size() < 2) return;

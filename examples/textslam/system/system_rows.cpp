@@ -19,8 +19,9 @@ constexpr double kLongest = 0.1;  // s, readout either way
 // would feed themselves, and grow where the readout takes nearly a frame's time.
 SE3d System::at_stamp(const FrameRecord& record, const SE3d& T_w_c) const {
   const KeyFrame& keyframe = map_.keyframe(record.keyframe);
-  const auto index = static_cast<std::size_t>(keyframe.frame.index);
-  const auto& rows = &records_[index] == &record ? keyframe.frame.rows : record.rows;
+  const int index = keyframe.frame.index;  // negative where it is of an earlier session
+  const bool is_keyframe = index >= 0 && &records_[static_cast<std::size_t>(index)] == &record;
+  const auto& rows = is_keyframe ? keyframe.frame.rows : record.rows;
   if (!rows || stamp_row_ == map_.shutter.row0) return T_w_c;
   return T_w_c * rows->at(stamp_row_).inverse();
 }
