@@ -9,7 +9,7 @@ build_programs() {
   shift 2
   mkdir -p "$folder"
   cmake -S "$root" -B "$folder" -DCMAKE_BUILD_TYPE=Release '-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG' \
-    -DTEXTPLANE_BUILD_BENCH=ON -DTEXTPLANE_BUILD_TESTS=OFF "-DTEXTPLANE_BUILD_EXAMPLES=$examples" >"$folder.log" 2>&1 ||
+    -DTEXTPLANE_BUILD_BENCH=ON -DTEXTPLANE_BUILD_TESTS=OFF -DTEXTPLANE_BUILD_PYTHON=OFF "-DTEXTPLANE_BUILD_EXAMPLES=$examples" >"$folder.log" 2>&1 ||
     { cat "$folder.log"; exit 1; }
   cmake --build "$folder" --parallel "$(nproc 2>/dev/null || echo 2)" --target "$@"
 }

@@ -1,5 +1,5 @@
-# TEXTPLANE_BUILD_TESTS and TEXTPLANE_BUILD_EXAMPLES where they are AUTO: ON if what they need is there, else OFF, and one
-# line says what is left out. Somebody who asks for them with ON gets CMake's error in its place.
+# TEXTPLANE_BUILD_TESTS, TEXTPLANE_BUILD_EXAMPLES and TEXTPLANE_BUILD_PYTHON where they are AUTO: ON if what they need is
+# there, else OFF, and one line says what is left out. Somebody who asks for them with ON gets an error in its place.
 set(TEXTPLANE_EXAMPLE_PACKAGES JPEG PNG CLI11 nlohmann_json yaml-cpp SQLite3)  # and stb, which is no package
 set(left_out)
 if(TEXTPLANE_BUILD_TESTS STREQUAL "AUTO")
@@ -29,6 +29,24 @@ if(TEXTPLANE_BUILD_EXAMPLES STREQUAL "AUTO")
     set(TEXTPLANE_BUILD_EXAMPLES OFF)
     list(JOIN missing ", " missing)
     list(APPEND left_out "examples (no ${missing})")
+  endif()
+endif()
+# A module of Python does not load into an interpreter that is built without its sanitizer, and needs the interpreter of the
+# system that it is built for. The tiers of the tests do without it.
+string(TOUPPER "CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}" flags)
+if(TEXTPLANE_BUILD_PYTHON STREQUAL "AUTO" AND
+   (CMAKE_CROSSCOMPILING OR TEXTPLANE_TEST_TIER OR "${CMAKE_CXX_FLAGS} ${${flags}}" MATCHES "-fsanitize"))
+  set(TEXTPLANE_BUILD_PYTHON OFF)
+elseif(TEXTPLANE_BUILD_PYTHON)
+  include(cmake/python.cmake)
+  list(JOIN textplane_python_missing ", " missing)
+  if(missing AND NOT TEXTPLANE_BUILD_PYTHON STREQUAL "AUTO")
+    message(FATAL_ERROR "The Python package needs ${missing}")
+  elseif(missing)
+    list(APPEND left_out "the Python package (no ${missing})")
+    set(TEXTPLANE_BUILD_PYTHON OFF)
+  else()
+    set(TEXTPLANE_BUILD_PYTHON ON)
   endif()
 endif()
 if(left_out)

@@ -24,7 +24,7 @@ function(configure out version source)
   set(${out}_result ${result} PARENT_SCOPE)
 endfunction()
 
-set(library -DTEXTPLANE_BUILD_TESTS=OFF -DTEXTPLANE_BUILD_EXAMPLES=OFF)
+set(library -DTEXTPLANE_BUILD_TESTS=OFF -DTEXTPLANE_BUILD_EXAMPLES=OFF -DTEXTPLANE_BUILD_PYTHON=OFF)
 set(consumer ${CMAKE_CURRENT_LIST_DIR}/find_package)
 configure(build5 5.0.1 ${SOURCE} ${library})
 if(NOT build5_result EQUAL 0)

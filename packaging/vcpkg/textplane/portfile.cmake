@@ -3,7 +3,7 @@ get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE
 set(VCPKG_BUILD_TYPE release)  # Headers.
 
 vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}"
-  OPTIONS -DTEXTPLANE_BUILD_TESTS=OFF -DTEXTPLANE_BUILD_EXAMPLES=OFF -DTEXTPLANE_INSTALL=ON)
+  OPTIONS -DTEXTPLANE_BUILD_TESTS=OFF -DTEXTPLANE_BUILD_EXAMPLES=OFF -DTEXTPLANE_BUILD_PYTHON=OFF -DTEXTPLANE_INSTALL=ON)
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH share/cmake/textplane)
 vcpkg_fixup_pkgconfig()
