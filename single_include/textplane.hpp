@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 0700061b7d0ca246
+// Hash of these files: 33985750616cbdd0
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 0700061b7d0ca246"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 33985750616cbdd0"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -42525,8 +42525,8 @@ namespace TEXTPLANE_SIMD_REGION {
 //
 //   f = w e - T0 / N - Tn n,   T0 = sum w e,  Tn = sum w e n,   b8 = -sum f j / (s sqrt(N))
 
-// Sums over all pixels, in the order in which they lie in an array of doubles: of e^2 and rho(e^2); of w e, w e i and w;
-// of A A, A B and B B.
+// Sums over all pixels, in the order in which they lie in an array of doubles: of e^2 and rho(e^2); of w e, w e i and
+// w; of A A, A B and B B.
 enum : int { kPullSums = 8 };
 
 // Residuals become w e in s.d. The sums of costs are those of add_costs(), to the bit: trials are compared with them.
@@ -42583,7 +42583,8 @@ TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualAr
   pull_by(true, a, s, n, r, sums);
 }
 
-// Sums of the eight rows times f = w e - k0 - k1 i over the pixels from `begin` to `end`. Rows are zero beyond the last.
+// Sums of the eight rows times f = w e - k0 - k1 i over the pixels from `begin` to `end`. Rows are zero beyond the
+// last.
 TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
                                      float* acc) noexcept {
   const vf constant = set1(k0), on_i = set1(-k1);

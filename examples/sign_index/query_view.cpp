@@ -10,7 +10,7 @@ namespace {
 
 using textplane::Status;
 constexpr double kEdge = 0.01;           // px from the edge of the image: a quad that touches it is cut off
-constexpr double kWordRange = 12;            // nats below the likeliest word
+constexpr double kWordRange = 12;        // nats below the likeliest word
 constexpr double kOtherWord = -12;       // nats, of a word that nobody would read so
 constexpr double kLeastSide = 4;         // px
 constexpr double kClutterSpread = 2.54;  // minus the log of the spreads below

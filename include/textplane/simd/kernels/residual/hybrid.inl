@@ -5,8 +5,8 @@
 //
 //   f = w e - T0 / N - Tn n,   T0 = sum w e,  Tn = sum w e n,   b8 = -sum f j / (s sqrt(N))
 
-// Sums over all pixels, in the order in which they lie in an array of doubles: of e^2 and rho(e^2); of w e, w e i and w;
-// of A A, A B and B B.
+// Sums over all pixels, in the order in which they lie in an array of doubles: of e^2 and rho(e^2); of w e, w e i and
+// w; of A A, A B and B B.
 enum : int { kPullSums = 8 };
 
 // Residuals become w e in s.d. The sums of costs are those of add_costs(), to the bit: trials are compared with them.
@@ -63,7 +63,8 @@ TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualAr
   pull_by(true, a, s, n, r, sums);
 }
 
-// Sums of the eight rows times f = w e - k0 - k1 i over the pixels from `begin` to `end`. Rows are zero beyond the last.
+// Sums of the eight rows times f = w e - k0 - k1 i over the pixels from `begin` to `end`. Rows are zero beyond the
+// last.
 TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
                                      float* acc) noexcept {
   const vf constant = set1(k0), on_i = set1(-k1);
