@@ -82,7 +82,7 @@ MapRecord MapSession::record_of(const System& system, const CameraModel& camera,
   MapRecord record;
   if (in_earlier) record = earlier_->record;
   record.camera = camera;
-  record.camera.shutter = system.map().shutter;
+  record.camera.shutter.readout = system.map().shutter.readout;
   SavedSession session;
   session.id = record.sessions.empty() ? 1 : record.sessions.back().id + 1;
   session.started = started_;

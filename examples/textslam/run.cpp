@@ -236,7 +236,7 @@ RunResult run_with_camera(const RunOptions& options, const Sequence& sequence, c
     result.unmapped = session.save(system, sequence.camera, image);
     if (calibration || options.parameters.estimate_readout) {
       CameraModel found = sequence.camera;
-      found.shutter = system.map().shutter;
+      found.shutter.readout = system.map().shutter.readout;
       write_file(options.output + "/camera.yaml", camera_yaml(found, calibration));
     }
   } catch (const std::exception&) {

@@ -17,7 +17,7 @@ LoadedMap load_map(const std::string& path, const Parameters& parameters) {
   loaded.map.camera = loaded.camera->view();
   loaded.map.width = camera.width;
   loaded.map.height = camera.height;
-  loaded.map.shutter = camera.shutter;
+  loaded.map.shutter = at_middle(camera.shutter, camera.height);
   load_keyframes(database, at_size(parameters, camera.width, camera.height), &loaded.record, &loaded.map);
   load_points(database, &loaded.map);
   load_texts(database, &loaded.map);

@@ -23,8 +23,7 @@ System::System(const CameraView& camera, int width, int height, const Parameters
   map_.camera = camera;
   map_.width = width;
   map_.height = height;
-  map_.shutter = all_at_once(height);
-  if (shutter.rows > 1) map_.shutter.readout = shutter.readout;
+  map_.shutter = at_middle(shutter, height);
 }
 
 const FrameRecord& System::process(const Frame& frame, double detect_ms) {
