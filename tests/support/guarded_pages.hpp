@@ -1,6 +1,5 @@
 // Zeroed pages of memory between two that may not be touched. WebAssembly cannot forbid pages. There the two hold bytes
-// of all ones, each NaN as a float: a write into them fails the test at the end, a read shows where the result depends
-// on it.
+// of all ones, NaN as floats: a write into them fails the test at the end, a read shows where the result depends on it.
 #ifndef TEXTPLANE_TESTS_SUPPORT_GUARDED_PAGES_HPP
 #define TEXTPLANE_TESTS_SUPPORT_GUARDED_PAGES_HPP
 
