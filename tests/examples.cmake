@@ -31,6 +31,8 @@ textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS 
 textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map TIERS first_look sanitizers EXCEPT
   sanitizers "LateDetections\\." first_look "LateDetections\\.")
 
+textplane_add_tests(city LIBRARIES textplane_city TIERS first_look sanitizers EXCEPT sanitizers "CitySearch\\.")
+
 add_test(NAME examples.rooms COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/examples/textslam
   -P ${CMAKE_CURRENT_SOURCE_DIR}/textslam/rooms.cmake)
 textplane_label(examples.rooms textslam first_look)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "textslam/relocalise/planar_pose.hpp"
+#include "sign_index/planar_pose.hpp"
 
 namespace textslam {
 namespace {
@@ -138,9 +138,7 @@ std::optional<FoundPlace> Constellation::place(const QueryView& view, const Plac
                        std::log(turns * share * share * share) + absent(view, pose);
   for (const SignSighting& s : sightings_) {
     const QuerySign& sign = view.signs[static_cast<std::size_t>(s.detection)];
-    found.log_evidence += sign.log_ratio(index_.word(s.sign)) - sign.log_clutter -
-                          8 * (std::log(view.sigma) + 0.5 * kLog2Pi) +
-                          std::log((1 - options_.missed) / options_.unmapped);
+    found.log_evidence += sign.log_ratio(index_.word(s.sign)) + sign.log_peak;
     found.sightings.push_back({sign.detection, s.sign});
   }
   return found;
@@ -150,6 +148,9 @@ std::optional<FoundPlace> Constellation::grow(const QueryView& view, const Place
   const PlanarPose poses = planar_pose(index_.corners(seed.sign), view.signs[seed.query].quad);
   std::optional<FoundPlace> best;
   for (int i = 0; i < poses.count; ++i) {
+    // Closed form poses are near the least squares.
+    const double chi = poses.error[static_cast<std::size_t>(i)] / view.sigma;
+    if (4 * chi * chi > 4 * kSeedChi2) continue;
     auto found = place(view, seed, poses.T_c_q[static_cast<std::size_t>(i)]);
     if (!found) continue;
     if (!best) {

@@ -10,7 +10,7 @@ namespace {
 
 using textplane::Status;
 constexpr double kEdge = 0.01;           // px from the edge of the image: a quad that touches it is cut off
-constexpr double kWordRange = 12;            // nats below the likeliest word
+constexpr double kWordRange = 12;        // nats below the likeliest word
 constexpr double kOtherWord = -12;       // nats, of a word that nobody would read so
 constexpr double kLeastSide = 4;         // px
 constexpr double kClutterSpread = 2.54;  // minus the log of the spreads below
@@ -90,7 +90,8 @@ QueryView make_query_view(const SignIndex& index, const PlaceOptions& options, c
     sign.centre = (sign.quad.corner[0] + sign.quad.corner[1] + sign.quad.corner[2] + sign.quad.corner[3]) / 4;
     sign.area = textplane::area(d.quad);
     const double pixels = static_cast<double>(camera.width) * camera.height;
-    sign.log_clutter = log_clutter(width, height, pixels) + 8 * std::log(f);
+    sign.log_peak = std::log((1 - options.missed) / options.unmapped) - log_clutter(width, height, pixels) -
+                    8 * std::log(options.corner_sigma * std::sqrt(2 * M_PI));
     sign.read = textplane::is_read(d.text);
     if (sign.read) sign.words = evidence(index, options.most_words, d.text, scratch);
     any_read = any_read || !sign.words.empty();
