@@ -33,6 +33,8 @@ textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map 
 textplane_add_tests(map_file LIBRARIES textplane_textslam_map LABELS textslam TIERS first_look sanitizers EXCEPT
   sanitizers "MapFileTest\\.AKill")
 
+textplane_add_tests(city LIBRARIES textplane_city TIERS first_look sanitizers EXCEPT sanitizers "CitySearch\\.")
+
 add_test(NAME examples.rooms COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/examples/textslam
   -P ${CMAKE_CURRENT_SOURCE_DIR}/textslam/rooms.cmake)
 textplane_label(examples.rooms textslam first_look)

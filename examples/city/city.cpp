@@ -14,6 +14,7 @@ namespace {
 constexpr double kCommonShare = 0.15, kChainShare = 0.15;  // of the signs
 constexpr double kSignsAHouse = 2.6;
 constexpr double kShopsAChain = 25;
+constexpr double kPitch = 2.6;  // m, between signs of a shop; three fit on the narrowest front
 constexpr int kCommonLooks = 8;
 constexpr int kCommonWords = 48;
 constexpr double kLift = 0.03;                             // m, of a plate off the wall
@@ -25,6 +26,7 @@ struct Wanted {
   double width, height, drop;  // m; drop: of the text's centre below the front's top
   std::uint64_t look;
   bool unique;
+  int chain = -1;
 };
 
 struct Chain {
@@ -76,9 +78,11 @@ class Builder {
       Chain chain;
       const int signs = 1 + random_.below(3);
       const std::string name = names_.make(random_);
-      for (int k = 0; k < signs; ++k)
+      for (int k = 0; k < signs; ++k) {
         chain.signs.push_back(wanted(k == 0 ? name : common_[static_cast<std::size_t>(random_.below(kCommonWords))],
-                                     3.3, false, random_.word()));
+                                     kPitch, false, random_.word()));
+        chain.signs.back().chain = i;
+      }
       chains_.push_back(chain);
     }
   }
@@ -125,7 +129,7 @@ class Builder {
     if (!chains_.empty() && random_.chance(kChainHouses)) {
       const Chain& chain = chains_[static_cast<std::size_t>(random_.below(static_cast<int>(chains_.size())))];
       for (std::size_t k = 0; k < chain.signs.size(); ++k)
-        hang(front, 1.9 + 3.2 * static_cast<double>(k), chain.signs[k]);
+        hang(front, kPitch * (static_cast<double>(k) + 0.5), chain.signs[k]);
       return;
     }
     const int signs = 1 + random_.below(4);
@@ -140,7 +144,7 @@ class Builder {
   void hang(const Rectangle& front, double s, const Wanted& sign) {
     if (static_cast<int>(city_.signs.size()) >= options_.signs) return;
     const Rectangle text = on(front, s, sign.drop, sign.width, sign.height, kLift);
-    city_.signs.push_back({sign.word, text, sign.look, sign.unique});
+    city_.signs.push_back({sign.word, text, sign.look, sign.unique, sign.chain});
   }
 
   static constexpr double kFront = 9;           // m, height of houses

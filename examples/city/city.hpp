@@ -25,6 +25,7 @@ struct CitySign {
   Rectangle text;      ///< m, z up; streets lie at z = 0
   std::uint64_t look;  ///< Equal numbers: equal plates for equal words.
   bool unique;         ///< No other sign of the city has its word.
+  int chain = -1;      ///< Whose shop it belongs to; -1: none.
 };
 
 struct City {

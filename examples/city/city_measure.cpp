@@ -53,6 +53,20 @@ bool is_right(const SignIndex& index, const CityQuery& query, const FoundPlace& 
   return 2 * right > static_cast<int>(place.sightings.size());
 }
 
+// Something is read, and not all signs are of one chain: its shops look the same.
+bool is_possible(const City& city, const CityQuery& query) {
+  bool read = false, alike = true;
+  int chain = -1;
+  for (std::size_t i = 0; i < query.signs.size(); ++i) {
+    if (query.signs[i] < 0) continue;
+    const CitySign& sign = city.signs[static_cast<std::size_t>(query.signs[i])];
+    read = read || is_read(query.detections[i].text);
+    alike = alike && sign.chain >= 0 && (chain < 0 || sign.chain == chain);
+    chain = sign.chain;
+  }
+  return read && !alike;
+}
+
 bool likeliest_is(const SignIndex& index, const CityQuery& query, WordScratch* scratch) {
   for (std::size_t i = 0; i < query.detections.size(); ++i) {
     if (query.signs[i] < 0 || !is_read(query.detections[i].text)) continue;
@@ -107,6 +121,7 @@ std::vector<QueryResult> run_trial(const City& shown, const City& indexed, const
         const bool far = first.pose_share > kSurePose && result.position_error > kNear;
         result.wrong = result.answered && (!result.first_right || far);
       }
+      result.possible = is_possible(shown, query);
       result.word_first = likeliest_is(index, query, &scratch);
     }
   };

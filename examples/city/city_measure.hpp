@@ -20,6 +20,7 @@ enum class CityView {
 /// What a search made of one query.
 struct QueryResult {
   bool first_right = false;  ///< Most signs that the first guess names are those.
+  bool possible = false;     ///< Something is read, and not all signs in view are of one chain.
   bool answered = false;
   bool wrong = false;       ///< Answered, and not right; or the pose is said to be sure and is off by more than 10 m.
   bool word_first = false;  ///< one_sign: the sign's word is the likeliest of all words of the city.

@@ -39,7 +39,8 @@ void print(const Row& row) {
     if (r.answered && r.first_right) errors.push_back(r.position_error);
     wrong += r.wrong ? 1 : 0;
   }
-  std::printf("| %s | %zu | %.1f | %.1f | %ld | %.1f | %.2f | %.1f | %.1f |\n", row.name.c_str(), row.results.size(),
+  std::printf("| %s | %zu | %.1f | %.1f | %.1f | %ld | %.1f | %.2f | %.1f | %.1f |\n", row.name.c_str(),
+              row.results.size(), percent(row.results, &QueryResult::possible),
               percent(row.results, &QueryResult::first_right), percent(row.results, &QueryResult::answered), wrong,
               percent(row.results, &QueryResult::word_first), of_sorted(errors, 0.5), of_sorted(ms, 0.5),
               of_sorted(ms, 0.99));
@@ -73,9 +74,9 @@ int execute(int argc, char** argv) {
   std::printf("%u signs, %u words, %.1f bytes a sign, %.0f %% with a word of their own\n\n", index.size(),
               index.words().size(), static_cast<double>(index.bytes()) / index.size(), 100 * index.unique_share());
   std::printf(
-      "| query | queries | recall at one, %% | answered, %% | wrong answers | by the word alone, %% "
+      "| query | queries | possible, %% | recall at one, %% | answered, %% | wrong answers | by the word alone, %% "
       "| median error, m | median, ms | 99 %%, ms |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: "
-      "| ---: |\n");
+      "| ---: | ---: |\n");
   std::FILE* file = detail.empty() ? nullptr : std::fopen(detail.c_str(), "w");
   if (!detail.empty() && !file) throw InputError(detail, 0, "cannot be written");
   const auto run = [&](const char* name, const City& shown, CityView view) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "textslam/relocalise/planar_pose.hpp"
+#include "sign_index/planar_pose.hpp"
 
 namespace textslam {
 namespace {
@@ -43,6 +43,7 @@ void Constellation::keep_in_view(const QueryView& view, std::uint32_t seed, cons
 std::optional<Constellation::Pair> Constellation::best_pair(const QueryView& view, const SignPose& pose,
                                                             const std::vector<Pair>& refused) const {
   std::optional<Pair> best;
+  if (std::all_of(query_taken_.begin(), query_taken_.end(), [](std::uint8_t taken) { return taken != 0; })) return best;
   const Vec2 size = view.high - view.low;
   for (std::size_t n = 0; n < near_.size(); ++n) {
     CentreView there;
@@ -52,12 +53,12 @@ std::optional<Constellation::Pair> Constellation::best_pair(const QueryView& vie
     if (taken) continue;
     const Eigen::Matrix2d S = there.covariance + view.sigma * view.sigma * Eigen::Matrix2d::Identity();
     const Eigen::Matrix2d information = S.inverse();
-    const double peak = std::log(size[0] * size[1]) - kLog2Pi - 0.5 * std::log(S.determinant());
     for (std::size_t q = 0; q < view.signs.size(); ++q) {
       if (query_taken_[q]) continue;
       const Vec2 e = view.signs[q].centre - there.at;
       const double distance = e.dot(information * e);
       if (!(distance < kGate)) continue;
+      const double peak = std::log(size[0] * size[1]) - kLog2Pi - 0.5 * std::log(S.determinant());
       const double gain = peak - 0.5 * distance + view.signs[q].log_ratio(index_.word(near_[n].sign));
       if (gain < kLeastGain || (best && gain <= best->gain)) continue;
       const bool is_refused =
@@ -91,8 +92,14 @@ bool Constellation::extend(const QueryView& view, SignPose* pose) {
 double Constellation::absent(const QueryView& view, const SignPose& pose) const {
   double sum = 0;
   const double px = view.sigma / options_.corner_sigma;
+  const Vec3 eye = pose.T_c_w.inverse().t;
+  const auto is_inside = [&](const Vec2& at) {
+    return (at.array() > view.low.array() + 5 * px).all() && (at.array() < view.high.array() - 5 * px).all();
+  };
   for (const Near& near : near_) {
     CentreView there;
+    const Vec3 centre = pose.T_c_w * near.centre;
+    if (!(centre.z() > 0) || !is_inside(centre.hnormalized())) continue;
     if (std::any_of(sightings_.begin(), sightings_.end(), [&](const SignSighting& s) { return s.sign == near.sign; }))
       continue;
     if (!view_of_centre(pose, near.centre, &there)) continue;
@@ -105,10 +112,9 @@ double Constellation::absent(const QueryView& view, const SignPose& pose) const 
       inside = p.z() > 0;
       if (!inside) break;
       at[k] = p.hnormalized();
-      inside = (at[k].array() > view.low.array() + 5 * px).all() && (at[k].array() < view.high.array() - 5 * px).all();
+      inside = is_inside(at[k]);
     }
     if (!inside) continue;
-    const Vec3 eye = pose.T_c_w.inverse().t;
     const Vec3 normal = (corners[3] - corners[0]).cross(corners[1] - corners[0]).normalized();
     const double height = std::min((at[3] - at[0]).norm(), (at[2] - at[1]).norm());
     if (normal.dot((eye - near.centre).normalized()) > kLeastCosine && height > kLeastHeight * px)
@@ -138,9 +144,7 @@ std::optional<FoundPlace> Constellation::place(const QueryView& view, const Plac
                        std::log(turns * share * share * share) + absent(view, pose);
   for (const SignSighting& s : sightings_) {
     const QuerySign& sign = view.signs[static_cast<std::size_t>(s.detection)];
-    found.log_evidence += sign.log_ratio(index_.word(s.sign)) - sign.log_clutter -
-                          8 * (std::log(view.sigma) + 0.5 * kLog2Pi) +
-                          std::log((1 - options_.missed) / options_.unmapped);
+    found.log_evidence += sign.log_ratio(index_.word(s.sign)) + sign.log_peak;
     found.sightings.push_back({sign.detection, s.sign});
   }
   return found;
@@ -150,6 +154,9 @@ std::optional<FoundPlace> Constellation::grow(const QueryView& view, const Place
   const PlanarPose poses = planar_pose(index_.corners(seed.sign), view.signs[seed.query].quad);
   std::optional<FoundPlace> best;
   for (int i = 0; i < poses.count; ++i) {
+    // Closed form poses are near the least squares.
+    const double chi = poses.error[static_cast<std::size_t>(i)] / view.sigma;
+    if (4 * chi * chi > 4 * kSeedChi2) continue;
     auto found = place(view, seed, poses.T_c_q[static_cast<std::size_t>(i)]);
     if (!found) continue;
     if (!best) {

@@ -13,6 +13,8 @@ namespace {
 
 using textplane::Status;
 
+constexpr double kRivalRange = 14;  // nats
+
 bool is_probability(double p) { return p > 0 && p < 1; }
 
 bool are_valid(const PlaceOptions& o) {
@@ -69,13 +71,18 @@ class PlaceSearch::Engine {
     answer.status = view.status;
     if (!textplane::is_ok(view.status)) return answer;
     std::vector<FoundPlace>& places = answer.places;
+    double least = -1e9;
     for (const PlaceSeed& seed : seeds_.find(index_, view, static_cast<std::size_t>(options_.most_seeds))) {
+      if (seed.score < least) break;
       const int detection = view.signs[seed.query].detection;
       const bool known = std::any_of(places.begin(), places.end(), [&](const FoundPlace& p) {
         return p.sightings.size() > 1 && holds(p, detection, seed.sign);
       });
       if (known) continue;
-      if (auto place = constellation_.grow(view, seed)) places.push_back(std::move(*place));
+      if (auto place = constellation_.grow(view, seed)) {
+        least = std::max(least, least_rival(view, *place));
+        places.push_back(std::move(*place));
+      }
     }
     keep_distinct(&places);
     set_probabilities(options_.in_map, &places);
@@ -87,6 +94,21 @@ class PlaceSearch::Engine {
   }
 
  private:
+  // Seeds with less than this score cannot rival the place: it explains the same detections, and their words say less.
+  // What it leaves unexplained may speak for the other.
+  double least_rival(const QueryView& view, const FoundPlace& place) const {
+    double words = 0, unexplained = 0;
+    for (const QuerySign& sign : view.signs) {
+      const auto own = std::find_if(place.sightings.begin(), place.sightings.end(),
+                                    [&](const SignSighting& s) { return s.detection == sign.detection; });
+      if (own == place.sightings.end())
+        unexplained += std::max(0.0, sign.log_peak);
+      else
+        words += sign.log_ratio(index_.word(own->sign));
+    }
+    return words - unexplained - kRivalRange;
+  }
+
   const SignIndex& index_;
   const PlaceOptions options_;
   WordScratch scratch_;

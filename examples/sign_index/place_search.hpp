@@ -28,7 +28,7 @@ struct PlaceOptions {
   double missed = 0.35;               ///< Share of the signs in view that are not detected, or hidden.
   std::optional<Upright> upright;     ///< What is known of how the camera is held; by default nothing.
   int most_words = 60;                ///< Words that a reading may stand for.
-  int most_seeds = 300;               ///< Pairs of a detection and a sign that poses are computed from.
+  int most_seeds = 500;               ///< Pairs of a detection and a sign that poses are computed from.
   int most_places = 5;                ///< in the answer
 };
 

@@ -90,7 +90,8 @@ QueryView make_query_view(const SignIndex& index, const PlaceOptions& options, c
     sign.centre = (sign.quad.corner[0] + sign.quad.corner[1] + sign.quad.corner[2] + sign.quad.corner[3]) / 4;
     sign.area = textplane::area(d.quad);
     const double pixels = static_cast<double>(camera.width) * camera.height;
-    sign.log_clutter = log_clutter(width, height, pixels) + 8 * std::log(f);
+    sign.log_peak = std::log((1 - options.missed) / options.unmapped) - log_clutter(width, height, pixels) -
+                    8 * std::log(options.corner_sigma * std::sqrt(2 * M_PI));
     sign.read = textplane::is_read(d.text);
     if (sign.read) sign.words = evidence(index, options.most_words, d.text, scratch);
     any_read = any_read || !sign.words.empty();

@@ -19,10 +19,10 @@ struct WordEvidence {
 /// A detection whose quad is whole.
 struct QuerySign {
   int detection;
-  Quad<double> quad;   ///< normalised
-  Vec2 centre;         ///< normalised
-  double area;         ///< px^2
-  double log_clutter;  ///< log of the density of such a quad in an image of an unknown place, normalised units
+  Quad<double> quad;  ///< normalised
+  Vec2 centre;        ///< normalised
+  double area;        ///< px^2
+  double log_peak;    ///< nats by which a sign that falls exactly there is likelier than a quad of an unknown place
   bool read;
   std::vector<WordEvidence> words;  ///< by word
 

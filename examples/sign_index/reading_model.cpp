@@ -30,15 +30,17 @@ Symbols symbols_of(const std::string& word) {
 double reading_log_likelihood(const Symbols& reading, const Symbols& word, const ReadingErrors& errors) {
   const int n = static_cast<int>(word.size()), m = static_cast<int>(reading.size());
   if (std::abs(n - m) > kShift) return -1e3;
-  const double keep = 1 - errors.changed - errors.dropped, change = errors.changed / (kAlphabet - 1);
-  const double add = errors.added / kAlphabet;
+  // Before each letter, and at the end, letters are added until none is.
+  const double none = 1 - errors.added, add = errors.added / kAlphabet;
+  const double keep = none * (1 - errors.changed - errors.dropped), drop = none * errors.dropped;
+  const double change = none * errors.changed / (kAlphabet - 1);
   // before[j], now[j]: i letters of the word gave j letters of the reading.
   double before[kLongest + 1] = {1}, now[kLongest + 1];
   for (int j = 1; j <= std::min(m, kShift); ++j) before[j] = before[j - 1] * add;
   for (int i = 1; i <= n; ++i) {
     const int first = std::max(0, i - kShift), last = std::min(m, i + kShift);
     for (int j = first; j <= last; ++j) {
-      double p = j < i + kShift ? before[j] * errors.dropped : 0;
+      double p = j < i + kShift ? before[j] * drop : 0;
       if (j > 0) {
         const bool same = word[static_cast<std::size_t>(i - 1)] == reading[static_cast<std::size_t>(j - 1)];
         p += before[j - 1] * (same ? keep : change);
@@ -48,7 +50,7 @@ double reading_log_likelihood(const Symbols& reading, const Symbols& word, const
     }
     std::copy(now + first, now + last + 1, before + first);
   }
-  return before[m] > 0 ? std::log(before[m]) : -1e3;
+  return before[m] > 0 ? std::log(none * before[m]) : -1e3;
 }
 
 void LetterModel::add(const Symbols& word) {

@@ -8,7 +8,7 @@
 namespace textslam {
 namespace {
 
-constexpr int kSteps = 8;
+constexpr int kSteps = 5;
 constexpr double kNear = 1e-3;  // of the distance: nearer to the camera's plane a corner says nothing
 using Rows = Eigen::Matrix<double, 2, 6>;
 
@@ -75,7 +75,7 @@ bool refine_sign_pose(const std::vector<SeenSign>& seen, double sigma, const std
     if (!factors.ok()) return false;
     const SE3d trial = textplane::se3_exp<double>(-factors.solve(b)) * pose->T_c_w;
     if (linearise(problem, trial, &H_trial, &b_trial, &cost_trial) && cost_trial <= cost) {
-      const bool done = cost - cost_trial < 1e-3 * sigma * sigma;
+      const bool done = cost - cost_trial < 1e-2 * sigma * sigma;
       pose->T_c_w = trial;
       H = H_trial;
       b = b_trial;
