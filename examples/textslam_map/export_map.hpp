@@ -8,8 +8,8 @@
 
 namespace textslam {
 
-/// COLMAP's text model in `folder`: cameras.txt, images.txt, points3D.txt, and the key frames in images/. Ids count from
-/// 1: ours and one. The images are as they were taken, and so are the pixels; COLMAP's pixel (0.5, 0.5) is our (0, 0).
+/// COLMAP's text model in `folder`: cameras.txt, images.txt, points3D.txt, and the key frames in images/. Its ids are
+/// ours and one. The images are as they were taken, and so are the pixels; COLMAP's pixel (0.5, 0.5) is our (0, 0).
 /// Throws InputError where COLMAP has no word for the camera, std::runtime_error where a file cannot be written.
 void export_colmap(const LoadedMap& map, const std::string& folder);
 
