@@ -82,6 +82,16 @@ void add_map_options(CLI::App& app, textslam::RunOptions& run) {
   app.add_flag("--localise", run.localise, "Only find the frames in the map of --map, which stays as it is")
       ->needs(map)
       ->excludes(save);
+  app.add_option_function<std::vector<std::string>>(
+      "--scale",
+      [&run](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts)
+          if (!textslam::parse_known_width(text, &run.widths.emplace_back()))
+            throw CLI::ValidationError("--scale",
+                                       "should be WORD=WIDTH or WORD=WIDTH:SIGMA in metres, not '" + text + "'");
+      },
+      "WORD=WIDTH[:SIGMA], in metres: the word is written so wide on its sign. Makes the map metric; may be given "
+      "several times");
 }
 
 // The renderer checks the ranges.

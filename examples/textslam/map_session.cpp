@@ -100,7 +100,7 @@ MapRecord MapSession::record_of(const System& system, const CameraModel& camera,
   return record;
 }
 
-std::string MapSession::save(const System& system, const CameraModel& camera,
+std::string MapSession::save(const System& system, const CameraModel& camera, const std::optional<MetricScale>& metric,
                              const std::function<std::string(int)>& image) const {
   const bool in_earlier = earlier_ && system.is_in_earlier();
   const std::string none = options_.map + ": no frame was found in this map, which stays as it is";
@@ -114,6 +114,7 @@ std::string MapSession::save(const System& system, const CameraModel& camera,
   if (apart) path = options_.output + "/unjoined_map.db";
   MapRecord record = record_of(system, camera, in_earlier, image);
   if (path != options_.map) record.revision = 0;
+  if (metric) record.scale_sigma = metric->sigma;
   try {
     save_map(path, system.map(), record);
   } catch (const std::exception& error) {

@@ -26,7 +26,9 @@ class MapSession {
   /// What cannot be saved where it should be is saved as map.db into the output folder before the error is thrown.
   /// Returns one line where no frame was found in the map of earlier sessions; what the run made is then in
   /// unjoined_map.db of the output folder.
-  std::string save(const System& system, const CameraModel& camera, const std::function<std::string(int)>& image) const;
+  /// `metric`: the scale that this run gave the map; else that of earlier sessions stays.
+  std::string save(const System& system, const CameraModel& camera, const std::optional<MetricScale>& metric,
+                   const std::function<std::string(int)>& image) const;
 
  private:
   MapRecord record_of(const System& system, const CameraModel& camera, bool joined,

@@ -191,6 +191,25 @@ void track_frames(const RunOptions& options, const Sequence& sequence, const std
   }
 }
 
+// By the signs whose widths are known.
+std::optional<MetricScale> make_metric(const RunOptions& options, System* system) {
+  if (options.widths.empty()) return std::nullopt;
+  const Map& map = system->map();
+  const MetricScale scale = metric_scale(map, at_size(options.parameters, map.width, map.height), options.widths);
+  if (scale.texts == 0)
+    throw InputError("--scale", 0,
+                     "no mapped text reads '" + options.widths.front().word +
+                         (options.widths.size() > 1 ? "' or another of the words" : "'") + ": the map has no scale");
+  system->scale_by(scale.metres);
+  return scale;
+}
+
+void write_camera(const RunOptions& options, CameraModel camera, double readout,
+                  const std::optional<SelfCalibration>& calibration) {
+  camera.shutter.readout = readout;
+  write_file(options.output + "/camera.yaml", camera_yaml(camera, calibration));
+}
+
 void name_detector(const RunOptions& options, std::size_t detected, RunSummary* summary) {
   summary->detected = detected;
   if (options.parameters.mode == Mode::points) return;
@@ -216,10 +235,14 @@ RunResult run_with_camera(const RunOptions& options, const Sequence& sequence, c
   source.read_texts(system);
   keep_going(result, [&] { system.fill_in([&](int index) { return source.frame(index); }); });
 
+  std::optional<MetricScale> metric;
+  keep_going(result, [&] { metric = make_metric(options, &system); });
+
   RunSummary& summary = result.summary;
   const std::size_t broken = summary.broken;
   summary = summarise(system, sequence, asked.size());
   summary.calibration = calibration;
+  summary.metric = metric;
   summary.broken = broken;
   summary.latency_ms = clock.latency_ms();
   name_detector(options, detections.count(), &summary);
@@ -233,12 +256,9 @@ RunResult run_with_camera(const RunOptions& options, const Sequence& sequence, c
   try {
     const auto image = [&](int index) { return index < 0 ? session.image(index) : source.name(index); };
     write_outputs(options.output, system, summary, image);
-    result.unmapped = session.save(system, sequence.camera, image);
-    if (calibration || options.parameters.estimate_readout) {
-      CameraModel found = sequence.camera;
-      found.shutter.readout = system.map().shutter.readout;
-      write_file(options.output + "/camera.yaml", camera_yaml(found, calibration));
-    }
+    result.unmapped = session.save(system, sequence.camera, metric, image);
+    if (calibration || options.parameters.estimate_readout)
+      write_camera(options, sequence.camera, system.map().shutter.readout, calibration);
   } catch (const std::exception&) {
     failure = std::current_exception();
   }

@@ -20,14 +20,14 @@ Similarity alignment_of(const std::string& run) {
   return evaluation.alignment;
 }
 
-// To the nearest sign before the camera; infinity where there is none.
+// To the nearest sign within 45 degrees before the camera; infinity where there is none.
 double depth_before(const SE3d& T_w_c, const std::vector<TrueSign>& signs) {
   double nearest = std::numeric_limits<double>::infinity();
   const SE3d T_c_w = T_w_c.inverse();
   for (const TrueSign& sign : signs) {
     const Vector3<double> centre = (sign.corners[0] + sign.corners[1] + sign.corners[2] + sign.corners[3]) / 4;
-    const double depth = (T_c_w * centre).z();
-    if (depth > 0) nearest = std::min(nearest, depth);
+    const Vector3<double> p = T_c_w * centre;
+    if (p.z() > p.head<2>().norm()) nearest = std::min(nearest, p.z());
   }
   return nearest;
 }

@@ -10,8 +10,8 @@
 
 namespace textslam {
 
-/// A pose is wrong where it is off by more than this share of the distance to the nearest sign before the camera, or by
-/// more than these degrees.
+/// A pose is wrong where it is off by more than this share of the depth of the nearest sign within 45 degrees before
+/// the camera, or by more than these degrees.
 constexpr double kWrongShare = 0.05, kWrongDegrees = 2;
 
 struct LocalisedEvaluation {

@@ -48,6 +48,17 @@ TEST_F(MapFileTest, AnEmptyFileHoldsNoMapButTakesOne) {
   EXPECT_EQ(refusal(), "");
 }
 
+// What can be known before the run is said before it, and leaves nothing behind.
+TEST_F(MapFileTest, APlaceThatTakesNoFileIsRefusedAtOnce) {
+  check_can_save(file);
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_THROW(check_can_save(folder.path("no/such/folder/map.db")), std::runtime_error);
+  save();
+  const std::string before = read_file(file);
+  check_can_save(file);
+  EXPECT_EQ(read_file(file), before);
+}
+
 TEST_F(MapFileTest, AFolderIsNoMap) {
   std::filesystem::create_directory(file);
   EXPECT_EQ(refusal(), file + ": a folder, not a map");

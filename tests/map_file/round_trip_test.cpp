@@ -173,6 +173,23 @@ TEST_F(MapFileTest, WhatIsNotFiniteIsLeftOut) {
   EXPECT_EQ(loaded.map.texts[1].state, TextState::mapped);
 }
 
+// Version 1 knew no metres. Reading leaves the file at its version; saving brings it up to date.
+TEST_F(MapFileTest, AnOlderMapIsBroughtUpToDateWhenItIsSaved) {
+  save();
+  {
+    Database database(file, Access::write);
+    database.execute("alter table map drop column scale_sigma; pragma user_version = 1");
+  }
+  const std::string before = read_file(file);
+  LoadedMap loaded = load();
+  EXPECT_EQ(read_file(file), before);
+  EXPECT_FALSE(loaded.record.scale_sigma.has_value());
+  loaded.record.scale_sigma = 0.01;
+  save_map(file, loaded.map, loaded.record);
+  EXPECT_EQ(open_map(file).integer("pragma user_version"), schema_version());
+  EXPECT_EQ(load().record.scale_sigma, 0.01);
+}
+
 TEST_F(MapFileTest, LoadingLeavesTheFileAsItIs) {
   save();
   const std::string before = read_file(file);

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
 #include "io/evaluate.hpp"
+#include "io/evaluate_signs.hpp"
 #include "io/input_error.hpp"
 #include "io/io_support.hpp"
 #include "io/text_file.hpp"
@@ -25,7 +27,7 @@ class Sessions : public testing::Test {
     folder_ = new TemporaryFolder;
     render("first", 1, 0, 110);
     render("second", 1, 1, 50);
-    render("elsewhere", 7, 0, 40);
+    render("elsewhere", 7, 0, 24);
     RunOptions options = options_for("first", "out_first");
     options.save_map = path("map.db");
     ASSERT_EQ(run(options).error, "");
@@ -163,8 +165,8 @@ TEST_F(Sessions, AnotherRoomIsNotFound) {
 }
 
 TEST_F(Sessions, AnotherCameraIsRefused) {
-  render("larger", 1, 0, 2, 640);
-  RunOptions options = options_for("larger", "out_larger");
+  render("smaller", 1, 0, 2, 160);
+  RunOptions options = options_for("smaller", "out_smaller");
   options.map = path("map.db");
   EXPECT_THROW(run(options), InputError);
   const std::string camera = read_file(path("second/camera.yaml"));
@@ -186,6 +188,27 @@ TEST_F(Sessions, AVideoWithoutACameraTakesThatOfTheMap) {
   EXPECT_GE(result.summary.tracked, 45u);
   EXPECT_FALSE(result.summary.calibration.has_value());
   EXPECT_EQ(result.summary.approximate_fov, 0);
+}
+
+// Signs of known width make the map metric, to what is said of it, and the map remembers that.
+TEST_F(Sessions, SignsOfKnownWidthMakeTheMapMetric) {
+  const std::vector<TrueSign> signs = read_true_signs(path("first"), {}, {});
+  RunOptions options = options_for("first", "out_metric");
+  options.save_map = path("metric.db");
+  for (const TrueSign& sign : signs)
+    options.widths.push_back({sign.word, (sign.corners[1] - sign.corners[0]).norm(), 1e-3});
+  const RunResult result = run(options);
+  ASSERT_EQ(result.error, "");
+  ASSERT_TRUE(result.summary.metric.has_value());
+  EXPECT_GE(result.summary.metric->texts, 3);
+  const double error = std::abs(result.summary.trajectory.alignment.scale - 1);
+  EXPECT_LT(error, 4 * result.summary.metric->sigma);
+  EXPECT_LT(error, 0.02);
+  EXPECT_EQ(load_map(options.save_map, options.parameters).record.scale_sigma, result.summary.metric->sigma);
+
+  options.widths = {{"NO SUCH WORD", 1, 0.01}};
+  options.last = 60;
+  EXPECT_NE(run(options).error.find("NO SUCH WORD"), std::string::npos);
 }
 
 // What was computed is not lost where the map cannot be saved: another session was saved meanwhile.

@@ -11,6 +11,8 @@ LoadedMap load_map(const std::string& path, const Parameters& parameters) {
     database.refuse("damaged: rows refer to rows that are gone");
   LoadedMap loaded;
   loaded.record.revision = database.integer("select max(revision) from map");
+  Statement scale(database, "select scale_sigma from map where scale_sigma is not null");
+  if (scale.next()) loaded.record.scale_sigma = scale.number(0);
   load_sessions(database, &loaded.record);
   const CameraModel& camera = loaded.record.camera;
   loaded.camera = std::make_shared<const SequenceCamera>(camera);

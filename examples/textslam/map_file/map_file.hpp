@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct MapRecord {
   CameraModel camera;
   std::vector<SavedSession> sessions;
   std::map<int, KeyFrameSource> sources;  ///< Of the key frames, by their ids.
+  std::optional<double> scale_sigma;      ///< Lengths are metres, with this standard deviation as a share of them.
   std::int64_t revision = 0;              ///< Saves so far; 0: it comes from no file.
 };
 

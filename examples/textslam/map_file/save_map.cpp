@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "textslam/map_file/map_file.hpp"
 #include "textslam/map_file/schema.hpp"
 #include "textslam/map_file/tables.hpp"
@@ -31,13 +33,19 @@ void save_map(const std::string& path, const Map& map, const MapRecord& record) 
   save_points(database, map);
   save_texts(database, map);
   database.execute("delete from images where keyframe not in (select id from keyframes)");
-  Statement(database, "update map set revision = ?").run(now + 1);
+  Statement(database, "update map set revision = ?, scale_sigma = null").run(now + 1);
+  if (record.scale_sigma) Statement(database, "update map set scale_sigma = ?").run(*record.scale_sigma);
   transaction.commit();
 }
 
 void check_can_save(const std::string& path) {
-  Database database = open_for_map(path);
-  Transaction transaction(database);  // fails where the file or its folder may not be written
+  std::error_code error;
+  const bool existed = std::filesystem::exists(path, error);
+  {
+    Database database = open_for_map(path);
+    Transaction transaction(database);  // fails where the file or its folder may not be written
+  }
+  if (!existed) std::filesystem::remove(path, error);  // a run that fails leaves no empty file
 }
 
 }  // namespace textslam

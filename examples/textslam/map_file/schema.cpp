@@ -83,8 +83,11 @@ create virtual table words using fts5 (word, text unindexed, tokenize = 'trigram
 create virtual table text_boxes using rtree (id, min_x, max_x, min_y, max_y, min_z, max_z);
 )sql";
 
+// A map in metres says how well they are known.
+constexpr const char* kMetres = "alter table map add column scale_sigma real";
+
 // Step i makes version i + 1 of version i.
-constexpr std::array<const char*, 1> kSteps = {kFirst};
+constexpr std::array<const char*, 2> kSteps = {kFirst, kMetres};
 
 bool is_map(Database& database) { return database.integer("pragma application_id") == kMapApplication; }
 

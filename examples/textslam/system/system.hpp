@@ -87,6 +87,9 @@ class System {
   /// The map with most frames becomes the result; the adjustment over all its key frames.
   void finish();
 
+  /// After finish(): multiplies all lengths, those of the live world too.
+  void scale_by(double factor);
+
   /// After finish(): reads the mapped texts, see text_reading.hpp.
   void read_texts(TextReader& reader);
 

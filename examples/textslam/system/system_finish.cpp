@@ -1,6 +1,7 @@
 // System, the part that comes after the last frame.
 #include "textplane/landmarks/text_merge.hpp"
 #include "textslam/adjust/adjustment.hpp"
+#include "textslam/map/scale_map.hpp"
 #include "textslam/relocalise/relocalisation.hpp"
 #include "textslam/system/system.hpp"
 #include "textslam/text/loose_planes.hpp"
@@ -74,6 +75,21 @@ void System::finish() {
   }
   for (FrameRecord& record : records_) refit(record);
   align_live_world();
+}
+
+void System::scale_by(double factor) {
+  scale_map(factor, &map_);
+  for (FrameRecord& record : records_) {
+    record.T_w_c_live.t *= factor;
+    if (record.map != map_.number) continue;
+    record.T_k_c.t *= factor;
+    record.information = rescaled(record.information, factor);
+    if (!record.rows) continue;
+    textplane::RowMotion rows = *record.rows;
+    rows.velocity.head<3>() *= factor;
+    record.rows = std::make_shared<const textplane::RowMotion>(rows);
+  }
+  live_world_.t *= factor;
 }
 
 void System::read_texts(TextReader& reader) { textslam::read_texts(map_, parameters_, reader); }
