@@ -22,6 +22,7 @@ RAYS = np.ones((5, 3))
     (lambda: tp.plane_from_points(RAYS.tolist()), TypeError, ["p: ", "type list"]),
     (lambda: tp.plane_from_matches(RAYS, RAYS[:4], tp.SE3()), ValueError, ["host_m", "target_m", "5", "4"]),
     (lambda: tp.plane_normal([1, 2]), ValueError, ["theta", "3 numbers", "(2,)"]),
+    (lambda: tp.plane_normal(np.array([1j, 0, 1])), ValueError, ["theta", "complex128"]),
     (lambda: tp.plane_normal("abc"), TypeError, ["theta", "type str"]),
     (lambda: tp.plane_normal(None), TypeError, ["theta", "None"]),
     (lambda: tp.plane_homography([0, 0, 1], np.eye(3)), ValueError, ["T_t_h", "(4, 4)", "(3, 3)"]),

@@ -68,6 +68,9 @@ void read_numbers(Handle from, const char* name, int rows, int columns, double* 
   }
   if (from.is_none() || PyUnicode_Check(from.ptr()) || PyBytes_Check(from.ptr()))
     expected(name, shape_text(rows, columns), from);
+  if (py::isinstance<py::array>(from) &&
+      std::strchr("biuf", py::reinterpret_borrow<py::array>(from).dtype().kind()) == nullptr)
+    expected(name, shape_text(rows, columns), from);
   // Lists, tuples and arrays of other numbers.
   const auto array = py::array_t<double>::ensure(from);
   if (!array) expected(name, shape_text(rows, columns), from);

@@ -18,7 +18,7 @@ Targets targets_of(const py::object& from) {
   const char* what = "a sequence of pairs (Pyramid, T_t_h)";
   if (!PySequence_Check(from.ptr())) expected("targets", what, from);
   Targets out;
-  for (const Handle item : py::reinterpret_borrow<py::sequence>(from)) {
+  for (const py::object item : py::reinterpret_borrow<py::sequence>(from)) {
     if (!py::isinstance<py::tuple>(item) || py::len(item) != 2) expected("targets", what, item);
     const auto pair = py::reinterpret_borrow<py::tuple>(item);
     tp::PlaneTarget target;

@@ -53,10 +53,9 @@ py::object from_points(const py::object& p, const py::object& weight, bool raise
 
 py::object triangulate(const py::object& T_c_w, const py::object& m, bool raise) {
   const auto rays = points3(m, "m");
+  if (!PySequence_Check(T_c_w.ptr())) expected("T_c_w", "a sequence of poses", T_c_w);
   std::vector<tp::SE3d> poses;
-  for (const Handle T :
-       py::reinterpret_borrow<py::sequence>(PySequence_Check(T_c_w.ptr()) ? T_c_w : py::object(py::list())))
-    poses.push_back(pose(T, "T_c_w"));
+  for (const py::object T : py::reinterpret_borrow<py::sequence>(T_c_w)) poses.push_back(pose(T, "T_c_w"));
   same_length(static_cast<int>(poses.size()), "T_c_w", rays.n, "m");
   Point point;
   point.status = tp::triangulate_views(poses.data(), rays.data, rays.n, &point.value, &point.covariance);

@@ -123,7 +123,7 @@ py::object refine(const py::object& texts, const py::object& target, const py::o
   if (!PySequence_Check(texts.ptr())) expected("texts", "a sequence of textplane.PoseText", texts);
   std::vector<tp::PoseTextTerm> terms;
   std::vector<py::object> patches;  // kept while the lock is away
-  for (const Handle text : py::reinterpret_borrow<py::sequence>(texts)) {
+  for (const py::object text : py::reinterpret_borrow<py::sequence>(texts)) {
     const Text& one = object<Text>(text, "texts", "a sequence of textplane.PoseText");
     terms.push_back(one.term);
     patches.push_back(one.patch);
@@ -171,7 +171,7 @@ py::object candidates(const py::object& patch, const py::object& theta, const py
   const Vec3 plane = vector<3>(theta, "theta");
   if (!PySequence_Check(T_t_h.ptr())) expected("T_t_h", "a sequence of poses", T_t_h);
   std::vector<tp::SE3d> poses;
-  for (const Handle T : py::reinterpret_borrow<py::sequence>(T_t_h)) poses.push_back(pose(T, "T_t_h"));
+  for (const py::object T : py::reinterpret_borrow<py::sequence>(T_t_h)) poses.push_back(pose(T, "T_t_h"));
   const Levels pyramid(target, "target");
   const tp::CameraView view = camera(target_camera);
   const auto chosen = options<tp::PhotometricOptions>(settings, "options", "a textplane.PhotometricOptions");

@@ -37,6 +37,18 @@ class Claim {
   Map& map_;
 };
 
+template <class T>
+std::vector<T> list_of(const py::object& from, const char* name, const char* what) {
+  if (!PySequence_Check(from.ptr()) || PyUnicode_Check(from.ptr())) expected(name, what, from);
+  std::vector<T> out;
+  for (const py::object item : py::reinterpret_borrow<py::sequence>(from)) {
+    py::detail::make_caster<T> caster;
+    if (!caster.load(item, true)) expected(name, what, item);
+    out.push_back(py::detail::cast_op<T>(caster));
+  }
+  return out;
+}
+
 std::vector<tp::TextPoint> text_points(const py::object& pixels, const py::object& points, const py::object& ids) {
   std::vector<tp::TextPoint> out;
   if (pixels.is_none()) return out;
@@ -48,7 +60,7 @@ std::vector<tp::TextPoint> text_points(const py::object& pixels, const py::objec
   }
   std::vector<int> names;
   if (!ids.is_none()) {
-    names = py::cast<std::vector<int>>(ids);
+    names = list_of<int>(ids, "ids", "a sequence of whole numbers");
     same_length(px.n, "pixels", static_cast<int>(names.size()), "ids");
   }
   for (int i = 0; i < px.n; ++i) {
@@ -65,9 +77,9 @@ std::vector<tp::TextDetection> detections_of(const py::object& quads, const py::
   std::vector<tp::TextDetection> out;
   if (quads.is_none()) return out;
   if (!PySequence_Check(quads.ptr())) expected("quads", "a sequence of corners (4, 2)", quads);
-  for (const Handle corners : py::reinterpret_borrow<py::sequence>(quads)) out.emplace_back(quad(corners, "quads"));
+  for (const py::object corners : py::reinterpret_borrow<py::sequence>(quads)) out.emplace_back(quad(corners, "quads"));
   if (words.is_none()) return out;
-  const auto read = py::cast<std::vector<std::string>>(words);
+  const auto read = list_of<std::string>(words, "words", "a sequence of strings");
   same_length(static_cast<int>(out.size()), "quads", static_cast<int>(read.size()), "words");
   for (std::size_t i = 0; i < out.size(); ++i) out[i].word = read[i].empty() ? std::string(tp::kUnreadText) : read[i];
   return out;
