@@ -81,6 +81,7 @@ void System::scale_by(double factor) {
   scale_map(factor, &map_);
   for (FrameRecord& record : records_) {
     record.T_w_c_live.t *= factor;
+    record.T_w_m_live.t *= factor;
     if (record.map != map_.number) continue;
     record.T_k_c.t *= factor;
     record.information = rescaled(record.information, factor);
