@@ -42,7 +42,9 @@ Wanted sized(const std::string& word, double width, double squeeze, double above
 
 class Builder {
  public:
-  explicit Builder(const CityOptions& options) : options_(options), random_(hash(options.seed, 900)) {
+  /// `slack`: houses, of those that are expected to be enough.
+  Builder(const CityOptions& options, double slack)
+      : options_(options), slack_(slack), random_(hash(options.seed, 900)) {
     city_.seed = options.seed;
   }
 
@@ -52,7 +54,7 @@ class Builder {
     for (const std::string& word : common_) names_.keep(word);
     make_chains();
     // Enough houses for all signs: blocks in a square.
-    const double houses = options_.signs / kSignsAHouse * 1.1 + 4, a_block = 26;
+    const double houses = slack_ * (options_.signs / kSignsAHouse * 1.1 + 4), a_block = 26;
     const int side = std::max(1, static_cast<int>(std::ceil(std::sqrt(houses / a_block))));
     lay(side, 60, 110, &city_.columns);
     lay(side, 40, 70, &city_.rows);
@@ -150,6 +152,7 @@ class Builder {
   static constexpr double kFront = 9;           // m, height of houses
   static constexpr double kChainHouses = 0.19;  // of all: with two signs each, 15 % of the signs
   const CityOptions options_;
+  const double slack_;
   Random random_;
   City city_;
   NameMaker names_;
@@ -174,9 +177,9 @@ bool City::is_street(double x, double y, double clear) const {
 City make_city(const CityOptions& options) {
   if (options.signs < 10 || options.signs > 1000000)
     throw InputError("city", 0, "the number of signs must be 10 to 1000000, not " + std::to_string(options.signs));
-  City city = Builder(options).build();
-  if (static_cast<int>(city.signs.size()) < options.signs)
-    throw std::logic_error("the city has too few houses for its signs");
+  City city;
+  for (double slack = 1; static_cast<int>(city.signs.size()) < options.signs; slack *= 1.2)
+    city = Builder(options, slack).build();
   return city;
 }
 

@@ -53,6 +53,12 @@ TEST(City, SignsHangOnFrontsTowardsTheStreet) {
   }
 }
 
+TEST(City, HasAllItsSignsWhateverTheSeed) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed)
+    for (const int signs : {10, 300, 1000})
+      EXPECT_EQ(make_city({signs, seed}).signs.size(), static_cast<std::size_t>(signs));
+}
+
 TEST(City, RefusesSizesOutOfRange) {
   EXPECT_THROW(make_city({9, 1}), InputError);
   EXPECT_THROW(make_city({1000001, 1}), InputError);
