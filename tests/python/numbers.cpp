@@ -1,5 +1,7 @@
 // Prints what the library computes on a made-up scene, as hexadecimal floating point: a name and its numbers a line.
-// The Python package must compute the same to the bit: numbers_test.py.
+// The Python package must compute the same to the bit: numbers_test.py. With the argument `time`: what calls take, ns,
+// for overhead.py.
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -127,13 +129,44 @@ void print_geometry(const Scene& scene) {
   print("plane_from_matches", {fit.condition, fit.sigma});
 }
 
+// The least ns a call of 300 repetitions of `calls`.
+template <class F>
+void print_time(const char* name, int calls, F f) {
+  double least = 1e30;
+  for (int repetition = 0; repetition < 300; ++repetition) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < calls; ++i) f();
+    const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - start;
+    least = passed.count() / calls < least ? passed.count() / calls : least;
+  }
+  std::printf("%s %.1f\n", name, least);
+}
+
+void print_times(const Scene& scene, const tp::TextPatch& patch, const tp::Pyramid& pyramid) {
+  volatile double sink = 0;  // what is computed is used
+  tp::Vector6<double> error;
+  error << 0.004, -0.003, 0.004, 0.002, -0.001, 0.003;
+  const tp::SE3d guess = tp::se3_exp(error) * scene.T_t_h;
+  print_time("plane_homography", 5000, [&] { sink = tp::plane_homography(scene.theta, scene.T_t_h)(0, 0); });
+  const tp::ResidualRequest<std::uint8_t> request{
+      tp::photometric_input(patch, 0, pyramid, scene.camera), scene.theta, guess, {}};
+  tp::PhotometricWorkspace workspace(patch.max_pixels());
+  print_time("linearise_pose", 200, [&] { sink = tp::linearise<tp::Parameters::pose>(request, workspace).cost; });
+  print_time("evaluate", 200, [&] { sink = tp::evaluate(request, workspace).cost; });
+  print_time("align_pose", 5, [&] { sink = tp::align_pose(patch, scene.theta, guess, pyramid, scene.camera).cost; });
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   const Scene scene;
-  print_geometry(scene);
   const tp::TextPatch patch = tp::make_patch(scene.host.view(), scene.camera, scene.quad);
   const tp::Pyramid pyramid(scene.target.view());
+  if (argc > 1 && std::string(argv[1]) == "time") {
+    print_times(scene, patch, pyramid);
+    return 0;
+  }
+  print_geometry(scene);
   print_patch(patch);
   print_solves(scene, patch, pyramid);
 }

@@ -108,10 +108,11 @@ void bind_equations(py::module_& m, const char* name, const char* doc, const std
 }
 
 void bind_result_types(py::module_& m) {
-  bind_equations<6>(m, "PoseEquations", "By (v, omega): T_t_h <- exp(xi) T_t_h.", "6");
-  bind_equations<3>(m, "PlaneEquations", "By theta.", "3");
-  bind_equations<9>(m, "PosePlaneEquations", "By (v, omega, theta).", "9");
-  bind_equations<15>(m, "WorldEquations", "By (xi_host, xi_target, theta), xi = (v, omega) of a world pose.", "15");
+  bind_equations<6>(m, "PoseEquations", "Normal equations by (v, omega): T_t_h <- exp(xi) T_t_h.", "6");
+  bind_equations<3>(m, "PlaneEquations", "Normal equations by theta.", "3");
+  bind_equations<9>(m, "PosePlaneEquations", "Normal equations by (v, omega, theta).", "9");
+  bind_equations<15>(m, "WorldEquations",
+                     "Normal equations by (xi_host, xi_target, theta), xi = (v, omega) of a world pose.", "15");
   using C = tp::PhotometricCost;
   py::class_<C> cost(m, "PhotometricCost", "Value of the photometric cost.");
   field(cost, "cost", &C::cost, "float: Sum of rho(N r^2) / N.");
