@@ -58,8 +58,8 @@ int show_angles(const std::vector<textslam::IndexedText>& texts, double within, 
 }
 
 std::vector<textslam::IndexedText> read_texts(const std::string& map) {
-  return std::filesystem::is_directory(map) ? textslam::read_text_index(map + "/text_index.json")
-                                            : textslam::read_map_texts(map);
+  return std::filesystem::is_regular_file(map) ? textslam::read_map_texts(map)
+                                               : textslam::read_text_index(map + "/text_index.json");
 }
 
 // The commands for map files alone.

@@ -3,35 +3,44 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "renderer/kinds.hpp"
 
 namespace textslam {
 namespace {
 
 TEST(Walk, SignsStayAndThePathIsAnother) {
-  const Shot first = make_shot("room", 3, 320, 240), second = make_shot("room", 3, 320, 240, 1),
-             third = make_shot("room", 3, 320, 240, 2);
+  const Shot first = make_shot("room", 3, 320, 240), second = make_shot("room", 3, 320, 240, 1);
   ASSERT_EQ(first.scene.signs().size(), second.scene.signs().size());
   for (std::size_t i = 0; i < first.scene.signs().size(); ++i) {
     EXPECT_EQ(first.scene.signs()[i].word, second.scene.signs()[i].word);
     EXPECT_EQ(first.scene.signs()[i].corner, second.scene.signs()[i].corner);
   }
   EXPECT_GT((first.motion(1).t - second.motion(1).t).norm(), 0.05);
-  EXPECT_GT((third.motion(1).t - second.motion(1).t).norm(), 0.05);
   EXPECT_NE(first.sensor(1).gain, second.sensor(1).gain);
 }
 
-TEST(Walk, NoneIsTheKindAsItIs) {
-  EXPECT_EQ(seed_of_walk(3, 0), 3u);
+// A visit without its scene, which takes seconds to paint.
+Shot visit(int walk) {
+  Shot shot;
+  shot.motion = loop_motion(seed_of_walk(1, walk));
+  shot.sensor = steady_sensor();
+  take_walk(seed_of_walk(1, walk), &shot);
+  return shot;
+}
+
+TEST(Walk, EachIsAnother) {
+  EXPECT_EQ(seed_of_walk(3, 0), 3U);
   EXPECT_NE(seed_of_walk(3, 1), seed_of_walk(3, 2));
-  const Shot one = make_shot("corridor", 3, 320, 240), same = make_shot("corridor", 3, 320, 240, 0);
-  EXPECT_EQ(one.motion(2).t, same.motion(2).t);
+  EXPECT_GT((visit(1).motion(1).t - visit(2).motion(1).t).norm(), 0.05);
+  EXPECT_NE(visit(1).sensor(1).gain, visit(2).sensor(1).gain);
 }
 
 // The room is 4.8 by 4.2 m, with furniture along its walls.
 TEST(Walk, TheCameraStaysWithinTheWalls) {
-  for (int walk = 1; walk < 10; ++walk) {
-    const Shot shot = make_shot("loop", 1, 320, 240, walk);
+  for (int walk = 1; walk < 100; ++walk) {
+    const Shot shot = visit(walk);
     for (double t = 0; t < 12; t += 0.1) {
       const Vector3<double> in_room = shot.motion(t).t;
       EXPECT_LT(std::abs(in_room.x()), 1.6);
