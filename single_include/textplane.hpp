@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 33985750616cbdd0
+// Hash of these files: 7404b8baa4f895a8
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 33985750616cbdd0"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 7404b8baa4f895a8"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -29645,7 +29645,7 @@ double pulled_energy(const PolicyRequest<T>& request, PhotometricWorkspace& work
   const auto& in = request.input;
   const Pinhole<double>&h = in.host_camera, &c = in.target_camera;
   const Matrix3<double> H = plane_homography(request.theta, request.T_t_h);
-  const Vector3<double> middle = H * patch_centre(in);
+  const Vector3<double> middle = product(H, patch_centre(in));
   FixedMatrix<double, 2, 2> J;
   for (int r = 0; r < 2; ++r) {
     const double ray = middle[r] / middle[2];
@@ -29658,7 +29658,7 @@ double pulled_energy(const PolicyRequest<T>& request, PhotometricWorkspace& work
   int seen = 0;
   for (int i = 0; i < in.patch.n; ++i) {
     if (!visible[i]) continue;
-    const Vector3<double> q = H * h.unproject({in.patch.x[i], in.patch.y[i]});
+    const Vector3<double> q = product(H, h.unproject({in.patch.x[i], in.patch.y[i]}));
     Vector2<double> m(q[0] / q[2], q[1] / q[2]);
     FixedMatrix<double, 2, 2> D = FixedMatrix<double, 2, 2>::Identity();
     if (in.lens) m = in.lens->distort(m, &D);
@@ -29690,7 +29690,7 @@ FixedMatrix<double, P, P> hybrid_matrix(const PolicyRequest<T>& request, const M
   for (int i = 0; i < patch.n; ++i) {
     h[i] = static_cast<double>(patch.intensity[i]) - mean;
     squares += h[i] * h[i];
-    const Vector3<double> m = camera.unproject({patch.x[i], patch.y[i]}), q = H * m;
+    const Vector3<double> m = camera.unproject({patch.x[i], patch.y[i]}), q = product(H, m);
     const double gx = static_cast<double>(patch.gx[i]), gy = static_cast<double>(patch.gy[i]);
     host_energy += gx * gx + gy * gy;
     const double au = gx * camera.fx, av = gy * camera.fy, aw = -(au * m[0] + av * m[1]);
