@@ -1,6 +1,6 @@
 # TEXTPLANE_BUILD_TESTS, TEXTPLANE_BUILD_EXAMPLES and TEXTPLANE_BUILD_PYTHON where they are AUTO: ON if what they need is
 # there, else OFF, and one line says what is left out. Somebody who asks for them with ON gets an error in its place.
-set(TEXTPLANE_EXAMPLE_PACKAGES JPEG PNG CLI11 nlohmann_json yaml-cpp)  # and stb, which is no package
+set(TEXTPLANE_EXAMPLE_PACKAGES JPEG PNG CLI11 nlohmann_json yaml-cpp SQLite3)  # and stb, which is no package
 set(left_out)
 if(TEXTPLANE_BUILD_TESTS STREQUAL "AUTO")
   set(TEXTPLANE_BUILD_TESTS ON)

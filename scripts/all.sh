@@ -58,7 +58,7 @@ clang_tidy() {
 # Lines of include/ that the tests of the library run, on all targets of this machine together.
 coverage() {
   rm -f "$root/build/coverage.txt"
-  gcovr -r "$root" --filter "$root/include/" --exclude '.*/adapters/' --exclude '.*neon.*' --exclude-throw-branches \
+  gcovr -r "$root" --filter "$root/include/" --exclude '.*/adapters/' --exclude '.*(neon|simd128).*' --exclude-throw-branches \
     --object-directory "$root/build/coverage" --fail-under-line 95 -o "$root/build/coverage.txt" "$root/build/coverage"
   outcome=$?
   sed -n 's/^TOTAL */coverage of include (lines, run, share): /p' "$root/build/coverage.txt"
@@ -76,6 +76,9 @@ all_stages() {
   if needs s390x s390x-linux-gnu-g++-11 qemu-s390x /usr/src/googletest; then
     stage s390x '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''
   fi
+  set -- clang++ wasm-ld node /usr/include/wasm32-wasi/c++ /usr/src/googletest
+  if needs wasm "$@"; then stage wasm '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
+  if needs wasm-scalar "$@"; then stage wasm-scalar '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
   stage unoptimised "$library_only" '-L ^library$' "$library_tests"
   stage fast-math "$library_only" '-L ^fast_math$' "$library_tests"
   stage cxx20 "$library_only" '-L ^library$' "$library_tests"

@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 176 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: e52170ed87d9dc93
+// textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: 33985750616cbdd0
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 e52170ed87d9dc93"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 33985750616cbdd0"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -72,6 +72,8 @@
 #define TEXTPLANE_ABI_ISA avx
 #elif defined(__SSE4_1__)
 #define TEXTPLANE_ABI_ISA sse41
+#elif defined(__wasm_simd128__)
+#define TEXTPLANE_ABI_ISA simd128
 #else
 #define TEXTPLANE_ABI_ISA base
 #endif
@@ -2489,11 +2491,11 @@ TEXTPLANE_END_NAMESPACE
 // Run-time dispatch: which target the kernels run on.
 //
 // On first use the best target that both CPU and operating system support is chosen, or the one that the environment
-// variable TEXTPLANE_FORCE_TARGET names (scalar, sse41, avx2, avx512, neon). A name that is unknown, or that this
-// machine cannot run, leaves the best target in charge, and forced_target_status() tells. set_target changes it later,
-// for the whole process. Defining the macro TEXTPLANE_TARGET as such a name (-DTEXTPLANE_TARGET=avx2) fixes the target
-// of a translation unit at compile time: its calls go straight to that kernel, the others are not compiled, neither
-// environment nor set_target change it, and the caller promises a CPU that has it.
+// variable TEXTPLANE_FORCE_TARGET names (scalar, sse41, avx2, avx512, neon, simd128). A name that is unknown, or that
+// this machine cannot run, leaves the best target in charge, and forced_target_status() tells. set_target changes it
+// later, for the whole process. Defining the macro TEXTPLANE_TARGET as such a name (-DTEXTPLANE_TARGET=avx2) fixes the
+// target of a translation unit at compile time: its calls go straight to that kernel, the others are not compiled,
+// neither environment nor set_target change it, and the caller promises a CPU that has it.
 //
 // State: one constant-initialised atomic, shared by all translation units of a program whatever their flags.
 #ifndef TEXTPLANE_SIMD_DISPATCH_HPP
@@ -2513,7 +2515,8 @@ TEXTPLANE_END_NAMESPACE
 // build holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
 //
 // GCC and Clang build the x86-64 targets (MinGW: SSE4.1 alone, its stack is not aligned for more) and NEON on
-// little-endian AArch64. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where
+// little-endian AArch64. WebAssembly has no CPU to ask: its vectors (simd128) are for a whole translation unit, with
+// Clang's -msimd128. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where
 // TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only what that one needs.
 //
 // Compiled kernels, an option: every file that calls a kernel compiles all its targets, which takes time. Where
@@ -2539,6 +2542,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_ON_x86 0
 #define TEXTPLANE_SIMD_ON_x86_wide 0
 #define TEXTPLANE_SIMD_ON_arm 0
+#define TEXTPLANE_SIMD_ON_wasm 0
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
 #if defined(__x86_64__)
 #if TEXTPLANE_HAS_KERNELS
@@ -2556,6 +2560,12 @@ TEXTPLANE_END_NAMESPACE
 #endif
 #undef TEXTPLANE_SIMD_ON_arm
 #define TEXTPLANE_SIMD_ON_arm 1
+#elif defined(__wasm_simd128__)
+#if TEXTPLANE_HAS_KERNELS
+#include <wasm_simd128.h>
+#endif
+#undef TEXTPLANE_SIMD_ON_wasm
+#define TEXTPLANE_SIMD_ON_wasm 1
 #endif
 #endif
 
@@ -2578,12 +2588,13 @@ TEXTPLANE_END_NAMESPACE
 //   few       the target whose kernels take patches of few pixels, sooner than its own would
 //   features  what the compiler is asked for and the CPU must have, by the compiler's names (cpu.hpp knows them)
 // clang-format off
-//                                    number  name    lanes  fused  needs     few     features
-#define TEXTPLANE_SIMD_scalar(X, a) X(a, 0,   scalar, 1,     false, any,      scalar, "")
-#define TEXTPLANE_SIMD_sse41(X, a)  X(a, 1,   sse41,  4,     false, x86,      sse41,  "sse4.1")
-#define TEXTPLANE_SIMD_avx2(X, a)   X(a, 2,   avx2,   8,     true,  x86_wide, avx2,   TEXTPLANE_SIMD_HASWELL)
-#define TEXTPLANE_SIMD_avx512(X, a) X(a, 3,   avx512, 16,    true,  x86_wide, avx2,   TEXTPLANE_SIMD_ICELAKE)
-#define TEXTPLANE_SIMD_neon(X, a)   X(a, 4,   neon,   4,     true,  arm,      neon,   "")
+//                                     number  name     lanes  fused  needs     few      features
+#define TEXTPLANE_SIMD_scalar(X, a)  X(a, 0,   scalar,  1,     false, any,      scalar,  "")
+#define TEXTPLANE_SIMD_sse41(X, a)   X(a, 1,   sse41,   4,     false, x86,      sse41,   "sse4.1")
+#define TEXTPLANE_SIMD_avx2(X, a)    X(a, 2,   avx2,    8,     true,  x86_wide, avx2,    TEXTPLANE_SIMD_HASWELL)
+#define TEXTPLANE_SIMD_avx512(X, a)  X(a, 3,   avx512,  16,    true,  x86_wide, avx2,    TEXTPLANE_SIMD_ICELAKE)
+#define TEXTPLANE_SIMD_neon(X, a)    X(a, 4,   neon,    4,     true,  arm,      neon,    "")
+#define TEXTPLANE_SIMD_simd128(X, a) X(a, 5,   simd128, 4,     false, wasm,     simd128, "")
 #define TEXTPLANE_SIMD_none(X, a)
 // clang-format on
 
@@ -2593,7 +2604,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_NAME_2 avx2
 #define TEXTPLANE_SIMD_NAME_3 avx512
 #define TEXTPLANE_SIMD_NAME_4 neon
-#define TEXTPLANE_SIMD_NAME_5 none
+#define TEXTPLANE_SIMD_NAME_5 simd128
 #define TEXTPLANE_SIMD_NAME_6 none
 #define TEXTPLANE_SIMD_NAME_7 none
 
@@ -2640,10 +2651,12 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_BEGIN_x86(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
 #define TEXTPLANE_SIMD_BEGIN_x86_wide(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
 #define TEXTPLANE_SIMD_BEGIN_arm(features)
+#define TEXTPLANE_SIMD_BEGIN_wasm(features)
 #define TEXTPLANE_SIMD_END_any
 #define TEXTPLANE_SIMD_END_x86 TEXTPLANE_SIMD_FEATURES_END
 #define TEXTPLANE_SIMD_END_x86_wide TEXTPLANE_SIMD_FEATURES_END
 #define TEXTPLANE_SIMD_END_arm
+#define TEXTPLANE_SIMD_END_wasm
 #define TEXTPLANE_SIMD_BEGIN(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_BEGIN_##needs(features)
 #define TEXTPLANE_SIMD_END(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_END_##needs
 
@@ -2687,7 +2700,7 @@ namespace simd {
 
 /// The instruction sets that kernels are built for: scalar = 0 (plain C++), sse41 = 1 (SSE4.1), avx2 = 2 (AVX2, FMA and
 /// POPCNT: Haswell, Zen and later), avx512 = 3 (AVX-512 F, BW, DQ, VL and VNNI besides: Ice Lake, Zen 4 and later),
-/// neon = 4 (AArch64).
+/// neon = 4 (AArch64), simd128 = 5 (WebAssembly).
 enum class Target : int {
 #define TEXTPLANE_SIMD_X(a, number, name, ...) name = number,
   TEXTPLANE_SIMD_TARGETS(TEXTPLANE_SIMD_X, 0)
@@ -2810,7 +2823,8 @@ inline bool cpu_has(const char* features) noexcept {
 
 #else
 
-/// Scalar code runs everywhere, NEON on every AArch64; no other feature is known here.
+/// Scalar code runs everywhere, NEON on every AArch64, and an engine without simd128 loads no module that has it; no
+/// other feature is known here.
 inline bool cpu_has(const char* features) noexcept { return *features == '\0'; }
 
 #endif
@@ -2853,8 +2867,8 @@ inline Target best_target() noexcept {
 #endif
 }
 
-/// Finds the target called `name` ("scalar", "sse41", "avx2", "avx512", "neon"). False, and `target` unchanged, for a
-/// null pointer and any other name.
+/// Finds the target called `name` ("scalar", "sse41", "avx2", "avx512", "neon", "simd128"). False, and `target`
+/// unchanged, for a null pointer and any other name.
 inline bool target_from_string(const char* name, Target& target) noexcept {
   if (name == nullptr) return false;
   for (int i = 0; i < kTargetCount; ++i) {
@@ -3090,7 +3104,7 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return p[*at]; }  // p[at[i]]
 
 // --- float arithmetic ---
-// a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
+// a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on the others.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
 // The second operand where either is NaN, and where both are zero.
@@ -5542,6 +5556,442 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+#define TEXTPLANE_SIMD_OPS TEXTPLANE_SIMD_TEXT(textplane/simd/ops/TEXTPLANE_SIMD_REGION.inl)
+TEXTPLANE_SIMD_INLINE unsigned load_u16(const std::uint8_t* p) noexcept {
+  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 8;
+}
+TEXTPLANE_SIMD_INLINE void copy_bytes(void* to, const void* from, int n) noexcept {
+  std::uint8_t* TEXTPLANE_SIMD_RESTRICT target = static_cast<std::uint8_t*>(to);
+  const std::uint8_t* TEXTPLANE_SIMD_RESTRICT source = static_cast<const std::uint8_t*>(from);
+  for (int i = 0; i < n; ++i) target[i] = source[i];
+}
+TEXTPLANE_SIMD_INLINE unsigned int16_pair(const std::uint16_t* p) noexcept {
+  return static_cast<unsigned>(p[0]) | static_cast<unsigned>(p[1]) << 16;
+}
+TEXTPLANE_SIMD_INLINE void zero16(std::int16_t* p, int from, int to) noexcept {
+  volatile std::int16_t* out = p;
+  for (int i = from; i < to; ++i) out[i] = 0;
+}
+TEXTPLANE_SIMD_INLINE void fetch_four_words(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                            std::uint32_t* taps) noexcept {
+  const std::ptrdiff_t o0 = offset[0], o1 = offset[1], o2 = offset[2], o3 = offset[3];
+  taps[0] = load_u16(upper + o0) | load_u16(lower + o0) << 16;
+  taps[1] = load_u16(upper + o1) | load_u16(lower + o1) << 16;
+  taps[2] = load_u16(upper + o2) | load_u16(lower + o2) << 16;
+  taps[3] = load_u16(upper + o3) | load_u16(lower + o3) << 16;
+}
+// Operations of the simd128 target: WebAssembly's vectors of 128 bits. ops/scalar.inl defines them.
+// Include before: ops/common.inl.
+//
+// Each has in mind what an engine makes of it on x86-64, where some instructions of WebAssembly are many: truncation,
+// bytes picked by a variable, and shuffles of two vectors that are no interleaving.
+
+// --- floats ---
+constexpr int kLanes = 4;
+constexpr bool kManyRegisters = false;
+using vf = float __attribute__((vector_size(16)));
+using vi = v128_t;
+using vm = v128_t;  // all bits of a lane
+
+// --- make, load, store ---
+TEXTPLANE_SIMD_INLINE vf set1(float value) noexcept { return vf{value, value, value, value}; }
+TEXTPLANE_SIMD_INLINE vi seti(int value) noexcept { return wasm_i32x4_splat(value); }
+TEXTPLANE_SIMD_INLINE vf iota() noexcept { return vf{0.0f, 1.0f, 2.0f, 3.0f}; }
+TEXTPLANE_SIMD_INLINE vi ioti() noexcept { return wasm_i32x4_const(0, 1, 2, 3); }
+TEXTPLANE_SIMD_INLINE vf as_float(vi a) noexcept { return reinterpret_cast<vf>(a); }
+TEXTPLANE_SIMD_INLINE vi as_int(vf a) noexcept { return reinterpret_cast<vi>(a); }
+TEXTPLANE_SIMD_INLINE vf load(const float* p) noexcept { return as_float(wasm_v128_load(p)); }
+TEXTPLANE_SIMD_INLINE vf hold(vf v) noexcept { return v; }
+TEXTPLANE_SIMD_INLINE void store(float* p, vf v) noexcept { wasm_v128_store(p, as_int(v)); }
+TEXTPLANE_SIMD_INLINE vi loadi(const int* p) noexcept { return wasm_v128_load(p); }
+TEXTPLANE_SIMD_INLINE void storei(int* p, vi v) noexcept { wasm_v128_store(p, v); }
+TEXTPLANE_SIMD_INLINE vf load_n(const float* p, int n) noexcept {
+  if (n >= 4) return load(p);
+  if (n <= 0) return set1(0.0f);
+  v128_t v = wasm_v128_load32_zero(p);
+  if (n >= 2) v = wasm_v128_load32_lane(p + 1, v, 1);
+  if (n >= 3) v = wasm_v128_load32_lane(p + 2, v, 2);
+  return as_float(v);
+}
+TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
+  if (n >= 4) {
+    store(p, v);
+    return;
+  }
+  if (n >= 1) wasm_v128_store32_lane(p, as_int(v), 0);
+  if (n >= 2) wasm_v128_store32_lane(p + 1, as_int(v), 1);
+  if (n >= 3) wasm_v128_store32_lane(p + 2, as_int(v), 2);
+}
+TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
+  v128_t v = wasm_v128_load32_zero(p + at[0]);
+  v = wasm_v128_load32_lane(p + at[1], v, 1);
+  v = wasm_v128_load32_lane(p + at[2], v, 2);
+  return as_float(wasm_v128_load32_lane(p + at[3], v, 3));
+}
+
+// --- float arithmetic ---
+TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
+TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
+// These are "the second where it is less (greater) than the first, else the first".
+TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return as_float(wasm_f32x4_pmin(as_int(b), as_int(a))); }
+TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return as_float(wasm_f32x4_pmax(as_int(b), as_int(a))); }
+TEXTPLANE_SIMD_INLINE vf sqrt_(vf a) noexcept { return as_float(wasm_f32x4_sqrt(as_int(a))); }
+TEXTPLANE_SIMD_INLINE vf inverse_root(vf a) noexcept { return set1(1.0f) / sqrt_(a); }
+TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return as_float(wasm_f32x4_abs(as_int(a))); }
+TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return as_float(wasm_f32x4_floor(as_int(a))); }
+
+// --- conversions ---
+TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return wasm_i32x4_trunc_sat_f32x4(as_int(a)); }
+TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return as_float(wasm_f32x4_convert_i32x4(a)); }
+
+// --- int32 arithmetic ---
+TEXTPLANE_SIMD_INLINE vi addi(vi a, vi b) noexcept { return wasm_i32x4_add(a, b); }
+TEXTPLANE_SIMD_INLINE vi subi(vi a, vi b) noexcept { return wasm_i32x4_sub(a, b); }
+TEXTPLANE_SIMD_INLINE vi muli(vi a, vi b) noexcept { return wasm_i32x4_mul(a, b); }
+TEXTPLANE_SIMD_INLINE vi mini(vi a, vi b) noexcept { return wasm_i32x4_min(a, b); }
+TEXTPLANE_SIMD_INLINE vi maxi(vi a, vi b) noexcept { return wasm_i32x4_max(a, b); }
+TEXTPLANE_SIMD_INLINE vi shl(vi a, int bits) noexcept { return wasm_i32x4_shl(a, static_cast<unsigned>(bits)); }
+TEXTPLANE_SIMD_INLINE vi shr(vi a, int bits) noexcept { return wasm_i32x4_shr(a, static_cast<unsigned>(bits)); }
+TEXTPLANE_SIMD_INLINE vi andi(vi a, vi b) noexcept { return wasm_v128_and(a, b); }
+TEXTPLANE_SIMD_INLINE vi ori(vi a, vi b) noexcept { return wasm_v128_or(a, b); }
+
+// --- masks ---
+TEXTPLANE_SIMD_INLINE vm lt(vf a, vf b) noexcept { return wasm_f32x4_lt(as_int(a), as_int(b)); }
+TEXTPLANE_SIMD_INLINE vm le(vf a, vf b) noexcept { return wasm_f32x4_le(as_int(a), as_int(b)); }
+TEXTPLANE_SIMD_INLINE vm gt(vf a, vf b) noexcept { return wasm_f32x4_gt(as_int(a), as_int(b)); }
+TEXTPLANE_SIMD_INLINE vm ge(vf a, vf b) noexcept { return wasm_f32x4_ge(as_int(a), as_int(b)); }
+TEXTPLANE_SIMD_INLINE vm eq(vf a, vf b) noexcept { return wasm_f32x4_eq(as_int(a), as_int(b)); }
+TEXTPLANE_SIMD_INLINE vm eqi(vi a, vi b) noexcept { return wasm_i32x4_eq(a, b); }
+TEXTPLANE_SIMD_INLINE vm and_(vm a, vm b) noexcept { return wasm_v128_and(a, b); }
+TEXTPLANE_SIMD_INLINE vm andnot_(vm a, vm b) noexcept { return wasm_v128_andnot(b, a); }
+TEXTPLANE_SIMD_INLINE vf select(vm m, vf a, vf b) noexcept {
+  return as_float(wasm_v128_bitselect(as_int(a), as_int(b), m));
+}
+TEXTPLANE_SIMD_INLINE vf keep(vm m, vf a) noexcept { return as_float(wasm_v128_and(m, as_int(a))); }
+TEXTPLANE_SIMD_INLINE vm first_n(int n) noexcept { return wasm_i32x4_lt(ioti(), seti(n)); }
+TEXTPLANE_SIMD_INLINE unsigned bits_from_mask(vm m) noexcept { return static_cast<unsigned>(wasm_i32x4_bitmask(m)); }
+TEXTPLANE_SIMD_INLINE int count_true(vm m) noexcept { return __builtin_popcount(bits_from_mask(m)); }
+TEXTPLANE_SIMD_INLINE bool all_true(vm m) noexcept { return bits_from_mask(m) == 15u; }
+
+// --- reductions ---
+TEXTPLANE_SIMD_INLINE vf upper_half(vf a) noexcept { return __builtin_shufflevector(a, a, 2, 3, 2, 3); }
+TEXTPLANE_SIMD_INLINE float reduce_sum(vf a) noexcept {
+  const vf two = a + upper_half(a);
+  return two[0] + two[1];
+}
+TEXTPLANE_SIMD_INLINE float reduce_min(vf a) noexcept {
+  const vf two = min_(a, upper_half(a));
+  return min_(two, __builtin_shufflevector(two, two, 1, 1, 1, 1))[0];
+}
+TEXTPLANE_SIMD_INLINE float reduce_max(vf a) noexcept {
+  const vf two = max_(a, upper_half(a));
+  return max_(two, __builtin_shufflevector(two, two, 1, 1, 1, 1))[0];
+}
+
+// --- bilinear taps ---
+struct taps_t {
+  v128_t cells;
+};
+TEXTPLANE_SIMD_INLINE taps_t load_taps(const std::uint32_t* p) noexcept { return taps_t{wasm_v128_load(p)}; }
+// As int16: I(x,y) and I(x,y+1) of each cell, and the right neighbours of these minus them.
+TEXTPLANE_SIMD_INLINE v128_t left_taps(taps_t t) noexcept { return wasm_v128_and(t.cells, seti(0x00ff00ff)); }
+TEXTPLANE_SIMD_INLINE v128_t tap_differences(taps_t t) noexcept {
+  return wasm_i16x8_sub(wasm_u16x8_shr(t.cells, 8), left_taps(t));
+}
+TEXTPLANE_SIMD_INLINE vf tap_value(taps_t t) noexcept { return to_float(andi(t.cells, seti(255))); }
+TEXTPLANE_SIMD_INLINE vf tap_dx(taps_t t) noexcept {
+  return to_float(wasm_i32x4_dot_i16x8(tap_differences(t), seti(1)));
+}
+TEXTPLANE_SIMD_INLINE vf tap_dy(taps_t t) noexcept {
+  return to_float(wasm_i32x4_dot_i16x8(left_taps(t), seti(0x0001ffff)));
+}
+TEXTPLANE_SIMD_INLINE vf tap_dxy(taps_t t) noexcept {
+  return to_float(wasm_i32x4_dot_i16x8(tap_differences(t), seti(0x0001ffff)));
+}
+
+// --- one number ---
+TEXTPLANE_SIMD_INLINE double sqrt_d(double a) noexcept { return __builtin_sqrt(a); }
+TEXTPLANE_SIMD_INLINE int lowest_bit(std::uint64_t bits) noexcept { return __builtin_ctzll(bits); }
+
+TEXTPLANE_SIMD_INLINE void fetch_four(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset,
+                                      std::uint32_t* taps) noexcept {
+  v128_t v = wasm_v128_load16_lane(upper + offset[0], wasm_i32x4_const(0, 0, 0, 0), 0);
+  v = wasm_v128_load16_lane(lower + offset[0], v, 1);
+  v = wasm_v128_load16_lane(upper + offset[1], v, 2);
+  v = wasm_v128_load16_lane(lower + offset[1], v, 3);
+  v = wasm_v128_load16_lane(upper + offset[2], v, 4);
+  v = wasm_v128_load16_lane(lower + offset[2], v, 5);
+  v = wasm_v128_load16_lane(upper + offset[3], v, 6);
+  wasm_v128_store(taps, wasm_v128_load16_lane(lower + offset[3], v, 7));
+}
+
+// Interleaves, then adds: an addition across lanes would be three shuffles.
+TEXTPLANE_SIMD_INLINE vf sums_of_four(vf a, vf b, vf c, vf d) noexcept {
+  const vf ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), AB = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const vf cd = __builtin_shufflevector(c, d, 0, 4, 1, 5), CD = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return (__builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7)) +
+         (__builtin_shufflevector(AB, CD, 0, 1, 4, 5) + __builtin_shufflevector(AB, CD, 2, 3, 6, 7));
+}
+TEXTPLANE_SIMD_INLINE void reduce_sum4(vf a, vf b, vf c, vf d, float* out) noexcept {
+  store(out, sums_of_four(a, b, c, d));
+}
+
+// Bytes and int16 of the simd128 target. ops/scalar.inl defines the operations.
+// Include before: the int32 operations of ops/simd128.inl.
+
+// --- bytes ---
+constexpr int kBytes = 16;
+using vb = v128_t;
+
+TEXTPLANE_SIMD_INLINE vb setb(int value) noexcept { return wasm_i8x16_splat(static_cast<std::int8_t>(value)); }
+TEXTPLANE_SIMD_INLINE vb loadb(const std::uint8_t* p) noexcept { return wasm_v128_load(p); }
+TEXTPLANE_SIMD_INLINE void storeb(std::uint8_t* p, vb a) noexcept { wasm_v128_store(p, a); }
+
+TEXTPLANE_SIMD_INLINE vb addsb(vb a, vb b) noexcept { return wasm_u8x16_add_sat(a, b); }
+TEXTPLANE_SIMD_INLINE vb subsb(vb a, vb b) noexcept { return wasm_u8x16_sub_sat(a, b); }
+TEXTPLANE_SIMD_INLINE vb minb(vb a, vb b) noexcept { return wasm_u8x16_min(a, b); }
+TEXTPLANE_SIMD_INLINE vb maxb(vb a, vb b) noexcept { return wasm_u8x16_max(a, b); }
+TEXTPLANE_SIMD_INLINE vb andb(vb a, vb b) noexcept { return wasm_v128_and(a, b); }
+TEXTPLANE_SIMD_INLINE vb orb(vb a, vb b) noexcept { return wasm_v128_or(a, b); }
+// (a + b + 2) / 4 of neighbouring bytes.
+TEXTPLANE_SIMD_INLINE v128_t quarter_of_pairs(vb a, vb b) noexcept {
+  const v128_t sum = wasm_i16x8_add(wasm_u16x8_extadd_pairwise_u8x16(a), wasm_u16x8_extadd_pairwise_u8x16(b));
+  return wasm_u16x8_shr(wasm_i16x8_add(sum, wasm_i16x8_splat(2)), 2);
+}
+TEXTPLANE_SIMD_INLINE vb mean4b(vb upper0, vb upper1, vb lower0, vb lower1) noexcept {
+  return wasm_u8x16_narrow_i16x8(quarter_of_pairs(upper0, lower0), quarter_of_pairs(upper1, lower1));
+}
+
+TEXTPLANE_SIMD_INLINE vb geb(vb a, vb b) noexcept { return wasm_u8x16_ge(a, b); }
+TEXTPLANE_SIMD_INLINE bool anyb(vb a) noexcept { return wasm_v128_any_true(a); }
+TEXTPLANE_SIMD_INLINE std::uint64_t bitsb(vb mask) noexcept {
+  return static_cast<std::uint32_t>(wasm_i8x16_bitmask(mask));
+}
+
+// --- int16 ---
+enum : int { k16Lanes = 8 };
+using v16 = v128_t;
+using vw = v128_t;
+constexpr int kPairsReach = 9;
+
+TEXTPLANE_SIMD_INLINE v16 set16(int value) noexcept { return wasm_i16x8_splat(static_cast<std::int16_t>(value)); }
+TEXTPLANE_SIMD_INLINE v16 load16(const std::int16_t* p) noexcept { return wasm_v128_load(p); }
+TEXTPLANE_SIMD_INLINE void store16(std::int16_t* p, v16 v) noexcept { wasm_v128_store(p, v); }
+TEXTPLANE_SIMD_INLINE v16 add16(v16 x, v16 y) noexcept { return wasm_i16x8_add(x, y); }
+TEXTPLANE_SIMD_INLINE v16 sub16(v16 x, v16 y) noexcept { return wasm_i16x8_sub(x, y); }
+TEXTPLANE_SIMD_INLINE v16 and16(v16 x, v16 y) noexcept { return wasm_v128_and(x, y); }
+TEXTPLANE_SIMD_INLINE v16 half16(v16 x) noexcept { return wasm_i16x8_shr(x, 1); }
+TEXTPLANE_SIMD_INLINE v16 first16(int n) noexcept {
+  const int limit = n < 0 ? 0 : (n < k16Lanes ? n : k16Lanes);
+  return wasm_i16x8_lt(wasm_i16x8_const(0, 1, 2, 3, 4, 5, 6, 7), set16(limit));
+}
+// Of the two bytes of each lane, unsigned: low * w0 + high * w1; it wraps.
+TEXTPLANE_SIMD_INLINE v16 weigh_bytes(v16 t, v16 w0, v16 w1) noexcept {
+  return wasm_i16x8_add(wasm_i16x8_mul(wasm_v128_and(t, set16(255)), w0), wasm_i16x8_mul(wasm_u16x8_shr(t, 8), w1));
+}
+TEXTPLANE_SIMD_INLINE v16 mix_pairs(const std::uint8_t* p, v16 weights) noexcept {
+  // The 128s leave the sum at once: what all rows of a patch share.
+  const v16 w0 = wasm_v128_and(weights, set16(255)), w1 = wasm_u16x8_shr(weights, 8);
+  const v16 sum =
+      wasm_i16x8_add(wasm_i16x8_mul(wasm_u16x8_load8x8(p), w0), wasm_i16x8_mul(wasm_u16x8_load8x8(p + 1), w1));
+  return wasm_i16x8_sub(sum, wasm_i16x8_shl(wasm_i16x8_add(w0, w1), 7));
+}
+TEXTPLANE_SIMD_INLINE v16 dot_pair(v16 t, int w0, int w1) noexcept { return weigh_bytes(t, set16(w0), set16(w1)); }
+TEXTPLANE_SIMD_INLINE v16 mul15(v16 x, v16 y) noexcept { return wasm_i16x8_q15mulr_sat(x, y); }
+TEXTPLANE_SIMD_INLINE vi add_dot16(vi sum, v16 x, v16 y) noexcept { return addi(sum, wasm_i32x4_dot_i16x8(x, y)); }
+TEXTPLANE_SIMD_INLINE v16 pack16(vi low, vi high) noexcept { return wasm_i16x8_narrow_i32x4(low, high); }
+TEXTPLANE_SIMD_INLINE int reduce_sum_int(vi v) noexcept {
+  const vi two = addi(v, wasm_i32x4_shuffle(v, v, 2, 3, 2, 3));
+  return wasm_i32x4_extract_lane(addi(two, wasm_i32x4_shuffle(two, two, 1, 1, 1, 1)), 0);
+}
+TEXTPLANE_SIMD_INLINE v16 gather_pairs8(const std::uint8_t* p, const int* offset) noexcept {
+  v128_t v = wasm_v128_load16_lane(p + offset[0], wasm_i32x4_const(0, 0, 0, 0), 0);
+  v = wasm_v128_load16_lane(p + offset[1], v, 1);
+  v = wasm_v128_load16_lane(p + offset[2], v, 2);
+  v = wasm_v128_load16_lane(p + offset[3], v, 3);
+  v = wasm_v128_load16_lane(p + offset[4], v, 4);
+  v = wasm_v128_load16_lane(p + offset[5], v, 5);
+  v = wasm_v128_load16_lane(p + offset[6], v, 6);
+  return wasm_v128_load16_lane(p + offset[7], v, 7);
+}
+TEXTPLANE_SIMD_INLINE void gather16(const std::uint8_t* upper, const std::uint8_t* lower, const int* offset, v16* first,
+                                    v16* second) noexcept {
+  *first = gather_pairs8(upper, offset);
+  *second = gather_pairs8(lower, offset);
+}
+TEXTPLANE_SIMD_INLINE vi gather_pairs(const std::uint16_t* p, const int* offset) noexcept {
+  v128_t v = wasm_v128_load32_zero(p + offset[0]);
+  v = wasm_v128_load32_lane(p + offset[1], v, 1);
+  v = wasm_v128_load32_lane(p + offset[2], v, 2);
+  return wasm_v128_load32_lane(p + offset[3], v, 3);
+}
+TEXTPLANE_SIMD_INLINE v16 low16(vi a, vi b) noexcept { return wasm_i16x8_shuffle(a, b, 0, 2, 4, 6, 8, 10, 12, 14); }
+TEXTPLANE_SIMD_INLINE v16 high16(vi a, vi b) noexcept { return wasm_i16x8_shuffle(a, b, 1, 3, 5, 7, 9, 11, 13, 15); }
+TEXTPLANE_SIMD_INLINE vi widen_low16(v16 v) noexcept { return wasm_i32x4_extend_low_i16x8(v); }
+TEXTPLANE_SIMD_INLINE vi widen_high16(v16 v) noexcept { return wasm_i32x4_extend_high_i16x8(v); }
+
+// --- doubles ---
+enum : int { kDoubles = 2 };
+using vp = double __attribute__((vector_size(16)));
+struct vd {
+  vp part[4];
+};
+
+TEXTPLANE_SIMD_INLINE vp as_double(v128_t a) noexcept { return reinterpret_cast<vp>(a); }
+TEXTPLANE_SIMD_INLINE v128_t bits_p(vp a) noexcept { return reinterpret_cast<v128_t>(a); }
+TEXTPLANE_SIMD_INLINE vp set_p(double value) noexcept { return vp{value, value}; }
+TEXTPLANE_SIMD_INLINE vp load_p(const double* p) noexcept { return as_double(wasm_v128_load(p)); }
+TEXTPLANE_SIMD_INLINE vp from_p(const double* const* p, std::ptrdiff_t at) noexcept { return vp{p[0][at], p[1][at]}; }
+TEXTPLANE_SIMD_INLINE void store_p(double* p, vp v) noexcept { wasm_v128_store(p, bits_p(v)); }
+TEXTPLANE_SIMD_INLINE vp madd_p(vp a, vp b, vp c) noexcept { return a * b + c; }
+TEXTPLANE_SIMD_INLINE vp min_p(vp a, vp b) noexcept { return as_double(wasm_f64x2_pmin(bits_p(b), bits_p(a))); }
+TEXTPLANE_SIMD_INLINE vp max_p(vp a, vp b) noexcept { return as_double(wasm_f64x2_pmax(bits_p(b), bits_p(a))); }
+TEXTPLANE_SIMD_INLINE vp abs_p(vp a) noexcept { return as_double(wasm_f64x2_abs(bits_p(a))); }
+TEXTPLANE_SIMD_INLINE vp trunc_p(vp a) noexcept { return as_double(wasm_f64x2_trunc(bits_p(a))); }
+TEXTPLANE_SIMD_INLINE vp positive_p(vp m, vp a, vp b) noexcept {
+  return as_double(wasm_v128_bitselect(bits_p(a), bits_p(b), wasm_f64x2_gt(bits_p(m), bits_p(set_p(0)))));
+}
+TEXTPLANE_SIMD_INLINE void store_as_float(float* p, vp v) noexcept {
+  wasm_v128_store64_lane(p, wasm_f32x4_demote_f64x2_zero(bits_p(v)), 0);
+}
+TEXTPLANE_SIMD_INLINE vp widen_low(vf a) noexcept { return as_double(wasm_f64x2_promote_low_f32x4(as_int(a))); }
+TEXTPLANE_SIMD_INLINE double reduce_sum_double(vf a) noexcept {
+  const vp two = widen_low(a) + widen_low(upper_half(a));
+  return two[0] + two[1];
+}
+TEXTPLANE_SIMD_INLINE double sumw(vw a) noexcept {
+  const vp two = as_double(wasm_f64x2_convert_low_i32x4(a)) +
+                 as_double(wasm_f64x2_convert_low_i32x4(wasm_i32x4_shuffle(a, a, 2, 3, 2, 3)));
+  return two[0] + two[1];
+}
+
+TEXTPLANE_SIMD_INLINE vd reduce_sum8(const float* p) noexcept {
+  const vf q = sums_of_four(load(p), load(p + 4), load(p + 8), load(p + 12));
+  const vf r = sums_of_four(load(p + 16), load(p + 20), load(p + 24), load(p + 28));
+  return vd{{widen_low(q), widen_low(upper_half(q)), widen_low(r), widen_low(upper_half(r))}};
+}
+
+// --- tiles ---
+enum : int { kTileLanes = 4 };
+TEXTPLANE_SIMD_INLINE vi per_tile(const int* b) noexcept { return seti(b[0]); }
+TEXTPLANE_SIMD_INLINE bool in_two_rows(vi y) noexcept { return !wasm_v128_any_true(wasm_v128_and(y, seti(~1))); }
+TEXTPLANE_SIMD_INLINE vi tile_rows(const std::uint8_t* const* corner, std::ptrdiff_t offset) noexcept {
+  return wasm_v128_load(corner[0] + offset);
+}
+TEXTPLANE_SIMD_INLINE vi pick_bytes(vi rows, vi picks) noexcept { return wasm_i8x16_swizzle(rows, picks); }
+TEXTPLANE_SIMD_INLINE vi tile_picks(vi x) noexcept {
+  // Each byte of a lane gets the lane's x, which is below 16.
+  return addi(muli(x, seti(0x01010101)), seti(0x01000100));
+}
+TEXTPLANE_SIMD_INLINE taps_t two_rows(vi y, vi a, vi b, vi c) noexcept {
+  const v128_t top = seti(0x0000ffff), lower = subi(seti(0), y);
+  return taps_t{wasm_v128_bitselect(wasm_v128_bitselect(b, c, top), wasm_v128_bitselect(a, b, top), lower)};
+}
+TEXTPLANE_SIMD_INLINE void load2(const float* p, vf* a, vf* b) noexcept {
+  const vf lo = load(p), hi = load(p + 4);
+  *a = __builtin_shufflevector(lo, hi, 0, 2, 4, 6);
+  *b = __builtin_shufflevector(lo, hi, 1, 3, 5, 7);
+}
+TEXTPLANE_SIMD_INLINE void store_u8(std::uint8_t* p, vi v) noexcept {
+  const v128_t half = wasm_i16x8_narrow_i32x4(v, v);
+  wasm_v128_store32_lane(p, wasm_u8x16_narrow_i16x8(half, half), 0);
+}
+
+TEXTPLANE_SIMD_INLINE vb loadb_n(const std::uint8_t* p, int n) noexcept {
+  std::uint8_t bytes[kBytes] = {0};
+  for (int i = 0; i < n; ++i) bytes[i] = p[i];
+  return loadb(bytes);
+}
+TEXTPLANE_SIMD_INLINE void storeb_n(std::uint8_t* p, vb a, int n) noexcept {
+  std::uint8_t bytes[kBytes];
+  storeb(bytes, a);
+  for (int i = 0; i < n; ++i) p[i] = bytes[i];
+}
+enum : int { kInt16Tiles = 0 };
+TEXTPLANE_SIMD_INLINE v16 min_unsigned16(v16 v, v16) noexcept { return v; }
+TEXTPLANE_SIMD_INLINE v16 load_group(const std::int16_t* p) noexcept { return load16(p); }
+TEXTPLANE_SIMD_INLINE void store_group(std::int16_t*, v16) noexcept {}
+TEXTPLANE_SIMD_INLINE void group_offsets(const std::int16_t*, const std::int16_t*, int, int*) noexcept {}
+TEXTPLANE_SIMD_INLINE void fetch_group(const std::uint8_t*, const std::uint8_t*, const int*, v16* a, v16* b) noexcept {
+  *a = *b = set16(0);
+}
+TEXTPLANE_SIMD_INLINE void store_taps(std::uint32_t*, v16, v16) noexcept {}
+struct TileVectors {
+  const std::uint8_t *upper, *middle;
+};
+TEXTPLANE_SIMD_INLINE TileVectors broadcast_tiles(const ImageTiles& w) noexcept {
+  return TileVectors{w.origin, w.origin};
+}
+TEXTPLANE_SIMD_INLINE unsigned tile_pairs(const TileVectors&, const std::int16_t*, const std::int16_t*, v16* first,
+                                          v16* second) noexcept {
+  *first = *second = set16(0);
+  return 0;
+}
+TEXTPLANE_SIMD_INLINE vf zero() noexcept { return set1(0.0f); }
+TEXTPLANE_SIMD_INLINE vf add(vf a, vf b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vf sub(vf a, vf b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vf mul(vf a, vf b) noexcept { return a * b; }
+#if defined(__clang__)
+__attribute__((no_sanitize("float-divide-by-zero")))
+#endif
+TEXTPLANE_SIMD_INLINE vf
+div(vf a, vf b) noexcept {
+  return a / b;
+}
+TEXTPLANE_SIMD_INLINE vf neg(vf a) noexcept { return -a; }
+TEXTPLANE_SIMD_INLINE vp add_p(vp a, vp b) noexcept { return a + b; }
+TEXTPLANE_SIMD_INLINE vp sub_p(vp a, vp b) noexcept { return a - b; }
+TEXTPLANE_SIMD_INLINE vp mul_p(vp a, vp b) noexcept { return a * b; }
+TEXTPLANE_SIMD_INLINE vp div_p(vp a, vp b) noexcept { return a / b; }
+constexpr int kParts = 8 / kDoubles;
+TEXTPLANE_SIMD_INLINE vd loadd(const double* p) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = load_p(p + i * kDoubles);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE void stored(double* p, vd a) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) store_p(p + i * kDoubles, a.part[i]);
+}
+TEXTPLANE_SIMD_INLINE vd setd(double value) noexcept {
+  vd r;
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) r.part[i] = set_p(value);
+  return r;
+}
+TEXTPLANE_SIMD_INLINE vd muld(vd a, vd b) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) a.part[i] = a.part[i] * b.part[i];
+  return a;
+}
+TEXTPLANE_SIMD_INLINE vd maddd(vd a, vd b, vd c) noexcept {
+  TEXTPLANE_SIMD_UNROLL
+  for (int i = 0; i < kParts; ++i) c.part[i] = madd_p(a.part[i], b.part[i], c.part[i]);
+  return c;
+}
+TEXTPLANE_SIMD_INLINE v16 pair_weights(int w0, int w1) noexcept { return set16(w0 | (w1 << 8)); }
+TEXTPLANE_SIMD_INLINE v16 grey_to_fixed(const float* p) noexcept {
+  const vf scale = set1(32.0f), half = set1(0.5f);
+  return sub16(pack16(to_int(load(p) * scale + half), to_int(load(p + kLanes) * scale + half)), set16(4096));
+}
+#undef TEXTPLANE_SIMD_OPS
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
@@ -5797,6 +6247,59 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE taps_t tile_taps(const std::uint8_t* const* corner, std::ptrdiff_t stride, vi x, vi y) noexcept {
+  const vi picks = tile_picks(x);
+  const vi a = pick_bytes(tile_rows(corner, 0), picks);
+  const vi b = pick_bytes(tile_rows(corner, stride), picks);
+  return two_rows(y, a, b, pick_bytes(tile_rows(corner, 2 * stride), picks));
+}
+TEXTPLANE_SIMD_INLINE TileGuess guess_tiles(const float* u, const float* v, int n, float a, float b, float c,
+                                            float d) noexcept {
+  TileGuess guess = {false, false, false};
+  if (kInt16Tiles == 0 || n < 64) return guess;
+  const int quarter = n / 32 * 8;
+  int dense = 0;
+  float across = 0, down = 0;
+  for (int at = 0; at < 4 * quarter; at += quarter) {
+    const float du = u[at + 7] - u[at], dv = v[at + 7] - v[at], dx = a * du + b * dv, dy = c * du + d * dv;
+    if (dx > -13.0F && dx < 13.0F && dy > -1.0F && dy < 1.0F) {
+      across += dx;
+      down += dy;
+      ++dense;
+    } else if (dense == 0) {
+      return guess;
+    }
+  }
+  guess.likely = dense >= 3;
+  guess.leftwards = across < 0;
+  guess.upwards = down < 0;
+  return guess;
+}
+TEXTPLANE_SIMD_INLINE bool make_tiles(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height, int ox,
+                                      int oy, ImageTiles* w) noexcept {
+  w->origin = data + (oy * stride + ox);
+  w->stride = stride;
+  w->x_high = width - 16 - ox;
+  w->y_high = height - 3 - oy;
+  w->guess.likely = false;
+  return kInt16Tiles != 0 && width >= 16 && height >= 3 && width < 16384 && height < 16384 && stride < 32768;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -7210,6 +7713,253 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum WarpKind : int { kWarp8F, kWarp88, kWarpFF };
+TEXTPLANE_SIMD_INLINE bool warp_finite(double x) noexcept {
+  std::uint64_t word = 0;
+  __builtin_memcpy(&word, &x, sizeof word);
+  return (word & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
+}
+TEXTPLANE_SIMD_INLINE int warp_cell(double x, int last) noexcept {
+  if (!(x > 0.0)) return 0;
+  return x < static_cast<double>(last) ? static_cast<int>(x) : last;
+}
+TEXTPLANE_SIMD_INLINE void warp_classify(const simd::WarpArgs& a, const double* x, const double* y, const double* z,
+                                         double size, WarpBlock* t) noexcept {
+  const double left = -(t->columns / 2), right = left + t->columns - 1, top = -(t->rows / 2),
+               bottom = top + t->rows - 1;
+  const double margin = 1e-3;
+  double x_low = 1e300, x_high = -1e300, y_low = 1e300, y_high = -1e300, z_low = 1e300, z_high = -1e300;
+  bool inside = true;
+  for (int corner = 0; corner < 4; ++corner) {
+    const double u = (corner & 1) ? right : left, v = (corner & 2) ? bottom : top;
+    const double q = z[0] + u * z[1] + v * z[2], r = q > 0.0 ? 1.0 / q : 0.0;
+    const double px = (x[0] + u * x[1] + v * x[2]) * r, py = (y[0] + u * y[1] + v * y[2]) * r;
+    const double reach = __builtin_fabs(px - t->ox) + __builtin_fabs(py - t->oy) + 1.0;
+    inside = inside && q * (0.5 * margin) > 3e-7 * size * reach && px >= margin && py >= margin &&
+             px <= a.width - 1 - margin && py <= a.height - 1 - margin;
+    x_low = px < x_low ? px : x_low;
+    x_high = px > x_high ? px : x_high;
+    y_low = py < y_low ? py : y_low;
+    y_high = py > y_high ? py : y_high;
+    z_low = q < z_low ? q : z_low;
+    z_high = q > z_high ? q : z_high;
+  }
+  t->dense = inside;
+  const double nx0 = x[1] * (z[0] + top * z[2]) - (x[0] + top * x[2]) * z[1];
+  const double nx1 = x[1] * (z[0] + bottom * z[2]) - (x[0] + bottom * x[2]) * z[1];
+  const double ny0 = y[1] * (z[0] + top * z[2]) - (y[0] + top * y[2]) * z[1];
+  const double ny1 = y[1] * (z[0] + bottom * z[2]) - (y[0] + bottom * y[2]) * z[1];
+  t->leftwards = nx0 < 0.0;
+  t->upwards = ny0 + ny1 < 0.0;
+  const double ax0 = __builtin_fabs(nx0), ax1 = __builtin_fabs(nx1), ay0 = __builtin_fabs(ny0),
+               ay1 = __builtin_fabs(ny1);
+  const double steep = ay0 > ay1 ? ay0 : ay1, wide = ax0 > ax1 ? ax0 : ax1, narrow = ax0 < ax1 ? ax0 : ax1;
+  const double z2_low = z_low * z_low, z2_high = z_high * z_high;
+  t->tiles = inside && (nx0 < 0.0) == (nx1 < 0.0) && wide <= 1.95 * z2_low && narrow >= 0.125 * z2_high &&
+             steep <= 0.14 * z2_low && x_high < a.width - 16 && y_high < a.height - 3;
+}
+TEXTPLANE_SIMD_INLINE WarpBlock warp_block(const simd::WarpArgs& a, int first_x, int first_y) noexcept {
+  WarpBlock t;
+  t.columns = a.out_width - first_x < kWarpBlockWidth ? a.out_width - first_x : kWarpBlockWidth;
+  t.rows = a.out_height - first_y < kWarpBlockHeight ? a.out_height - first_y : kWarpBlockHeight;
+  const double* h = a.h;
+  const double cx = first_x + t.columns / 2, cy = first_y + t.rows / 2;
+  const double x[3] = {h[0] * cx + h[1] * cy + h[2], h[0], h[1]}, y[3] = {h[3] * cx + h[4] * cy + h[5], h[3], h[4]};
+  const double z[3] = {h[6] * cx + h[7] * cy + h[8], h[6], h[7]};
+  const double size =
+      __builtin_fabs(z[0]) + kWarpBlockWidth * __builtin_fabs(z[1]) + kWarpBlockHeight * __builtin_fabs(z[2]);
+  const double s = size > 0.0 ? 1.0 / size : 0.0;
+  const double r = z[0] > 0.0 ? 1.0 / z[0] : 0.0;
+  t.ox = z[0] > 0.0 ? warp_cell(x[0] * r, a.width - 2) : a.width / 2;
+  t.oy = z[0] > 0.0 ? warp_cell(y[0] * r, a.height - 2) : a.height / 2;
+  for (int i = 0; i < 3; ++i) {
+    t.x[i] = (x[i] - t.ox * z[i]) * s;
+    t.y[i] = (y[i] - t.oy * z[i]) * s;
+    t.z[i] = z[i] * s;
+  }
+  warp_classify(a, x, y, z, size, &t);
+  return t;
+}
+enum WarpPath : int {
+  kWarpTiles,
+  kWarpDense,
+  kWarpSparse,
+};
+TEXTPLANE_SIMD_INLINE int warp_coordinates(const simd::WarpArgs& a, const WarpBlock& t, int v, int pixel, int path,
+                                           WarpStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const int columns = t.columns;
+  const vf x0 = set1(static_cast<float>(t.x[0] + v * t.x[2])), x1 = set1(static_cast<float>(t.x[1]));
+  const vf y0 = set1(static_cast<float>(t.y[0] + v * t.y[2])), y1 = set1(static_cast<float>(t.y[1]));
+  const vf z0 = set1(static_cast<float>(t.z[0] + v * t.z[2])), z1 = set1(static_cast<float>(t.z[1]));
+  const vf one = set1(1.0F), last = set1(static_cast<float>(columns - 1 - columns / 2));
+  const vf left = set1(static_cast<float>(-t.ox)), right = set1(static_cast<float>(a.width - 1 - t.ox));
+  const vf top = set1(static_cast<float>(-t.oy)), bottom = set1(static_cast<float>(a.height - 1 - t.oy));
+  const vf step = set1(static_cast<float>(kLanes));
+  const vi stride = seti(static_cast<int>(a.source_stride)), size = seti(pixel);
+  vf next = add(iota(), set1(static_cast<float>(-(columns / 2))));
+  int inside = path == kWarpSparse ? 0 : columns;
+  for (int k = 0; k < columns; k += kLanes) {
+    const vf u = min_(next, last), r = div(one, madd(z1, u, z0));
+    next = add(next, step);
+    vf x = mul(madd(x1, u, x0), r), y = mul(madd(y1, u, y0), r), cell_x, cell_y;
+    if (path == kWarpSparse) {
+      const vm front = gt(madd(z1, u, z0), zero());
+      const vm in = and_(front, and_(and_(ge(x, left), le(x, right)), and_(ge(y, top), le(y, bottom))));
+      inside += count_true(and_(in, first_n(columns - k)));
+      storei(s->inside + k, to_int(keep(in, one)));
+      x = min_(max_(x, left), right);
+      y = min_(max_(y, top), bottom);
+      cell_x = min_(floor_(x), sub(right, one));
+      cell_y = min_(floor_(y), sub(bottom, one));
+    } else {
+      cell_x = floor_(x);
+      cell_y = floor_(y);
+    }
+    store(s->dx + k, sub(x, cell_x));
+    store(s->dy + k, sub(y, cell_y));
+    if (path == kWarpTiles) {
+      storei(s->x + k, to_int(cell_x));
+      storei(s->y + k, to_int(cell_y));
+    } else {
+      storei(s->offset + k, addi(muli(to_int(cell_y), stride), muli(to_int(cell_x), size)));
+    }
+  }
+  return inside;
+}
+TEXTPLANE_SIMD_INLINE std::uint32_t warp_cell_taps(const std::uint8_t* p, std::ptrdiff_t stride) noexcept {
+  const std::uint8_t* q = p + stride;
+  const std::uint32_t upper = p[0] | static_cast<std::uint32_t>(p[1]) << 8;
+  const std::uint32_t lower = q[0] | static_cast<std::uint32_t>(q[1]) << 8;
+  return upper | lower << 16;
+}
+TEXTPLANE_SIMD_INLINE taps_t warp_tile_taps(const WarpBlock& t, const std::uint8_t* origin, std::ptrdiff_t stride,
+                                            int k, const WarpStrip* s, vi* rows) noexcept {
+  enum : int { kStep = kTileLanes > 0 ? kTileLanes : 1, kTiles = kLanes / kStep };
+  const int *left = s->x + k + (t.leftwards ? kStep - 1 : 0), *top = s->y + k + (t.upwards ? kStep - 1 : 0);
+  const std::uint8_t* corner[kTiles];
+  for (int i = 0; i < kTiles; ++i) corner[i] = origin + top[i * kStep] * stride + left[i * kStep];
+  const vi x = subi(loadi(s->x + k), per_tile(left)), y = subi(loadi(s->y + k), per_tile(top));
+  *rows = ori(*rows, y);
+  return tile_taps(corner, stride, x, y);
+}
+TEXTPLANE_SIMD_INLINE void warp_fetch(const std::uint8_t* origin, std::ptrdiff_t stride, int columns, int kind,
+                                      WarpStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const int n = (columns + kLanes - 1) / kLanes * kLanes;
+  for (int i = 0; i < n; ++i) {
+    const std::uint8_t* p = origin + s->offset[i];
+    if (kind == kWarpFF) {
+      __builtin_memcpy(s->upper + 2 * i, p, 8);
+      __builtin_memcpy(s->lower + 2 * i, p + stride, 8);
+    } else {
+      s->taps[i] = warp_cell_taps(p, stride);
+    }
+  }
+}
+TEXTPLANE_SIMD_INLINE vf warp_values(const WarpBlock& t, const std::uint8_t* origin, std::ptrdiff_t stride, float fill,
+                                     int k, int kind, int path, const WarpStrip* s, vi* rows) noexcept {
+  const vf dx = load(s->dx + k), dy = load(s->dy + k);
+  vf value;
+  if (kind == kWarpFF) {
+    vf i00, i10, i01, i11;
+    load2(s->upper + 2 * k, &i00, &i10);
+    load2(s->lower + 2 * k, &i01, &i11);
+    const vf upper = madd(dx, sub(i10, i00), i00), lower = madd(dx, sub(i11, i01), i01);
+    value = madd(dy, sub(lower, upper), upper);
+  } else {
+    const taps_t taps = path == kWarpTiles ? warp_tile_taps(t, origin, stride, k, s, rows) : load_taps(s->taps + k);
+    value = madd(dy, madd(dx, tap_dxy(taps), tap_dy(taps)), madd(dx, tap_dx(taps), tap_value(taps)));
+  }
+  return path == kWarpSparse ? select(gt(to_float(loadi(s->inside + k)), zero()), value, set1(fill)) : value;
+}
+TEXTPLANE_SIMD_INLINE bool warp_row(const WarpBlock& t, const std::uint8_t* origin, std::ptrdiff_t stride, float fill,
+                                    void* TEXTPLANE_SIMD_RESTRICT out, int kind, int path,
+                                    const WarpStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  float* floats = static_cast<float*>(out);
+  std::uint8_t* bytes = static_cast<std::uint8_t*>(out);
+  const vf half = set1(0.5F);
+  vi rows = seti(0);
+  int k = 0;
+  for (; k + kLanes <= t.columns; k += kLanes) {
+    const vf value = warp_values(t, origin, stride, fill, k, kind, path, s, &rows);
+    if (kind == kWarp88) {
+      store_u8(bytes + k, to_int(add(value, half)));
+    } else {
+      store(floats + k, value);
+    }
+  }
+  if (k < t.columns) {
+    const vf value = warp_values(t, origin, stride, fill, k, kind, path, s, &rows);
+    if (kind == kWarp88) {
+      std::uint8_t last[kLanes];
+      store_u8(last, to_int(add(value, half)));
+      for (int i = 0; k + i < t.columns; ++i) bytes[k + i] = last[i];
+    } else {
+      store_n(floats + k, value, t.columns - k);
+    }
+  }
+  return path != kWarpTiles || in_two_rows(rows);
+}
+TEXTPLANE_SIMD_INLINE int warp_block_by(const simd::WarpArgs& a, const WarpBlock& t, int first_x, int first_y, int kind,
+                                        int path, WarpStrip* s) noexcept {
+  const int pixel = kind == kWarpFF ? 4 : 1, out_pixel = kind == kWarp88 ? 1 : 4;
+  const std::ptrdiff_t stride = a.source_stride;
+  const std::uint8_t* origin = static_cast<const std::uint8_t*>(a.source) + t.oy * stride + t.ox * pixel;
+  const float fill = a.fill;
+  int inside = 0;
+  for (int row = 0; row < t.rows; ++row) {
+    const int y = first_y + row;
+    inside += warp_coordinates(a, t, row - t.rows / 2, pixel, path, s);
+    if (path != kWarpTiles) warp_fetch(origin, stride, t.columns, kind, s);
+    std::uint8_t* out = static_cast<std::uint8_t*>(a.out) + y * a.out_stride + first_x * out_pixel;
+    if (!warp_row(t, origin, stride, fill, out, kind, path, s)) {
+      warp_coordinates(a, t, row - t.rows / 2, pixel, kWarpDense, s);
+      warp_fetch(origin, stride, t.columns, kind, s);
+      warp_row(t, origin, stride, fill, out, kind, kWarpDense, s);
+    }
+    if (a.mask == nullptr) continue;
+    std::uint8_t* mask = a.mask + y * a.mask_stride + first_x;
+    for (int k = 0; k < t.columns; ++k) mask[k] = static_cast<std::uint8_t>(path == kWarpSparse ? s->inside[k] : 1);
+  }
+  return inside;
+}
+TEXTPLANE_SIMD_INLINE int warp(const simd::WarpArgs& a, int kind) noexcept {
+  bool valid = a.width >= 2 && a.height >= 2 && a.source_stride <= 0x7fffffff / a.height;
+  for (int i = 0; i < 9; ++i) valid = valid && warp_finite(a.h[i]);
+  if (!valid) return -1;
+  WarpStrip strip;
+  int inside = 0;
+  for (int y = 0; y < a.out_height; y += kWarpBlockHeight)
+    for (int x = 0; x < a.out_width; x += kWarpBlockWidth) {
+      const WarpBlock block = warp_block(a, x, y);
+      if (kind != kWarpFF && kTileLanes > 0 && block.tiles) {
+        inside += warp_block_by(a, block, x, y, kind, kWarpTiles, &strip);
+      } else if (block.dense) {
+        inside += warp_block_by(a, block, x, y, kind, kWarpDense, &strip);
+      } else {
+        inside += warp_block_by(a, block, x, y, kind, kWarpSparse, &strip);
+      }
+    }
+  return inside;
+}
+TEXTPLANE_SIMD_ENTRY int warp_u8_f32(const simd::WarpArgs& a) noexcept { return warp(a, kWarp8F); }
+TEXTPLANE_SIMD_ENTRY int warp_u8_u8(const simd::WarpArgs& a) noexcept { return warp(a, kWarp88); }
+TEXTPLANE_SIMD_ENTRY int warp_f32_f32(const simd::WarpArgs& a) noexcept { return warp(a, kWarpFF); }
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -7889,6 +8639,122 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+constexpr int kKltCopyStride = 48;
+TEXTPLANE_SIMD_INLINE simd::KltWindow klt_roomy(const simd::KltWindow& window, std::uint8_t* copy) noexcept {
+  const int strips = (window.columns + k16Lanes - 1) / k16Lanes;
+  if ((strips - 1) * k16Lanes + kPairsReach <= window.readable) return window;
+  for (int y = 0; y <= window.rows; ++y) {
+    const std::uint8_t* from = window.data + y * window.stride;
+    std::uint8_t* to = copy + y * kKltCopyStride;
+    for (int x = 0; x <= window.columns; ++x) to[x] = from[x];
+    for (int x = window.columns + 1; x < kKltCopyStride; ++x) to[x] = 0;
+  }
+  return simd::KltWindow{copy, kKltCopyStride, kKltCopyStride, window.columns, window.rows, window.fx, window.fy};
+}
+TEXTPLANE_SIMD_INLINE v16 klt_between(v16 above, v16 below, v16 minus_fy) noexcept {
+  return half16(add16(above, mul15(sub16(above, below), minus_fy)));
+}
+TEXTPLANE_SIMD_INLINE simd::KltPatchSums klt_gradients(const std::int16_t* padded, int columns, int rows,
+                                                       simd::KltPatch& patch) noexcept {
+  const v16 one = set16(1);
+  vw v_sum{}, vv{}, x_sum{}, y_sum{}, vx{}, vy{}, xx{}, xy{}, yy{};
+  for (int first = 0; first < columns; first += k16Lanes) {
+    const v16 mask = first16(columns - first);
+    for (int y = 0; y < rows; ++y) {
+      const std::int16_t* row = padded + (y + 1) * simd::kKltStride + first;
+      const int at = y * simd::kKltStride + first;
+      const v16 v = and16(load16(row + 1), mask);
+      const v16 x = and16(half16(sub16(load16(row + 2), load16(row))), mask);
+      const v16 down = sub16(load16(row + 1 + simd::kKltStride), load16(row + 1 - simd::kKltStride));
+      const v16 g = and16(half16(down), mask);
+      store16(patch.value + at, v);
+      store16(patch.gx + at, x);
+      store16(patch.gy + at, g);
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      x_sum = add_dot16(x_sum, x, one);
+      y_sum = add_dot16(y_sum, g, one);
+      vx = add_dot16(vx, v, x);
+      vy = add_dot16(vy, v, g);
+      xx = add_dot16(xx, x, x);
+      xy = add_dot16(xy, x, g);
+      yy = add_dot16(yy, g, g);
+    }
+  }
+  return simd::KltPatchSums{sumw(v_sum), sumw(vv), sumw(x_sum), sumw(y_sum), sumw(vx),
+                            sumw(vy),    sumw(xx), sumw(xy),    sumw(yy)};
+}
+TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_from_grey(const float* padded, int columns, int rows,
+                                                      simd::KltPatch& patch) noexcept {
+  std::int16_t samples[simd::kKltPadded];
+  const int used = (rows + 2) * simd::kKltStride + simd::kKltSlack;
+  for (int i = 0; i < used; i += k16Lanes) store16(samples + i, grey_to_fixed(padded + i));
+  return klt_gradients(samples, columns, rows, patch);
+}
+TEXTPLANE_SIMD_ENTRY simd::KltPatchSums klt_extract(const simd::KltWindow& window, simd::KltPatch& patch) noexcept {
+  std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
+  std::int16_t padded[simd::kKltPadded];
+  const simd::KltWindow w = klt_roomy(window, copy);
+  const v16 weights = pair_weights(simd::kKltSubpixels - w.fx, w.fx), minus_fy = set16(-512 * w.fy), none = set16(0);
+  for (int first = 0; first < simd::kKltStride; first += k16Lanes) {
+    std::int16_t* out = padded + first;
+    if (first >= w.columns) {
+      for (int y = 0; y < w.rows; ++y) store16(out + y * simd::kKltStride, none);
+      continue;
+    }
+    const std::uint8_t* p = w.data + first;
+    v16 above = mix_pairs(p, weights);
+    for (int y = 0; y < w.rows; ++y) {
+      p += w.stride;
+      const v16 below = mix_pairs(p, weights);
+      store16(out + y * simd::kKltStride, klt_between(above, below, minus_fy));
+      above = below;
+    }
+  }
+  for (int i = w.rows * simd::kKltStride; i < w.rows * simd::kKltStride + simd::kKltSlack; i += k16Lanes)
+    store16(padded + i, none);
+  return klt_gradients(padded, w.columns - 2, w.rows - 2, patch);
+}
+TEXTPLANE_SIMD_ENTRY simd::KltSums klt_sums(const simd::KltWindow& window, const simd::KltPatch& patch) noexcept {
+  std::uint8_t copy[kKltCopyStride * (simd::kKltSide + 3)];
+  const simd::KltWindow w = klt_roomy(window, copy);
+  const v16 minus_fy = set16(-512 * w.fy), one = set16(1);
+  vw v_sum{}, vv{}, tv{}, xv{}, yv{};
+  for (int first = 0; first < w.columns; first += k16Lanes) {
+    const v16 weights = and16(pair_weights(simd::kKltSubpixels - w.fx, w.fx), first16(w.columns - first));
+    const std::uint8_t* p = w.data + first;
+    v16 above = mix_pairs(p, weights);
+    for (int y = 0; y < w.rows; ++y) {
+      p += w.stride;
+      const v16 below = mix_pairs(p, weights);
+      const v16 v = klt_between(above, below, minus_fy);
+      above = below;
+      const int at = y * simd::kKltStride + first;
+      v_sum = add_dot16(v_sum, v, one);
+      vv = add_dot16(vv, v, v);
+      tv = add_dot16(tv, v, load16(patch.value + at));
+      xv = add_dot16(xv, v, load16(patch.gx + at));
+      yv = add_dot16(yv, v, load16(patch.gy + at));
+    }
+  }
+  return simd::KltSums{sumw(v_sum), sumw(vv), sumw(tv), sumw(xv), sumw(yv)};
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -8997,6 +9863,115 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE vb fast_load(const std::uint8_t* p, bool whole, int n) noexcept {
+  return whole ? loadb(p) : loadb_n(p, n);
+}
+TEXTPLANE_SIMD_INLINE vb fast_strengths(const std::uint8_t* p, std::ptrdiff_t stride, vb least, bool whole,
+                                        int n) noexcept {
+  const vb none = setb(0);
+  const vb centre = fast_load(p, whole, n);
+  const vb v0 = fast_load(p + 3 * stride, whole, n), v8 = fast_load(p - 3 * stride, whole, n);
+  const vb v4 = fast_load(p + 3, whole, n), v12 = fast_load(p - 3, whole, n);
+  vb low = minb(maxb(v0, v8), maxb(v4, v12)), high = maxb(minb(v0, v8), minb(v4, v12));
+  if (!anyb(geb(maxb(subsb(low, centre), subsb(centre, high)), least))) return none;
+  const vb v2 = fast_load(p + 2 + 2 * stride, whole, n), v10 = fast_load(p - 2 - 2 * stride, whole, n);
+  const vb v6 = fast_load(p + 2 - 2 * stride, whole, n), v14 = fast_load(p - 2 + 2 * stride, whole, n);
+  low = minb(low, minb(maxb(v2, v10), maxb(v6, v14)));
+  high = maxb(high, maxb(minb(v2, v10), minb(v6, v14)));
+  if (!anyb(geb(maxb(subsb(low, centre), subsb(centre, high)), least))) return none;
+  const vb v1 = fast_load(p + 1 + 3 * stride, whole, n), v3 = fast_load(p + 3 + stride, whole, n);
+  const vb v5 = fast_load(p + 3 - stride, whole, n), v7 = fast_load(p + 1 - 3 * stride, whole, n);
+  const vb v9 = fast_load(p - 1 - 3 * stride, whole, n), v11 = fast_load(p - 3 - stride, whole, n);
+  const vb v13 = fast_load(p - 3 + stride, whole, n), v15 = fast_load(p - 1 + 3 * stride, whole, n);
+  const vb a1 = minb(v1, v2), a3 = minb(v3, v4), a5 = minb(v5, v6), a7 = minb(v7, v8);
+  const vb a9 = minb(v9, v10), a11 = minb(v11, v12), a13 = minb(v13, v14), a15 = minb(v15, v0);
+  const vb b1 = minb(a1, a3), b3 = minb(a3, a5), b5 = minb(a5, a7), b7 = minb(a7, a9);
+  const vb b9 = minb(a9, a11), b11 = minb(a11, a13), b13 = minb(a13, a15), b15 = minb(a15, a1);
+  vb bright = minb(minb(b1, b5), maxb(v0, v9));
+  bright = maxb(bright, minb(minb(b3, b7), maxb(v2, v11)));
+  bright = maxb(bright, minb(minb(b5, b9), maxb(v4, v13)));
+  bright = maxb(bright, minb(minb(b7, b11), maxb(v6, v15)));
+  bright = maxb(bright, minb(minb(b9, b13), maxb(v8, v1)));
+  bright = maxb(bright, minb(minb(b11, b15), maxb(v10, v3)));
+  bright = maxb(bright, minb(minb(b13, b1), maxb(v12, v5)));
+  bright = maxb(bright, minb(minb(b15, b3), maxb(v14, v7)));
+  const vb c1 = maxb(v1, v2), c3 = maxb(v3, v4), c5 = maxb(v5, v6), c7 = maxb(v7, v8);
+  const vb c9 = maxb(v9, v10), c11 = maxb(v11, v12), c13 = maxb(v13, v14), c15 = maxb(v15, v0);
+  const vb d1 = maxb(c1, c3), d3 = maxb(c3, c5), d5 = maxb(c5, c7), d7 = maxb(c7, c9);
+  const vb d9 = maxb(c9, c11), d11 = maxb(c11, c13), d13 = maxb(c13, c15), d15 = maxb(c15, c1);
+  vb dark = maxb(maxb(d1, d5), minb(v0, v9));
+  dark = minb(dark, maxb(maxb(d3, d7), minb(v2, v11)));
+  dark = minb(dark, maxb(maxb(d5, d9), minb(v4, v13)));
+  dark = minb(dark, maxb(maxb(d7, d11), minb(v6, v15)));
+  dark = minb(dark, maxb(maxb(d9, d13), minb(v8, v1)));
+  dark = minb(dark, maxb(maxb(d11, d15), minb(v10, v3)));
+  dark = minb(dark, maxb(maxb(d13, d1), minb(v12, v5)));
+  dark = minb(dark, maxb(maxb(d15, d3), minb(v14, v7)));
+  const vb strength = maxb(subsb(bright, centre), subsb(centre, dark));
+  return andb(strength, geb(strength, least));
+}
+TEXTPLANE_SIMD_ENTRY bool fast_row(const simd::FastRowArgs& args) noexcept {
+  const int end = args.width - 3;
+  if (args.threshold >= 255) {
+    for (int x = 3; x < end; ++x) args.scores[x] = 0;
+    return false;
+  }
+  const vb least = setb(args.threshold + 1), less = setb(args.less);
+  if (end - 3 < kBytes) {
+    const int n = end - 3;
+    const vb scores = subsb(fast_strengths(args.row + 3, args.stride, least, false, n), less);
+    storeb_n(args.scores + 3, scores, n);
+    return anyb(scores);
+  }
+  vb seen = setb(0);
+  for (int x = 3;; x += kBytes) {
+    if (x > end - kBytes) x = end - kBytes;
+    const vb scores = subsb(fast_strengths(args.row + x, args.stride, least, true, 0), less);
+    seen = orb(seen, scores);
+    storeb(args.scores + x, scores);
+    if (x == end - kBytes) return anyb(seen);
+  }
+}
+TEXTPLANE_SIMD_ENTRY int fast_maxima(const simd::FastMaximaArgs& args) noexcept {
+  const vb one = setb(1);
+  int n = 0;
+  for (int x = args.first; x < args.last; x += kBytes) {
+    const vb score = loadb(args.row + x);
+    if (!anyb(score)) continue;
+    vb least = one;
+    if (args.suppress) {
+      const std::uint8_t* above = args.above + x;
+      const std::uint8_t* row = args.row + x;
+      const std::uint8_t* below = args.below + x;
+      vb largest = maxb(maxb(loadb(above - 1), loadb(above)), maxb(loadb(above + 1), loadb(row - 1)));
+      largest = maxb(largest, maxb(loadb(row + 1), loadb(below - 1)));
+      largest = maxb(largest, maxb(loadb(below), loadb(below + 1)));
+      least = addsb(largest, one);
+    }
+    std::uint64_t bits = bitsb(geb(score, least));
+    for (; bits != 0; bits &= bits - 1) {
+      const int at = x + lowest_bit(bits);
+      if (at < args.last) args.found[n++] = at;
+    }
+  }
+  return n;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -9675,6 +10650,51 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void halve_row_part(const std::uint8_t* upper, const std::uint8_t* lower,
+                                          std::uint8_t* out) noexcept {
+  storeb(out, mean4b(loadb(upper), loadb(upper + kBytes), loadb(lower), loadb(lower + kBytes)));
+}
+TEXTPLANE_SIMD_INLINE void halve_short_row(const std::uint8_t* upper, const std::uint8_t* lower, std::uint8_t* out,
+                                           int width) noexcept {
+  const int first = 2 * width < kBytes ? 2 * width : kBytes, second = 2 * width - first;
+  storeb_n(out,
+           mean4b(loadb_n(upper, first), loadb_n(upper + first, second), loadb_n(lower, first),
+                  loadb_n(lower + first, second)),
+           width);
+}
+TEXTPLANE_SIMD_ENTRY void halve(const simd::HalveArgs& args) noexcept {
+  for (int y = 0; y < args.height; ++y) {
+    const std::uint8_t* upper = args.src + 2 * y * args.src_stride;
+    const std::uint8_t* lower = upper + args.src_stride;
+    std::uint8_t* out = args.dst + y * args.dst_stride;
+    if (args.width < kBytes) {
+      halve_short_row(upper, lower, out, args.width);
+      continue;
+    }
+    int x = 0;
+    for (; x + kBytes <= args.width; x += kBytes) halve_row_part(upper + 2 * x, lower + 2 * x, out + x);
+    if (x < args.width) {
+      x = args.width - kBytes;
+      halve_row_part(upper + 2 * x, lower + 2 * x, out + x);
+    }
+  }
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -12045,6 +13065,269 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE vf load_part(const float* p, int left) noexcept {
+  return left >= kLanes ? load(p) : load_n(p, left);
+}
+TEXTPLANE_SIMD_INLINE void zero_tail(float* p, int n) noexcept {
+  const int rest = n % kLanes;
+  if (rest != 0) store(p + (n - rest), keep(first_n(rest), load(p + (n - rest))));
+}
+TEXTPLANE_SIMD_INLINE bool finite_d(double x) noexcept {
+  std::uint64_t b;
+  copy_bytes(&b, &x, 8);
+  return (b & 0x7ff0000000000000ULL) != 0x7ff0000000000000ULL;
+}
+TEXTPLANE_SIMD_INLINE void find_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept {
+  vf x_low = set1(x[0]), x_high = x_low, y_low = set1(y[0]), y_high = y_low, nothing = zero();
+  for (int i = 0; i < n; i += kLanes) {
+    const int left = n - i;
+    const vf px = left >= kLanes ? load(x + i) : select(first_n(left), load_n(x + i, left), set1(x[0]));
+    const vf py = left >= kLanes ? load(y + i) : select(first_n(left), load_n(y + i, left), set1(y[0]));
+    x_low = min_(px, x_low);
+    x_high = max_(px, x_high);
+    y_low = min_(py, y_low);
+    y_high = max_(py, y_high);
+    nothing = madd(add(px, py), zero(), nothing);
+  }
+  out->x_low = reduce_min(x_low);
+  out->x_high = reduce_max(x_high);
+  out->y_low = reduce_min(y_low);
+  out->y_high = reduce_max(y_high);
+  const double all = reduce_sum_double(nothing) + 0.0 * static_cast<double>(out->x_low) +
+                     0.0 * static_cast<double>(out->x_high) + 0.0 * static_cast<double>(out->y_low) +
+                     0.0 * static_cast<double>(out->y_high);
+  out->n = finite_d(all) ? n : 0;
+}
+TEXTPLANE_SIMD_INLINE float middle_of(float low, float high) noexcept {
+  const float middle = 0.5F * low + 0.5F * high;
+  return finite_d(static_cast<double>(middle)) ? middle : 0.0F;
+}
+TEXTPLANE_SIMD_INLINE float middle_x(const simd::PointBounds& b) noexcept { return middle_of(b.x_low, b.x_high); }
+TEXTPLANE_SIMD_INLINE float middle_y(const simd::PointBounds& b) noexcept { return middle_of(b.y_low, b.y_high); }
+TEXTPLANE_SIMD_INLINE bool make_warp_around(const double* h, float hx, float hy, int origin_x, int origin_y,
+                                            simd::Warp8* w) noexcept {
+  const double x = h[2], y = h[5], z = h[8];
+  w->hx = hx;
+  w->hy = hy;
+  w->ox = origin_x;
+  w->oy = origin_y;
+  const double size = (z < 0 ? -z : z) + 50 * ((h[6] < 0 ? -h[6] : h[6]) + (h[7] < 0 ? -h[7] : h[7]));
+  const double scale = size > 0 ? 1 / size : 1, ox = w->ox, oy = w->oy;
+  const double g0 = (h[0] - ox * h[6]) * scale, g1 = (h[1] - ox * h[7]) * scale, g2 = (x - ox * z) * scale;
+  const double g3 = (h[3] - oy * h[6]) * scale, g4 = (h[4] - oy * h[7]) * scale, g5 = (y - oy * z) * scale;
+  const double g6 = h[6] * scale, g7 = h[7] * scale, g8 = z * scale;
+  w->g[0] = static_cast<float>(g0);
+  w->g[1] = static_cast<float>(g1);
+  w->g[2] = static_cast<float>(g2);
+  w->g[3] = static_cast<float>(g3);
+  w->g[4] = static_cast<float>(g4);
+  w->g[5] = static_cast<float>(g5);
+  w->g[6] = static_cast<float>(g6);
+  w->g[7] = static_cast<float>(g7);
+  w->g[8] = static_cast<float>(g8);
+  const double squares = (g0 * g0 + g1 * g1 + g2 * g2) + (g3 * g3 + g4 * g4 + g5 * g5) + (g6 * g6 + g7 * g7 + g8 * g8);
+  return finite_d(size) && finite_d(squares) && !(squares > 1e60);
+}
+TEXTPLANE_SIMD_INLINE bool make_centred_warp(const double* h, float hx, float hy, int width, int height,
+                                             simd::Warp8* w) noexcept {
+  const double x = h[2], y = h[5], z = h[8], iz = z > 0 ? 1 / z : 0, px = x * iz, py = y * iz;
+  const int ox = !(z > 0) ? (width - 1) / 2 : !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
+  const int oy = !(z > 0)          ? (height - 1) / 2
+                 : !(py > 0)       ? 0
+                 : py < height - 1 ? static_cast<int>(py + 0.5)
+                                   : height - 1;
+  return make_warp_around(h, hx, hy, ox, oy, w);
+}
+TEXTPLANE_SIMD_INLINE bool make_warp(const double* h, float hx, float hy, int width, int height,
+                                     simd::Warp8* w) noexcept {
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy);
+  const double centred[9] = {h[0], h[1], h[0] * u + h[1] * v + h[2], h[3], h[4], h[3] * u + h[4] * v + h[5],
+                             h[6], h[7], h[6] * u + h[7] * v + h[8]};
+  return make_centred_warp(centred, hx, hy, width, height, w);
+}
+TEXTPLANE_SIMD_INLINE void make_sample_frame(const simd::Image8& image, int origin_x, int origin_y,
+                                             SampleFrame* f) noexcept {
+  const long long ox = origin_x, oy = origin_y;
+  f->pairs = image.pairs ? image.pairs + (oy * image.pair_stride + ox) : nullptr;
+  f->bytes = image.data + (oy * image.stride + ox);
+  f->stride = image.pairs ? image.pair_stride : image.stride;
+  f->x_low = static_cast<float>(-origin_x);
+  f->y_low = static_cast<float>(-origin_y);
+  f->x_high = static_cast<float>(image.width - 2 - origin_x);
+  f->y_high = static_cast<float>(image.height - 2 - origin_y);
+  f->x_last = static_cast<float>(image.width - 1 - origin_x);
+  f->y_last = static_cast<float>(image.height - 1 - origin_y);
+}
+struct WarpVectors {
+  vf hx, hy, g0, g1, g2, g3, g4, g5, g6, g7, g8;
+};
+TEXTPLANE_SIMD_INLINE WarpVectors broadcast_warp(const simd::Warp8& w) noexcept {
+  return WarpVectors{set1(w.hx),   set1(w.hy),   set1(w.g[0]), set1(w.g[1]), set1(w.g[2]), set1(w.g[3]),
+                     set1(w.g[4]), set1(w.g[5]), set1(w.g[6]), set1(w.g[7]), set1(w.g[8])};
+}
+TEXTPLANE_SIMD_INLINE void warp_vector(const WarpVectors& w, vf px, vf py, vf* x, vf* y, vf* divisor) noexcept {
+  const vf u = sub(px, w.hx), v = sub(py, w.hy);
+  *divisor = madd(w.g6, u, madd(w.g7, v, w.g8));
+  const vf inverse = div(set1(1.0F), *divisor);
+  *x = mul(madd(w.g0, u, madd(w.g1, v, w.g2)), inverse);
+  *y = mul(madd(w.g3, u, madd(w.g4, v, w.g5)), inverse);
+}
+TEXTPLANE_SIMD_INLINE vm inside_vector(const SampleFrame& f, vf x, vf y, vf divisor) noexcept {
+  const vm across = and_(ge(x, set1(f.x_low)), le(x, set1(f.x_last)));
+  const vm down = and_(ge(y, set1(f.y_low)), le(y, set1(f.y_last)));
+  return and_(gt(divisor, zero()), and_(across, down));
+}
+struct CellVectors {
+  vf x_low, y_low, x_high, y_high;
+  vi stride;
+};
+TEXTPLANE_SIMD_INLINE CellVectors broadcast_cells(const SampleFrame& f) noexcept {
+  return CellVectors{set1(f.x_low), set1(f.y_low), set1(f.x_high), set1(f.y_high), seti(static_cast<int>(f.stride))};
+}
+TEXTPLANE_SIMD_INLINE void cell_vector(const CellVectors& c, vf x, vf y, SampleStrip* s, int i) noexcept {
+  const vf cx = min_(max_(floor_(x), c.x_low), c.x_high);
+  const vf cy = min_(max_(floor_(y), c.y_low), c.y_high);
+  store(s->fx + i, sub(x, cx));
+  store(s->fy + i, sub(y, cy));
+  storei(s->offset + i, addi(muli(to_int(cy), c.stride), to_int(cx)));
+}
+TEXTPLANE_SIMD_INLINE void warp_strip(const simd::Warp8& w, const SampleFrame& f,
+                                      const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
+                                      int i, int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                      SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = broadcast_warp(w);
+  const CellVectors cells = broadcast_cells(f);
+  vf tx, ty, divisor;
+  for (; i + kLanes <= n; i += kLanes) {
+    warp_vector(warp, load(px + i), load(py + i), &tx, &ty, &divisor);
+    cell_vector(cells, tx, ty, s, i);
+    store(x + i, tx);
+    store(y + i, ty);
+  }
+  if (i >= n) return;
+  warp_vector(warp, load_n(px + i, n - i), load_n(py + i, n - i), &tx, &ty, &divisor);
+  cell_vector(cells, tx, ty, s, i);
+  store(x + i, tx);
+  store(y + i, ty);
+}
+TEXTPLANE_SIMD_INLINE vf tile_cell(vf x, vf low, vf high, float* fraction) noexcept {
+  const vf cell = min_(max_(floor_(x), low), high);
+  store(fraction, sub(x, cell));
+  return cell;
+}
+TEXTPLANE_SIMD_INLINE void warp_to_tiles(const simd::Warp8& w, const SampleFrame& f, const ImageTiles& tiles,
+                                         const float* TEXTPLANE_SIMD_RESTRICT px,
+                                         const float* TEXTPLANE_SIMD_RESTRICT py, int n,
+                                         float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                         SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const WarpVectors warp = broadcast_warp(w);
+  const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
+  const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
+  for (int i = 0; i < n; i += k16Lanes) {
+    const int j = i + kLanes;
+    vf x0, y0, x1, y1, divisor;
+    warp_vector(warp, load(px + i), load(py + i), &x0, &y0, &divisor);
+    store(x + i, x0);
+    store(y + i, y0);
+    const vi a0 = to_int(tile_cell(x0, x_low, x_high, s->fx + i)), b0 = to_int(tile_cell(y0, y_low, y_high, s->fy + i));
+    warp_vector(warp, load(px + j), load(py + j), &x1, &y1, &divisor);
+    store(x + j, x1);
+    store(y + j, y1);
+    const vi a1 = to_int(tile_cell(x1, x_low, x_high, s->fx + j)), b1 = to_int(tile_cell(y1, y_low, y_high, s->fy + j));
+    store16(s->x + i, pack16(a0, a1));
+    store16(s->y + i, pack16(b0, b1));
+  }
+}
+TEXTPLANE_SIMD_INLINE void fetch_rows(const std::uint8_t* upper, std::ptrdiff_t stride,
+                                      const std::int32_t* TEXTPLANE_SIMD_RESTRICT offset, int n,
+                                      std::uint32_t* TEXTPLANE_SIMD_RESTRICT taps) noexcept {
+  const std::uint8_t* lower = upper + stride;
+  int i = 0;
+  for (; i + 4 <= n; i += 4) fetch_four(upper, lower, offset + i, taps + i);
+  for (; i < n; ++i) {
+    const std::ptrdiff_t at = offset[i];
+    taps[i] = load_u16(upper + at) | load_u16(lower + at) << 16;
+  }
+}
+TEXTPLANE_SIMD_INLINE std::uint32_t two_pairs(const std::uint16_t* p) noexcept {
+  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 16;
+}
+TEXTPLANE_SIMD_INLINE void fetch_pairs(const SampleFrame& f, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  int i = 0;
+  for (; i + 4 <= n; i += 4) {
+    s->taps[i] = two_pairs(f.pairs + s->offset[i]);
+    s->taps[i + 1] = two_pairs(f.pairs + s->offset[i + 1]);
+    s->taps[i + 2] = two_pairs(f.pairs + s->offset[i + 2]);
+    s->taps[i + 3] = two_pairs(f.pairs + s->offset[i + 3]);
+  }
+  for (; i < n; ++i) s->taps[i] = two_pairs(f.pairs + s->offset[i]);
+}
+TEXTPLANE_SIMD_INLINE void fetch_tiles(const ImageTiles& w, int n, SampleStrip* TEXTPLANE_SIMD_RESTRICT s) noexcept {
+  const TileVectors v = broadcast_tiles(w);
+  std::uint64_t fours = 0;
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    fours |= static_cast<std::uint64_t>(tile_pairs(v, s->x + i, s->y + i, &first, &second)) << (i / 4);
+    store_taps(s->taps + i, first, second);
+  }
+  for (std::uint64_t groups = (fours | fours >> 1) & 0x5555555555555555ULL; groups != 0; groups &= groups - 1) {
+    const int i = 4 * lowest_bit(groups);
+    group_offsets(s->x + i, s->y + i, static_cast<int>(w.stride), s->offset + i);
+    fetch_four(v.upper, v.middle, s->offset + i, s->taps + i);
+    fetch_four(v.upper, v.middle, s->offset + i + 4, s->taps + i + 4);
+  }
+}
+TEXTPLANE_SIMD_INLINE void fetch_taps(const SampleFrame& f, int from, int n, SampleStrip* s) noexcept {
+  if (f.pairs)
+    fetch_pairs(f, n, s);
+  else
+    fetch_rows(f.bytes, f.stride, s->offset + from, n - from, s->taps + from);
+  for (int i = n; i % kLanes != 0; ++i) s->taps[i] = s->taps[0];
+}
+TEXTPLANE_SIMD_INLINE void interpolate_vector(const SampleStrip& s, int i, bool paired, vf* value, vf* gx,
+                                              vf* gy) noexcept {
+  const taps_t t = load_taps(s.taps + i);
+  const vf fx = load(s.fx + i), fy = load(s.fy + i), dxy = tap_dxy(t);
+  const vf dx = paired ? tap_dy(t) : tap_dx(t), dy = paired ? tap_dx(t) : tap_dy(t);
+  *gx = madd(fy, dxy, dx);
+  *gy = madd(fx, dxy, dy);
+  *value = madd(fy, *gy, madd(fx, dx, tap_value(t)));
+}
+TEXTPLANE_SIMD_INLINE void interpolate_strip(const SampleStrip& s, int n, bool paired,
+                                             float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT gx,
+                                             float* TEXTPLANE_SIMD_RESTRICT gy) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    vf v, a, b;
+    interpolate_vector(s, i, paired, &v, &a, &b);
+    store(value + i, v);
+    store(gx + i, a);
+    store(gy + i, b);
+  }
+}
+TEXTPLANE_SIMD_INLINE void interpolate_values(const SampleStrip& s, int n, bool paired,
+                                              float* TEXTPLANE_SIMD_RESTRICT value) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    vf v, a, b;
+    interpolate_vector(s, i, paired, &v, &a, &b);
+    store(value + i, v);
+  }
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -12646,6 +13929,119 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_ENTRY void point_bounds(const float* x, const float* y, int n, simd::PointBounds* out) noexcept {
+  find_bounds(x, y, n, out);
+}
+TEXTPLANE_SIMD_INLINE bool prepare_points(const simd::PointArgs& a, simd::Warp8* warp, SampleFrame* frame,
+                                          simd::PointResult* result) noexcept {
+  if (!a.x || !a.y || !a.out_x || !a.out_y || a.n < 0) return false;
+  simd::PointBounds bounds = a.bounds;
+  if (a.n > 0 && bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
+  if (!make_warp(a.h, middle_x(bounds), middle_y(bounds), a.image.width, a.image.height, warp)) return false;
+  make_sample_frame(a.image, warp->ox, warp->oy, frame);
+  result->ox = warp->ox;
+  result->oy = warp->oy;
+  result->inside = 0;
+  return true;
+}
+TEXTPLANE_SIMD_ENTRY void warp_points(const simd::PointArgs& a, simd::PointResult* result) noexcept {
+  simd::Warp8 warp;
+  SampleFrame frame;
+  if (a.image.width < 1 || a.image.height < 1 || !prepare_points(a, &warp, &frame, result)) return;
+  if (!a.inside) result->inside = a.n;
+  const WarpVectors vectors = broadcast_warp(warp);
+  for (int i = 0; i < a.n; i += kLanes) {
+    const int left = a.n - i < kLanes ? a.n - i : kLanes;
+    vf x, y, divisor;
+    warp_vector(vectors, load_part(a.x + i, left), load_part(a.y + i, left), &x, &y, &divisor);
+    if (a.inside) {
+      const vm in = and_(inside_vector(frame, x, y, divisor), first_n(left));
+      result->inside += count_true(in);
+      const unsigned b = bits_from_mask(in);
+      for (int k = 0; k < left; ++k) a.inside[i + k] = static_cast<std::uint8_t>(b >> k & 1U);
+    }
+    if (left == kLanes) {
+      store(a.out_x + i, x);
+      store(a.out_y + i, y);
+    } else {
+      store_n(a.out_x + i, x, left);
+      store_n(a.out_y + i, y, left);
+    }
+  }
+}
+TEXTPLANE_SIMD_INLINE void copy_part(float* to, const float* from, int n) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    if (n - i >= kLanes)
+      store(to + i, load(from + i));
+    else
+      store_n(to + i, load(from + i), n - i);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void sample_points(const simd::PointArgs& a, simd::PointResult* result) noexcept {
+  simd::Warp8 warp;
+  SampleFrame frame;
+  if (!simd::readable(a.image) || !a.value || !a.gx || !a.gy || !prepare_points(a, &warp, &frame, result)) return;
+  const bool paired = frame.pairs != nullptr;
+  const WarpVectors vectors = broadcast_warp(warp);
+  const CellVectors cells = broadcast_cells(frame);
+  SampleStrip strip;
+  for (int begin = 0; begin < a.n; begin += kStrip) {
+    const int n = a.n - begin < kStrip ? a.n - begin : kStrip;
+    float x[kStrip], y[kStrip], value[kStrip], gx[kStrip], gy[kStrip];
+    for (int i = 0; i < n; i += kLanes) {
+      vf tx, ty, divisor;
+      warp_vector(vectors, load_part(a.x + begin + i, n - i), load_part(a.y + begin + i, n - i), &tx, &ty, &divisor);
+      cell_vector(cells, tx, ty, &strip, i);
+      const vm in = and_(inside_vector(frame, tx, ty, divisor), first_n(n - i));
+      const unsigned b = bits_from_mask(in);
+      result->inside += count_true(in);
+      store(x + i, tx);
+      store(y + i, ty);
+      store(gx + i, keep(in, set1(1.0F)));
+      if (a.inside)
+        for (int k = 0; k < kLanes && i + k < n; ++k) a.inside[begin + i + k] = static_cast<std::uint8_t>(b >> k & 1U);
+    }
+    fetch_taps(frame, 0, n, &strip);
+    for (int i = 0; i < n; i += kLanes) {
+      vf v, dx, dy;
+      interpolate_vector(strip, i, paired, &v, &dx, &dy);
+      const vm in = gt(load(gx + i), zero());
+      store(value + i, keep(in, v));
+      store(gx + i, keep(in, dx));
+      store(gy + i, keep(in, dy));
+    }
+    copy_part(a.out_x + begin, x, n);
+    copy_part(a.out_y + begin, y, n);
+    copy_part(a.value + begin, value, n);
+    copy_part(a.gx + begin, gx, n);
+    copy_part(a.gy + begin, gy, n);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void prepare_pair16(const simd::Image8& image, std::uint16_t* pairs,
+                                         std::ptrdiff_t pair_stride) noexcept {
+  for (int y = 0; y + 1 < image.height; ++y) {
+    const std::uint8_t* TEXTPLANE_SIMD_RESTRICT upper = image.data + y * image.stride;
+    const std::uint8_t* TEXTPLANE_SIMD_RESTRICT lower = upper + image.stride;
+    std::uint16_t* TEXTPLANE_SIMD_RESTRICT out = pairs + y * pair_stride;
+    for (int x = 0; x < image.width; ++x) out[x] = static_cast<std::uint16_t>(upper[x] | lower[x] << 8);
+  }
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -12679,8 +14075,8 @@ inline PointBounds point_bounds(const float* x, const float* y, int n) noexcept 
   return out;
 }
 
-/// Target pixels of scattered points. Same bits on avx2, avx512 and neon, and on scalar and sse41; between the groups,
-/// and to the exact value, about 1e-5 px as said above.
+/// Target pixels of scattered points. Same bits on avx2, avx512 and neon, and on scalar, sse41 and simd128; between the
+/// groups, and to the exact value, about 1e-5 px as said above.
 inline PointResult warp_points(const PointArgs& args) noexcept {
   PointResult result;
   detail::warp_points(args, &result);
@@ -15577,6 +16973,220 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE bool make_lens_frame(const simd::LensFit& fit, const double* camera, int width, int height,
+                                           LensFrame* l) noexcept {
+  const double fx = camera[0], fy = camera[1], x = fit.m0[0], y = fit.m0[1], p1 = fit.p[0], p2 = fit.p[1];
+  const double r0 = fit.r0, s = fit.c[0] + 2 * (p1 * y + p2 * x);
+  const double px = fx * (s * x + r0 * p2) + camera[2], py = fy * (s * y + r0 * p1) + camera[3];
+  if (!(px > -1e6 && px < 1e6 && py > -1e6 && py < 1e6 && r0 < 1e6)) return false;
+  l->ox = !(px > 0) ? 0 : px < width - 1 ? static_cast<int>(px + 0.5) : width - 1;
+  l->oy = !(py > 0) ? 0 : py < height - 1 ? static_cast<int>(py + 0.5) : height - 1;
+  l->mx = static_cast<float>(x);
+  l->my = static_cast<float>(y);
+  l->r0 = static_cast<float>(r0);
+  l->sx = static_cast<float>(fx * s);
+  l->sy = static_cast<float>(fy * s);
+  l->aspect = static_cast<float>(fy / fx);
+  l->ax = static_cast<float>(px - l->ox);
+  l->ay = static_cast<float>(py - l->oy);
+  for (int k = 0; k < simd::kLensTerms; ++k) {
+    l->c[k] = static_cast<float>(fx * fit.c[k + 1]);
+    l->slope[k] = static_cast<float>(2 * fx * (k + 1) * fit.c[k + 1]);
+  }
+  l->p1 = static_cast<float>(2 * fx * p1);
+  l->p2 = static_cast<float>(2 * fx * p2);
+  l->tx = static_cast<float>(fx * p2);
+  l->ty = static_cast<float>(fy * p1);
+  l->t_low = static_cast<float>(fit.low - r0);
+  l->t_high = static_cast<float>(fit.high - r0);
+  l->tangential = p1 != 0 || p2 != 0;
+  l->terms = !l->tangential || fit.terms <= 3 ? fit.terms : static_cast<int>(simd::kLensTerms);
+  l->on = true;
+  return true;
+}
+struct LensVectors {
+  vf mx, my, r0, sx, sy, aspect, ax, ay, p1, p2, tx, ty;
+};
+TEXTPLANE_SIMD_INLINE LensVectors broadcast_lens(const LensFrame& l) noexcept {
+  return LensVectors{set1(l.mx), set1(l.my), set1(-l.r0), set1(l.sx), set1(l.sy), set1(l.aspect),
+                     set1(l.ax), set1(l.ay), set1(l.p1),  set1(l.p2), set1(l.tx), set1(l.ty)};
+}
+enum LensKind : int { kLensShort, kLensTangential, kLensMiddle, kLensLong };
+TEXTPLANE_SIMD_INLINE int lens_kind(const LensFrame& l) noexcept {
+  return l.terms > 6 ? kLensLong : l.terms > 3 ? kLensMiddle : l.tangential ? kLensTangential : kLensShort;
+}
+TEXTPLANE_SIMD_INLINE void lens_vector(const LensFrame& l, const LensVectors& v, int kind, bool slopes, vf dx, vf dy,
+                                       vf* out_x, vf* out_y, vf* out_t, vf* s, vf* slope) noexcept {
+  const int terms = kind == kLensLong ? static_cast<int>(simd::kLensTerms) : kind == kLensMiddle ? 6 : 3;
+  const bool tangential = kind == kLensLong || kind == kLensTangential;
+  const vf x = add(dx, v.mx), y = add(dy, v.my), t = madd(x, x, madd(y, y, v.r0));
+  vf change = set1(l.c[terms - 1]);
+  TEXTPLANE_SIMD_UNROLL
+  for (int k = terms - 2; k >= 0; --k) change = madd(change, t, set1(l.c[k]));
+  change = mul(change, t);
+  if (tangential) change = madd(v.p1, dy, madd(v.p2, dx, change));
+  vf at_x = madd(v.sx, dx, v.ax), at_y = madd(v.sy, dy, v.ay);
+  if (tangential) {
+    at_x = madd(v.tx, t, at_x);
+    at_y = madd(v.ty, t, at_y);
+  }
+  *out_x = madd(change, x, at_x);
+  *out_y = madd(mul(change, v.aspect), y, at_y);
+  *out_t = t;
+  if (!slopes) return;
+  vf derivative = set1(l.slope[terms - 1]);
+  TEXTPLANE_SIMD_UNROLL
+  for (int k = terms - 2; k >= 0; --k) derivative = madd(derivative, t, set1(l.slope[k]));
+  *s = add(v.sx, change);
+  *slope = derivative;
+}
+TEXTPLANE_SIMD_ENTRY void lens_or_outside(const LensFrame& l, vf dx, vf dy, vf* out_x, vf* out_y) noexcept {
+  const LensVectors v = broadcast_lens(l);
+  vf x, y, t, unused_s, unused_slope;
+  switch (lens_kind(l)) {
+    case kLensShort: lens_vector(l, v, kLensShort, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
+    case kLensTangential:
+      lens_vector(l, v, kLensTangential, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+      break;
+    case kLensMiddle: lens_vector(l, v, kLensMiddle, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope); break;
+    default: lens_vector(l, v, kLensLong, false, dx, dy, &x, &y, &t, &unused_s, &unused_slope);
+  }
+  const vm held = and_(ge(t, set1(l.t_low)), le(t, set1(l.t_high)));
+  *out_x = select(held, x, set1(-1e9F));
+  *out_y = select(held, y, set1(-1e9F));
+}
+TEXTPLANE_SIMD_INLINE void lens_loop(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, int kind,
+                                     bool slopes, const ImageTiles& tiles, int held,
+                                     const float* TEXTPLANE_SIMD_RESTRICT px, const float* TEXTPLANE_SIMD_RESTRICT py,
+                                     int n, float* TEXTPLANE_SIMD_RESTRICT x, float* TEXTPLANE_SIMD_RESTRICT y,
+                                     SampleStrip* TEXTPLANE_SIMD_RESTRICT strip,
+                                     LensStrip* TEXTPLANE_SIMD_RESTRICT lens) noexcept {
+  const WarpVectors warp = broadcast_warp(w);
+  const LensVectors v = broadcast_lens(l);
+  vf dx, dy, divisor, at_x, at_y, unused_t, s, slope;
+  if (kInt16Tiles != 0 && held > 0) {
+    const vf x_low = set1(f.x_low), x_high = set1(static_cast<float>(tiles.x_high));
+    const vf y_low = set1(f.y_low), y_high = set1(static_cast<float>(tiles.y_high));
+    vi a[2], b[2];
+    for (int i = 0; i < held; i += k16Lanes) {
+      TEXTPLANE_SIMD_UNROLL
+      for (int k = 0; k < 2; ++k) {
+        const int j = i + k * kLanes;
+        warp_vector(warp, load(px + j), load(py + j), &dx, &dy, &divisor);
+        lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
+        store(x + j, dx);
+        store(y + j, dy);
+        if (slopes) {
+          store(lens->s + j, s);
+          store(lens->slope + j, slope);
+        }
+        a[k] = to_int(tile_cell(at_x, x_low, x_high, strip->fx + j));
+        b[k] = to_int(tile_cell(at_y, y_low, y_high, strip->fy + j));
+      }
+      store16(strip->x + i, pack16(a[0], a[1]));
+      store16(strip->y + i, pack16(b[0], b[1]));
+    }
+  }
+  const CellVectors cells = broadcast_cells(f);
+  for (int i = held; i < n; i += kLanes) {
+    warp_vector(warp, load_part(px + i, n - i), load_part(py + i, n - i), &dx, &dy, &divisor);
+    lens_vector(l, v, kind, slopes, dx, dy, &at_x, &at_y, &unused_t, &s, &slope);
+    store(x + i, dx);
+    store(y + i, dy);
+    if (slopes) {
+      store(lens->s + i, s);
+      store(lens->slope + i, slope);
+    }
+    cell_vector(cells, at_x, at_y, strip, i);
+  }
+}
+TEXTPLANE_SIMD_INLINE void lens_strip(const simd::Warp8& w, const SampleFrame& f, const LensFrame& l, bool slopes,
+                                      const ImageTiles& tiles, int held, const float* px, const float* py, int n,
+                                      float* x, float* y, SampleStrip* strip, LensStrip* lens) noexcept {
+  switch (lens_kind(l)) {
+    case kLensShort: return lens_loop(w, f, l, kLensShort, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    case kLensTangential: return lens_loop(w, f, l, kLensTangential, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    case kLensMiddle: return lens_loop(w, f, l, kLensMiddle, slopes, tiles, held, px, py, n, x, y, strip, lens);
+    default: return lens_loop(w, f, l, kLensLong, slopes, tiles, held, px, py, n, x, y, strip, lens);
+  }
+}
+TEXTPLANE_SIMD_INLINE void interpolate_behind(const LensFrame& l, bool tangential, bool paired,
+                                              const SampleStrip& strip, const LensStrip& lens,
+                                              const float* TEXTPLANE_SIMD_RESTRICT x,
+                                              const float* TEXTPLANE_SIMD_RESTRICT y, int n,
+                                              float* TEXTPLANE_SIMD_RESTRICT value, float* TEXTPLANE_SIMD_RESTRICT a,
+                                              float* TEXTPLANE_SIMD_RESTRICT b) noexcept {
+  const vf mx = set1(l.mx), my = set1(l.my), aspect = set1(l.aspect), p1 = set1(l.p1), p2 = set1(l.p2);
+  for (int i = 0; i < n; i += kLanes) {
+    vf here, gx, gy;
+    interpolate_vector(strip, i, paired, &here, &gx, &gy);
+    const vf X = add(load(x + i), mx), Y = add(load(y + i), my), s = load(lens.s + i);
+    gy = mul(gy, aspect);
+    const vf out = madd(gx, X, mul(gy, Y));
+    vf along = mul(load(lens.slope + i), out), ga, gb;
+    if (tangential) {
+      along = madd(p2, gx, madd(p1, gy, along));
+      ga = madd(along, X, madd(s, gx, mul(p2, out)));
+      gb = madd(along, Y, madd(s, gy, mul(p1, out)));
+    } else {
+      ga = madd(along, X, mul(s, gx));
+      gb = madd(along, Y, mul(s, gy));
+    }
+    store(value + i, here);
+    store(a + i, ga);
+    store(b + i, gb);
+  }
+}
+TEXTPLANE_SIMD_INLINE void lens_turn(const LensFrame& l, float* a, float* b, float* c, float* d) noexcept {
+  const float slope = l.slope[0], x = l.mx, y = l.my, r = l.aspect;
+  const float xx = l.sx + x * (slope * x + l.p2) + 2.0F * l.tx * x, xy = x * (slope * y + l.p1) + 2.0F * l.tx * y;
+  const float yx = r * y * (slope * x + l.p2) + 2.0F * l.ty * x,
+              yy = l.sy + r * y * (slope * y + l.p1) + 2.0F * l.ty * y;
+  const float a0 = *a, b0 = *b, c0 = *c, d0 = *d;
+  *a = xx * a0 + xy * c0;
+  *b = xx * b0 + xy * d0;
+  *c = yx * a0 + yy * c0;
+  *d = yx * b0 + yy * d0;
+}
+enum : int { kBorderSide = 4, kBorder = 4 * kBorderSide };
+TEXTPLANE_SIMD_INLINE void bound_border(const float* x, const float* y, float* box) noexcept {
+  float bend = 0.0F;
+  for (int axis = 0; axis < 2; ++axis) {
+    const float* p = axis == 0 ? x : y;
+    float low = p[0], high = p[0];
+    for (int k = 0; k < kBorder; ++k) {
+      const float here = p[k];
+      low = here < low ? here : low;
+      high = here > high ? here : high;
+      if (k % kBorderSide == 0) continue;
+      const float turn = p[k - 1] - 2.0F * here + p[k + 1 < kBorder ? k + 1 : 0], size = turn < 0 ? -turn : turn;
+      bend = size > bend ? size : bend;
+    }
+    box[axis] = low;
+    box[2 + axis] = high;
+  }
+  const float margin = 0.5F * bend;
+  box[0] -= margin;
+  box[1] -= margin;
+  box[2] += margin;
+  box[3] += margin;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -15797,6 +17407,50 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE vf log1p_(vf u) noexcept {
+  const vf one = set1(1.0F);
+  const vi y = as_int(add(one, u)), k = shr(subi(y, seti(0x3f3504f3)), 23);
+  const vf f = select(eqi(k, seti(0)), u, sub(as_float(subi(y, shl(k, 23))), one));
+  const vf s = div(f, add(f, set1(2.0F))), z = mul(s, s);
+  const vf series = madd(z, madd(z, madd(z, madd(z, set1(1.0F / 9), set1(1.0F / 7)), set1(0.2F)), set1(1.0F / 3)), one);
+  return madd(to_float(k), set1(0.693147181F), mul(add(s, s), series));
+}
+struct RobustVectors {
+  vf squared, inverse;
+  RobustKind kind;
+};
+TEXTPLANE_SIMD_INLINE RobustVectors broadcast_robust(RobustKind kind, double delta) noexcept {
+  const double d = delta < 1e-12 ? 1e-12 : delta > 1e12 ? 1e12 : delta, squared = d * d;
+  return RobustVectors{set1(static_cast<float>(squared)), set1(static_cast<float>(1 / squared)), kind};
+}
+TEXTPLANE_SIMD_INLINE void robust_vector(const RobustVectors& r, vf squares, vf* rho, vf* root) noexcept {
+  const vf one = set1(1.0F), u = mul(squares, r.inverse);
+  if (r.kind == RobustKind::tukey) {
+    const vf m = min_(u, one), rest = madd(m, madd(m, set1(1.0F / 3), set1(-1.0F)), one);
+    *rho = mul(mul(m, r.squared), rest);
+    *root = sub(one, m);
+  } else {
+    const vf bounded = min_(u, set1(1e30F));
+    *rho = mul(r.squared, log1p_(bounded));
+    *root = inverse_root(add(one, bounded));
+  }
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -16597,6 +18251,160 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE double abs_d(double x) noexcept { return x < 0 ? -x : x; }
+constexpr float kCornerX[kMostLanes] = {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1};
+constexpr float kCornerY[kMostLanes] = {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+TEXTPLANE_SIMD_INLINE bool corners_inside(const ResidualFrame& f, const SampleFrame& sample, vf u, vf v) noexcept {
+  const float *g = f.warp.g, margin = 1e-3F;
+  const vf x = madd(set1(g[0]), u, madd(set1(g[1]), v, set1(g[2]))),
+           y = madd(set1(g[3]), u, madd(set1(g[4]), v, set1(g[5])));
+  const vf z = madd(set1(g[6]), u, madd(set1(g[7]), v, set1(g[8])));
+  const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+  const vm ahead = and_(gt(z, set1(margin)), gt(rho, mul(set1(1e-6F), abs_(set1(f.rho[2])))));
+  const vm across = and_(gt(x, mul(set1(sample.x_low + margin), z)), lt(x, mul(set1(sample.x_last - margin), z)));
+  const vm down = and_(gt(y, mul(set1(sample.y_low + margin), z)), lt(y, mul(set1(sample.y_last - margin), z)));
+  return all_true(and_(ahead, and_(across, down)));
+}
+TEXTPLANE_SIMD_INLINE bool box_inside(const ResidualFrame& f, const SampleFrame& sample,
+                                      const simd::PointBounds& bounds) noexcept {
+  if (f.lens.on) {
+    const float *box = f.lens.box, margin = 1e-3F;
+    return box[0] <= box[2] && box[0] > sample.x_low + margin && box[1] > sample.y_low + margin &&
+           box[2] < sample.x_last - margin && box[3] < sample.y_last - margin;
+  }
+  const vf ru = set1(bounds.x_high - f.warp.hx + 1e-3F), rv = set1(bounds.y_high - f.warp.hy + 1e-3F);
+  bool inside = true;
+  for (int k = 0; k < 4; k += kLanes)
+    inside = inside && corners_inside(f, sample, mul(ru, load(kCornerX + k)), mul(rv, load(kCornerY + k)));
+  return inside;
+}
+TEXTPLANE_SIMD_ENTRY void bound_lens(const simd::PointBounds& bounds, ResidualFrame* f) noexcept {
+  enum : int { kAll = (kBorder + kMostLanes - 1) / kMostLanes * kMostLanes };
+  const float ru = bounds.x_high - f->warp.hx + 1e-3F, rv = bounds.y_high - f->warp.hy + 1e-3F;
+  float u[kAll], v[kAll], x[kAll], y[kAll];
+  for (int k = 0; k < kAll; ++k) {
+    const int side = k / kBorderSide % 4;
+    const float along = static_cast<float>(k % kBorderSide) * (2.0F / static_cast<float>(kBorderSide)) - 1.0F;
+    u[k] = ru * (side == 0 ? along : side == 1 ? 1.0F : side == 2 ? -along : -1.0F);
+    v[k] = rv * (side == 0 ? -1.0F : side == 1 ? along : side == 2 ? 1.0F : -along);
+  }
+  const WarpVectors warp = broadcast_warp(f->warp);
+  float* box = f->lens.box;
+  box[0] = box[1] = 1;
+  box[2] = box[3] = -1;
+  for (int k = 0; k < kAll; k += kLanes) {
+    const vf pu = load(u + k), pv = load(v + k);
+    const vf z = madd(warp.g6, pu, madd(warp.g7, pv, warp.g8)), inverse = div(set1(1.0F), z);
+    const vf rho = madd(set1(f->rho[0]), pu, madd(set1(f->rho[1]), pv, set1(f->rho[2])));
+    const vf px = mul(madd(warp.g0, pu, madd(warp.g1, pv, warp.g2)), inverse),
+             py = mul(madd(warp.g3, pu, madd(warp.g4, pv, warp.g5)), inverse);
+    vf at_x, at_y;
+    lens_or_outside(f->lens, px, py, &at_x, &at_y);
+    store(x + k, at_x);
+    store(y + k, at_y);
+    const vm ahead = and_(gt(z, set1(1e-3F)), gt(rho, mul(set1(1e-6F), abs_(set1(f->rho[2])))));
+    if (!all_true(and_(ahead, gt(at_x, set1(-1e8F))))) return;
+  }
+  bound_border(x, y, box);
+}
+TEXTPLANE_SIMD_INLINE bool invert(double h0, double h1, double h2, double h3, double h4, double h5, double h6,
+                                  double h7, double h8, const double* p, ResidualFrame* f) noexcept {
+  const double i0 = h4 * h8 - h5 * h7, i1 = h2 * h7 - h1 * h8, i2 = h1 * h5 - h2 * h4;
+  const double i3 = h5 * h6 - h3 * h8, i4 = h0 * h8 - h2 * h6, i5 = h2 * h3 - h0 * h5;
+  const double i6 = h3 * h7 - h4 * h6, i7 = h1 * h6 - h0 * h7, i8 = h0 * h4 - h1 * h3;
+  const double det = h0 * i0 + h1 * i3 + h2 * i6;
+  if (!(abs_d(det) > 1e-9)) return false;
+  const double idet = 1 / det;
+  f->inverse[0] = i0 * idet;
+  f->inverse[1] = i1 * idet;
+  f->inverse[2] = i2 * idet;
+  f->inverse[3] = i3 * idet;
+  f->inverse[4] = i4 * idet;
+  f->inverse[5] = i5 * idet;
+  f->inverse[6] = i6 * idet;
+  f->inverse[7] = i7 * idet;
+  f->inverse[8] = i8 * idet;
+  f->q[0] = (p[0] * i0 + p[1] * i3 + p[2] * i6) * idet;
+  f->q[1] = (p[0] * i1 + p[1] * i4 + p[2] * i7) * idet;
+  f->q[2] = (p[0] * i2 + p[1] * i5 + p[2] * i8) * idet;
+  return true;
+}
+TEXTPLANE_SIMD_INLINE bool make_target(const simd::ResidualArgs& a, const double* G, float hx, float hy,
+                                       ResidualFrame* f) noexcept {
+  f->lens.on = false;
+  if (!a.lens) {
+    if (!make_centred_warp(G, hx, hy, a.target.width, a.target.height, &f->warp)) return false;
+    f->ox = f->warp.ox;
+    f->oy = f->warp.oy;
+  } else {
+    if (!make_lens_frame(*a.lens, a.target_camera, a.target.width, a.target.height, &f->lens) ||
+        !make_warp_around(G, hx, hy, 0, 0, &f->warp))
+      return false;
+    f->ox = f->lens.ox;
+    f->oy = f->lens.oy;
+  }
+  make_sample_frame(a.target, f->ox, f->oy, &f->sample);
+  return true;
+}
+TEXTPLANE_SIMD_ENTRY bool make_frame(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                     ResidualFrame* f) noexcept {
+  const double p0 = a.theta[0], p1 = a.theta[1], p2 = a.theta[2], t0 = a.t[0], t1 = a.t[1], t2 = a.t[2];
+  const double h0 = a.R[0] + t0 * p0, h1 = a.R[1] + t0 * p1, h2 = a.R[2] + t0 * p2;
+  const double h3 = a.R[3] + t1 * p0, h4 = a.R[4] + t1 * p1, h5 = a.R[5] + t1 * p2;
+  const double h6 = a.R[6] + t2 * p0, h7 = a.R[7] + t2 * p1, h8 = a.R[8] + t2 * p2;
+  const double wide = static_cast<double>(bounds.x_high) - static_cast<double>(bounds.x_low);
+  const double high = static_cast<double>(bounds.y_high) - static_cast<double>(bounds.y_low);
+  if (!finite_d(wide) || !finite_d(high) || wide > 32768 || high > 32768) return false;
+  const float hx = middle_x(bounds), hy = middle_y(bounds);
+  const double ifx = 1 / a.host_camera[0], ify = 1 / a.host_camera[1];
+  const double mu = (static_cast<double>(hx) - a.host_camera[2]) * ifx,
+               mv = (static_cast<double>(hy) - a.host_camera[3]) * ify;
+  const double fx = a.lens ? 1 : a.target_camera[0], fy = a.lens ? 1 : a.target_camera[1];
+  const double cx = a.lens ? -a.lens->m0[0] : a.target_camera[2], cy = a.lens ? -a.lens->m0[1] : a.target_camera[3];
+  const double s6 = h6 * ifx, s7 = h7 * ify, s8 = h6 * mu + h7 * mv + h8;
+  const double G[9] = {fx * (h0 * ifx) + cx * s6,
+                       fx * (h1 * ify) + cx * s7,
+                       fx * (h0 * mu + h1 * mv + h2) + cx * s8,
+                       fy * (h3 * ifx) + cy * s6,
+                       fy * (h4 * ify) + cy * s7,
+                       fy * (h3 * mu + h4 * mv + h5) + cy * s8,
+                       s6,
+                       s7,
+                       s8};
+  if (!make_target(a, G, hx, hy, f)) return false;
+  f->c = cx - f->warp.ox;
+  f->d = cy - f->warp.oy;
+  f->fx = fx;
+  f->fy = fy;
+  f->ifx = 1 / fx;
+  f->ify = 1 / fy;
+  const double r0 = p0 * ifx, r1 = p1 * ify, r2 = p2 + p0 * mu + p1 * mv;
+  f->rho[0] = static_cast<float>(r0);
+  f->rho[1] = static_cast<float>(r1);
+  f->rho[2] = static_cast<float>(r2);
+  if (!(abs_d(r0) < 1e30 && abs_d(r1) < 1e30 && abs_d(r2) < 1e30)) return false;
+  if (!invert(h0, h1, h2, h3, h4, h5, h6, h7, h8, a.theta, f)) return false;
+  if (a.lens) bound_lens(bounds, f);
+  f->inside = bounds.n == a.n && box_inside(*f, f->sample, bounds);
+  f->tiles.guess.likely = false;
+  return true;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -17796,6 +19604,205 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void make_arrays(float* scratch, int n, ResidualArrays* s) noexcept {
+  const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(simd::residual_scratch(n) / 10);
+  s->x = scratch;
+  s->y = scratch + step;
+  s->a = scratch + 2 * step;
+  s->b = scratch + 3 * step;
+  s->i = scratch + 4 * step;
+  s->d = scratch + 5 * step;
+  s->hx = scratch + 6 * step;
+  s->hy = scratch + 7 * step;
+  s->h = scratch + 8 * step;
+  s->list = reinterpret_cast<std::int32_t*>(scratch + 9 * step);
+}
+TEXTPLANE_SIMD_INLINE bool all_set(const std::uint8_t* p, int n) noexcept {
+  int i = 0;
+  for (; i + 8 <= n; i += 8) {
+    std::uint64_t w;
+    copy_bytes(&w, p + i, 8);
+    if (((w - 0x0101010101010101ULL) & ~w & 0x8080808080808080ULL) != 0) return false;
+  }
+  for (; i < n; ++i)
+    if (p[i] == 0) return false;
+  return true;
+}
+TEXTPLANE_SIMD_INLINE void set_all(std::uint8_t* p, int n) noexcept {
+  enum : int { kSize = 4 * kLanes };
+  const vi ones = seti(0x01010101);
+  int i = 0;
+  for (; i + kSize <= n; i += kSize) copy_bytes(p + i, &ones, kSize);
+  if (i > 0) {
+    copy_bytes(p + (n - kSize), &ones, kSize);
+    return;
+  }
+  for (; i < n; ++i) p[i] = 1;
+}
+TEXTPLANE_SIMD_ENTRY void close_up(const simd::ResidualArgs& a, const ResidualFrame& f, const ResidualArrays& s,
+                                   simd::ResidualInfo* info) noexcept {
+  const WarpVectors warp = broadcast_warp(f.warp);
+  int candidates = 0, front = 0, visible = 0;
+  for (int i = 0; i < a.n; i += kLanes) {
+    const int left = a.n - i < kLanes ? a.n - i : kLanes;
+    unsigned b = (1U << left) - 1U;
+    if (a.mask)
+      for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.mask[i + k] == 0) << k);
+    if (a.on_set)
+      for (int k = 0; k < left; ++k) b &= ~(static_cast<unsigned>(a.on_set[i + k] == 0) << k);
+    const vf px = load_part(a.x + i, left), py = load_part(a.y + i, left), h = load_part(a.intensity + i, left);
+    vf x, y, divisor;
+    warp_vector(warp, px, py, &x, &y, &divisor);
+    const vf u = sub(px, set1(f.warp.hx)), v = sub(py, set1(f.warp.hy));
+    const vf rho = madd(set1(f.rho[0]), u, madd(set1(f.rho[1]), v, set1(f.rho[2])));
+    const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
+    if (f.lens.on) lens_or_outside(f.lens, x, y, &x, &y);
+    const vm finite = le(abs_(h), set1(3.0e38F));
+    const unsigned in_front = b & bits_from_mask(ahead),
+                   seen = in_front & bits_from_mask(and_(inside_vector(f.sample, x, y, divisor), finite));
+    if (seen == (1U << kLanes) - 1U) {
+      store(s.hx + visible, px);
+      store(s.hy + visible, py);
+      store(s.h + visible, h);
+      visible += kLanes;
+    } else {
+      for (int k = 0; k < left; ++k) {
+        s.hx[visible] = a.x[i + k];
+        s.hy[visible] = a.y[i + k];
+        s.h[visible] = a.intensity[i + k];
+        visible += static_cast<int>(seen >> k & 1U);
+      }
+    }
+    if (a.flags)
+      for (int k = 0; k < left; ++k) a.flags[i + k] = static_cast<std::uint8_t>(seen >> k & 1U);
+    for (int k = 0; k < left; ++k) {
+      candidates += static_cast<int>(b >> k & 1U);
+      front += static_cast<int>(in_front >> k & 1U);
+    }
+  }
+  info->candidates = candidates;
+  info->behind = candidates - front;
+  info->visible = visible;
+}
+struct HostPixels {
+  const float *x, *y, *h;
+  int n;
+};
+TEXTPLANE_SIMD_INLINE HostPixels host_pixels(const simd::ResidualArgs& a, const ResidualFrame& f, bool close,
+                                             const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
+  if (!close && f.inside && (!a.mask || all_set(a.mask, a.n)) && (!a.on_set || all_set(a.on_set, a.n))) {
+    info->candidates = info->visible = a.n;
+    info->behind = 0;
+    if (a.flags) set_all(a.flags, a.n);
+    return HostPixels{a.x, a.y, a.intensity, a.n};
+  }
+  close_up(a, f, s, info);
+  return HostPixels{s.hx, s.hy, s.h, info->visible};
+}
+TEXTPLANE_SIMD_ENTRY void choose_tiles(const simd::ResidualArgs& a, const simd::PointBounds& bounds,
+                                       const HostPixels& host, ResidualFrame* f) noexcept {
+  const float *g = f->warp.g, z = 1 / g[8], x = g[2] * z, y = g[5] * z;
+  if (!f->inside || a.target.pairs) return;
+  float a0 = (g[0] - x * g[6]) * z, b0 = (g[1] - x * g[7]) * z, c0 = (g[3] - y * g[6]) * z, d0 = (g[4] - y * g[7]) * z;
+  if (f->lens.on) lens_turn(f->lens, &a0, &b0, &c0, &d0);
+  const TileGuess guess = guess_tiles(host.x, host.y, host.n, a0, b0, c0, d0);
+  const simd::Image8& t = a.target;
+  if (!guess.likely || !make_tiles(t.data, t.stride, t.width, t.height, f->ox, f->oy, &f->tiles)) return;
+  SampleFrame inner = f->sample;
+  inner.x_last = static_cast<float>(f->tiles.x_high);
+  inner.y_last = static_cast<float>(f->tiles.y_high);
+  if (box_inside(*f, inner, bounds)) f->tiles.guess = guess;
+}
+TEXTPLANE_SIMD_ENTRY void collect_tiles(const ResidualFrame& f, const float* px, const float* py, int n, float* x,
+                                        float* y, SampleStrip* strip) noexcept {
+  warp_to_tiles(f.warp, f.sample, f.tiles, px, py, n, x, y, strip);
+  fetch_tiles(f.tiles, n, strip);
+}
+TEXTPLANE_SIMD_INLINE void collect_any(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
+                                       const ResidualArrays& s, SampleStrip* strip) noexcept {
+  const float *px = host.x + begin, *py = host.y + begin;
+  int held = 0;
+  if (kInt16Tiles != 0 && f.tiles.guess.likely) {
+    held = n / k16Lanes * k16Lanes;
+    collect_tiles(f, px, py, held, s.x + begin, s.y + begin, strip);
+  }
+  warp_strip(f.warp, f.sample, px, py, held, n, s.x + begin, s.y + begin, strip);
+  fetch_taps(f.sample, held, n, strip);
+  const bool paired = f.sample.pairs != nullptr;
+  if (values) {
+    if (paired)
+      interpolate_values(*strip, n, true, s.i + begin);
+    else
+      interpolate_values(*strip, n, false, s.i + begin);
+  } else {
+    if (paired)
+      interpolate_strip(*strip, n, true, s.i + begin, s.a + begin, s.b + begin);
+    else
+      interpolate_strip(*strip, n, false, s.i + begin, s.a + begin, s.b + begin);
+    zero_tail(s.x + begin, n);
+    zero_tail(s.y + begin, n);
+    zero_tail(s.a + begin, n);
+    zero_tail(s.b + begin, n);
+  }
+  zero_tail(s.i + begin, n);
+}
+TEXTPLANE_SIMD_INLINE void collect_behind(const HostPixels& host, const ResidualFrame& f, int begin, int n, bool values,
+                                          const ResidualArrays& s, SampleStrip* strip) noexcept {
+  LensStrip lens;
+  float *x = s.x + begin, *y = s.y + begin;
+  const int held = kInt16Tiles != 0 && f.tiles.guess.likely ? n / k16Lanes * k16Lanes : 0;
+  lens_strip(f.warp, f.sample, f.lens, !values, f.tiles, held, host.x + begin, host.y + begin, n, x, y, strip, &lens);
+  if (held > 0) fetch_tiles(f.tiles, held, strip);
+  fetch_taps(f.sample, held, n, strip);
+  const bool paired = f.sample.pairs != nullptr;
+  if (values) {
+    interpolate_values(*strip, n, paired, s.i + begin);
+  } else {
+    if (f.lens.tangential)
+      interpolate_behind(f.lens, true, paired, *strip, lens, x, y, n, s.i + begin, s.a + begin, s.b + begin);
+    else
+      interpolate_behind(f.lens, false, paired, *strip, lens, x, y, n, s.i + begin, s.a + begin, s.b + begin);
+    zero_tail(x, n);
+    zero_tail(y, n);
+    zero_tail(s.a + begin, n);
+    zero_tail(s.b + begin, n);
+  }
+  zero_tail(s.i + begin, n);
+}
+TEXTPLANE_SIMD_ENTRY void collect_lens_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n,
+                                             const ResidualArrays& s, SampleStrip* strip) noexcept {
+  collect_behind(host, f, begin, n, false, s, strip);
+}
+TEXTPLANE_SIMD_ENTRY void collect_lens_values(const HostPixels& host, const ResidualFrame& f, int begin, int n,
+                                              const ResidualArrays& s, SampleStrip* strip) noexcept {
+  collect_behind(host, f, begin, n, true, s, strip);
+}
+TEXTPLANE_SIMD_ENTRY void collect_strip(const HostPixels& host, const ResidualFrame& f, int begin, int n,
+                                        const ResidualArrays& s, SampleStrip* strip) noexcept {
+  if (f.lens.on) return collect_lens_strip(host, f, begin, n, s, strip);
+  collect_any(host, f, begin, n, false, s, strip);
+}
+TEXTPLANE_SIMD_ENTRY void collect_values(const HostPixels& host, const ResidualFrame& f, int begin, int n,
+                                         const ResidualArrays& s, SampleStrip* strip) noexcept {
+  if (f.lens.on) return collect_lens_values(host, f, begin, n, s, strip);
+  collect_any(host, f, begin, n, true, s, strip);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -18508,6 +20515,172 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE vf so_far(bool fresh, const float* p) noexcept { return fresh ? zero() : load(p); }
+TEXTPLANE_SIMD_INLINE void put3(float* p, vf a, vf b, vf c) noexcept {
+  store(p, a);
+  store(p + kLanes, b);
+  store(p + 2 * kLanes, c);
+}
+TEXTPLANE_SIMD_ENTRY void add_squares3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                       float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
+    s0 = madd(a, a, s0);
+    s1 = madd(a, b, s1);
+    s2 = madd(a, c, s2);
+    s3 = madd(b, b, s3);
+    s4 = madd(b, c, s4);
+    s5 = madd(c, c, s5);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+}
+TEXTPLANE_SIMD_ENTRY void add_squares_sums3(const float* r0, const float* r1, const float* r2, int n, bool fresh,
+                                            float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i));
+    s0 = madd(a, a, s0);
+    s1 = madd(a, b, s1);
+    s2 = madd(a, c, s2);
+    s3 = madd(b, b, s3);
+    s4 = madd(b, c, s4);
+    s5 = madd(c, c, s5);
+    t0 = add(t0, a);
+    t1 = add(t1, b);
+    t2 = add(t2, c);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(sums, t0, t1, t2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products33(const float* r0, const float* r1, const float* r2, const float* q0,
+                                         const float* q1, const float* q2, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(q0 + i)),
+             y = hold(load(q1 + i)), z = hold(load(q2 + i));
+    s0 = madd(a, x, s0);
+    s1 = madd(a, y, s1);
+    s2 = madd(a, z, s2);
+    s3 = madd(b, x, s3);
+    s4 = madd(b, y, s4);
+    s5 = madd(b, z, s5);
+    s6 = madd(c, x, s6);
+    s7 = madd(c, y, s7);
+    s8 = madd(c, z, s8);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(acc + 6 * kLanes, s6, s7, s8);
+}
+TEXTPLANE_SIMD_ENTRY void add_products3(const float* r0, const float* r1, const float* r2, const float* p,
+                                        const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), x = hold(load(p + i)),
+             y = hold(load(q + i));
+    s0 = madd(a, x, s0);
+    s1 = madd(b, x, s1);
+    s2 = madd(c, x, s2);
+    t0 = madd(a, y, t0);
+    t1 = madd(b, y, t1);
+    t2 = madd(c, y, t2);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc2, t0, t1, t2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products4(const float* r0, const float* r1, const float* r2, const float* r3,
+                                        const float* p, const float* q, int n, bool fresh, float* acc,
+                                        float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes),
+     s3 = so_far(fresh, acc + 3 * kLanes);
+  vf t0 = so_far(fresh, acc2), t1 = so_far(fresh, acc2 + kLanes), t2 = so_far(fresh, acc2 + 2 * kLanes),
+     t3 = so_far(fresh, acc2 + 3 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf a = hold(load(r0 + i)), b = hold(load(r1 + i)), c = hold(load(r2 + i)), d = hold(load(r3 + i)),
+             x = hold(load(p + i)), y = hold(load(q + i));
+    s0 = madd(a, x, s0);
+    s1 = madd(b, x, s1);
+    s2 = madd(c, x, s2);
+    s3 = madd(d, x, s3);
+    t0 = madd(a, y, t0);
+    t1 = madd(b, y, t1);
+    t2 = madd(c, y, t2);
+    t3 = madd(d, y, t3);
+  }
+  put3(acc, s0, s1, s2);
+  store(acc + 3 * kLanes, s3);
+  put3(acc2, t0, t1, t2);
+  store(acc2 + 3 * kLanes, t3);
+}
+TEXTPLANE_SIMD_ENTRY void add_mixed(const float* a, const float* ax, const float* ay, const float* b, const float* bx,
+                                    const float* by, const float* cx, const float* cy, int n, bool fresh, float* acc,
+                                    float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf A = hold(load(a + i)), Ax = hold(load(ax + i)), B = hold(load(b + i)), Bx = hold(load(bx + i)),
+             By = hold(load(by + i));
+    s0 = madd(A, B, s0);
+    s1 = madd(A, Bx, s1);
+    s2 = madd(A, By, s2);
+    s3 = madd(Ax, Bx, s3);
+    s4 = madd(Ax, By, s4);
+    s5 = madd(load(ay + i), By, s5);
+    t0 = add(t0, load(cx + i));
+    t1 = add(t1, load(cy + i));
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+TEXTPLANE_SIMD_ENTRY void add_cubic(const float* ax, const float* ay, const float* bx, const float* by, const float* cx,
+                                    const float* cy, int n, bool fresh, float* acc) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf Cx = hold(load(cx + i)), Cy = hold(load(cy + i)), Ax = hold(load(ax + i)), Bx = hold(load(bx + i));
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(load(ay + i), Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(load(by + i), Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(acc + 6 * kLanes, s6, s7, s8);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -19441,6 +21614,152 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_ENTRY void add_moments(const float* x, const float* y, const float* a, const float* b, int n, bool fresh,
+                                      float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf s9 = so_far(fresh, acc + 9 * kLanes), s10 = so_far(fresh, acc + 10 * kLanes),
+     s11 = so_far(fresh, acc + 11 * kLanes);
+  vf s12 = so_far(fresh, acc + 12 * kLanes), s13 = so_far(fresh, acc + 13 * kLanes),
+     s14 = so_far(fresh, acc + 14 * kLanes);
+  vf s15 = so_far(fresh, acc + 15 * kLanes), s16 = so_far(fresh, acc + 16 * kLanes),
+     s17 = so_far(fresh, acc + 17 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes), t2 = so_far(fresh, sums + 2 * kLanes);
+  vf t3 = so_far(fresh, sums + 3 * kLanes), t4 = so_far(fresh, sums + 4 * kLanes),
+     t5 = so_far(fresh, sums + 5 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v);
+    s0 = madd(A, A, s0);
+    s1 = madd(A, Ax, s1);
+    s2 = madd(A, Ay, s2);
+    s3 = madd(Ax, Ax, s3);
+    s4 = madd(Ax, Ay, s4);
+    s5 = madd(Ay, Ay, s5);
+    s6 = madd(B, B, s6);
+    s7 = madd(B, Bx, s7);
+    s8 = madd(B, By, s8);
+    s9 = madd(Bx, Bx, s9);
+    s10 = madd(Bx, By, s10);
+    s11 = madd(By, By, s11);
+    s12 = madd(A, B, s12);
+    s13 = madd(A, Bx, s13);
+    s14 = madd(A, By, s14);
+    s15 = madd(Ax, Bx, s15);
+    s16 = madd(Ax, By, s16);
+    s17 = madd(Ay, By, s17);
+    t0 = add(t0, A);
+    t1 = add(t1, Ax);
+    t2 = add(t2, Ay);
+    t3 = add(t3, B);
+    t4 = add(t4, Bx);
+    t5 = add(t5, By);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(acc + 6 * kLanes, s6, s7, s8);
+  put3(acc + 9 * kLanes, s9, s10, s11);
+  put3(acc + 12 * kLanes, s12, s13, s14);
+  put3(acc + 15 * kLanes, s15, s16, s17);
+  put3(sums, t0, t1, t2);
+  put3(sums + 3 * kLanes, t3, t4, t5);
+}
+TEXTPLANE_SIMD_ENTRY void add_cubic_moments(const float* x, const float* y, const float* a, const float* b, int n,
+                                            bool fresh, float* acc, float* sums) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes), s8 = so_far(fresh, acc + 8 * kLanes);
+  vf t0 = so_far(fresh, sums), t1 = so_far(fresh, sums + kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), Ay = mul(A, v), Bx = mul(B, u), By = mul(B, v), C = add(Ax, By), Cx = mul(C, u),
+             Cy = mul(C, v);
+    s0 = madd(Ax, Cx, s0);
+    s1 = madd(Ax, Cy, s1);
+    s2 = madd(Ay, Cy, s2);
+    s3 = madd(Bx, Cx, s3);
+    s4 = madd(Bx, Cy, s4);
+    s5 = madd(By, Cy, s5);
+    s6 = madd(Cx, Cx, s6);
+    s7 = madd(Cx, Cy, s7);
+    s8 = madd(Cy, Cy, s8);
+    t0 = add(t0, Cx);
+    t1 = add(t1, Cy);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  put3(acc + 6 * kLanes, s6, s7, s8);
+  store(sums, t0);
+  store(sums + kLanes, t1);
+}
+TEXTPLANE_SIMD_INLINE void products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                     const float* q, int n, bool fresh, float* acc, float* acc2) noexcept {
+  vf s0 = so_far(fresh, acc), s1 = so_far(fresh, acc + kLanes), s2 = so_far(fresh, acc + 2 * kLanes);
+  vf s3 = so_far(fresh, acc + 3 * kLanes), s4 = so_far(fresh, acc + 4 * kLanes), s5 = so_far(fresh, acc + 5 * kLanes);
+  vf s6 = so_far(fresh, acc + 6 * kLanes), s7 = so_far(fresh, acc + 7 * kLanes);
+  const bool none = fresh || !q;
+  vf t0 = so_far(none, acc2), t1 = so_far(none, acc2 + kLanes), t2 = so_far(none, acc2 + 2 * kLanes);
+  vf t3 = so_far(none, acc2 + 3 * kLanes), t4 = so_far(none, acc2 + 4 * kLanes), t5 = so_far(none, acc2 + 5 * kLanes);
+  vf t6 = so_far(none, acc2 + 6 * kLanes), t7 = so_far(none, acc2 + 7 * kLanes);
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i), f = load(p + i);
+    const vf fA = mul(f, A), fB = mul(f, B), fAx = mul(fA, u), fBy = mul(fB, v), fC = add(fAx, fBy);
+    s0 = add(s0, fA);
+    s1 = add(s1, fAx);
+    s2 = madd(fA, v, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, u, s4);
+    s5 = add(s5, fBy);
+    s6 = madd(fC, u, s6);
+    s7 = madd(fC, v, s7);
+    if (!q) continue;
+    const vf g = load(q + i);
+    const vf gA = mul(g, A), gB = mul(g, B), gAx = mul(gA, u), gBy = mul(gB, v), gC = add(gAx, gBy);
+    t0 = add(t0, gA);
+    t1 = add(t1, gAx);
+    t2 = madd(gA, v, t2);
+    t3 = add(t3, gB);
+    t4 = madd(gB, u, t4);
+    t5 = add(t5, gBy);
+    t6 = madd(gC, u, t6);
+    t7 = madd(gC, v, t7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+  if (!q) return;
+  put3(acc2, t0, t1, t2);
+  put3(acc2 + 3 * kLanes, t3, t4, t5);
+  store(acc2 + 6 * kLanes, t6);
+  store(acc2 + 7 * kLanes, t7);
+}
+TEXTPLANE_SIMD_ENTRY void add_two_products8(const float* x, const float* y, const float* a, const float* b,
+                                            const float* p, const float* q, int n, bool fresh, float* acc,
+                                            float* acc2) noexcept {
+  products8(x, y, a, b, p, q, n, fresh, acc, acc2);
+}
+TEXTPLANE_SIMD_ENTRY void add_products8(const float* x, const float* y, const float* a, const float* b, const float* p,
+                                        int n, bool fresh, float* acc) noexcept {
+  products8(x, y, a, b, p, nullptr, n, fresh, acc, acc);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -19911,6 +22230,92 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_ENTRY void homography_rows(const float* x, const float* y, const float* a, const float* b, int n,
+                                          float (*TEXTPLANE_SIMD_RESTRICT row)[kStrip]) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = load(a + i), B = load(b + i);
+    const vf Ax = mul(A, u), By = mul(B, v), C = add(Ax, By);
+    store(row[0] + i, Ax);
+    store(row[1] + i, mul(A, v));
+    store(row[2] + i, mul(B, u));
+    store(row[3] + i, By);
+    store(row[4] + i, mul(C, u));
+    store(row[5] + i, mul(C, v));
+  }
+}
+struct RowConstants {
+  float fx, fy, ifx, ify, mu, mv;
+  float k[3];
+  float p0, p1, t3;
+  float ray[9];
+};
+TEXTPLANE_SIMD_ENTRY void make_row_constants(const simd::ResidualArgs& a, const ResidualFrame& f,
+                                             RowConstants* k) noexcept {
+  const double fx = f.fx, fy = f.fy, ix = f.ifx, iy = f.ify, mu = -f.c * ix, mv = -f.d * iy;
+  k->fx = static_cast<float>(fx);
+  k->fy = static_cast<float>(fy);
+  k->ifx = static_cast<float>(ix);
+  k->ify = static_cast<float>(iy);
+  k->mu = static_cast<float>(mu);
+  k->mv = static_cast<float>(mv);
+  k->k[0] = static_cast<float>(f.q[0] * ix);
+  k->k[1] = static_cast<float>(f.q[1] * iy);
+  k->k[2] = static_cast<float>(f.q[2] + f.q[0] * mu + f.q[1] * mv);
+  k->p0 = static_cast<float>(fx * a.t[0] + a.t[2] * f.c);
+  k->p1 = static_cast<float>(fy * a.t[1] + a.t[2] * f.d);
+  k->t3 = static_cast<float>(a.t[2]);
+  for (int r = 0; r < 9; r += 3) {
+    const double r0 = f.inverse[r], r1 = f.inverse[r + 1];
+    k->ray[r] = static_cast<float>(r0 * ix);
+    k->ray[r + 1] = static_cast<float>(r1 * iy);
+    k->ray[r + 2] = static_cast<float>(f.inverse[r + 2] + r0 * mu + r1 * mv);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pose_rows(const RowConstants& k, const float* x, const float* y, const float* a,
+                                    const float* b, int n, std::ptrdiff_t step,
+                                    float* TEXTPLANE_SIMD_RESTRICT row) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), A = mul(load(a + i), set1(k.fx)), B = mul(load(b + i), set1(k.fy));
+    const vf X = madd(u, set1(k.ifx), set1(k.mu)), Y = madd(v, set1(k.ify), set1(k.mv)), D = neg(madd(A, X, mul(B, Y)));
+    const vf depth = madd(set1(k.k[0]), u, madd(set1(k.k[1]), v, set1(k.k[2])));
+    float* out = row + i;
+    store(out, mul(depth, A));
+    store(out + step, mul(depth, B));
+    store(out + 2 * step, mul(depth, D));
+    store(out + 3 * step, sub(mul(Y, D), B));
+    store(out + 4 * step, nmadd(X, D, A));
+    store(out + 5 * step, nmadd(Y, A, mul(X, B)));
+  }
+}
+TEXTPLANE_SIMD_ENTRY void plane_rows(const RowConstants& k, const float* x, const float* y, const float* a,
+                                     const float* b, int n, std::ptrdiff_t step,
+                                     float* TEXTPLANE_SIMD_RESTRICT row) noexcept {
+  const float* r = k.ray;
+  for (int i = 0; i < n; i += kLanes) {
+    const vf u = load(x + i), v = load(y + i), t3 = set1(k.t3);
+    const vf T = madd(load(a + i), nmadd(t3, u, set1(k.p0)), mul(load(b + i), nmadd(t3, v, set1(k.p1))));
+    float* out = row + i;
+    store(out, mul(T, madd(set1(r[0]), u, madd(set1(r[1]), v, set1(r[2])))));
+    store(out + step, mul(T, madd(set1(r[3]), u, madd(set1(r[4]), v, set1(r[5])))));
+    store(out + 2 * step, mul(T, madd(set1(r[6]), u, madd(set1(r[7]), v, set1(r[8])))));
+  }
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -20282,6 +22687,87 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE int product_count(int form) noexcept { return form == 3 ? 6 : form == 6 ? 21 : 27; }
+enum : int { kBlock = 4 * kStrip };
+struct RowStrip {
+  float row[6][kStrip];
+};
+TEXTPLANE_SIMD_INLINE void add_strip_products(int form, bool plain, const RowConstants& k, const float* x,
+                                              const float* y, const float* a, const float* b, int n, RowStrip* rows,
+                                              bool fresh, float* acc) noexcept {
+  float(*r)[kStrip] = rows->row;
+  float* sums = acc + (plain ? product_count(form) : kMostSums) * kLanes;
+  if (form == 3) {
+    plane_rows(k, x, y, a, b, n, kStrip, r[0]);
+    if (plain)
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
+    else
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
+  } else if (form == 6) {
+    pose_rows(k, x, y, a, b, n, kStrip, r[0]);
+    if (plain) {
+      add_squares_sums3(r[0], r[1], r[2], n, fresh, acc, sums);
+      add_squares_sums3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
+    } else {
+      add_squares3(r[0], r[1], r[2], n, fresh, acc);
+      add_squares3(r[3], r[4], r[5], n, fresh, acc + 6 * kLanes);
+    }
+    add_products33(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes);
+  } else if (kManyRegisters) {
+    add_moments(x, y, a, b, n, fresh, acc, sums);
+    add_cubic_moments(x, y, a, b, n, fresh, acc + 18 * kLanes, sums + 6 * kLanes);
+  } else {
+    homography_rows(x, y, a, b, n, r);
+    add_squares_sums3(a, r[0], r[1], n, fresh, acc, sums);
+    add_squares_sums3(b, r[2], r[3], n, fresh, acc + 6 * kLanes, sums + 3 * kLanes);
+    add_mixed(a, r[0], r[1], b, r[2], r[3], r[4], r[5], n, fresh, acc + 12 * kLanes, sums + 6 * kLanes);
+    add_cubic(r[0], r[1], r[2], r[3], r[4], r[5], n, fresh, acc + 18 * kLanes);
+  }
+}
+TEXTPLANE_SIMD_INLINE void add_strip_sums(int form, const float* x, const float* y, const float* a, const float* b,
+                                          const RowStrip& rows, const float* p, const float* q, int n, bool fresh,
+                                          float* first, float* second) noexcept {
+  const float(*r)[kStrip] = rows.row;
+  if (form == 3) {
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
+  } else if (form == 6) {
+    add_products3(r[0], r[1], r[2], p, q, n, fresh, first, second);
+    add_products3(r[3], r[4], r[5], p, q, n, fresh, first + 3 * kLanes, second + 3 * kLanes);
+  } else if (kManyRegisters) {
+    if (p == q)
+      add_products8(x, y, a, b, p, n, fresh, first);
+    else
+      add_two_products8(x, y, a, b, p, q, n, fresh, first, second);
+  } else {
+    add_products4(a, r[0], r[1], b, p, q, n, fresh, first, second);
+    add_products4(r[2], r[3], r[4], r[5], p, q, n, fresh, first + 4 * kLanes, second + 4 * kLanes);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void fold(const float* acc, int sums, bool first, double* total) noexcept {
+  for (int k = 0; k < sums; k += 8) {
+    const vd eight = reduce_sum8(acc + k * kLanes);
+    stored(total + k, first ? eight : maddd(setd(1.0), eight, loadd(total + k)));
+  }
+}
+TEXTPLANE_SIMD_INLINE void zero_rest(int sums, float* acc) noexcept {
+  for (int k = sums; k % 8 != 0; ++k) store(acc + k * kLanes, zero());
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -20866,6 +23352,121 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+struct Offsets {
+  float target, host, kappa;
+};
+TEXTPLANE_SIMD_ENTRY Offsets first_offsets(const float* i, const float* h, int n) noexcept {
+  const vf i_first = set1(i[0]), h_first = set1(h[0]);
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    vf p = sub(load(i + k), i_first), q = sub(load_part(h + k, n - k), h_first);
+    if (n - k < kLanes) {
+      p = keep(first_n(n - k), p);
+      q = keep(first_n(n - k), q);
+    }
+    i1 = add(i1, p);
+    h1 = add(h1, q);
+    i2 = madd(p, p, i2);
+    h2 = madd(q, q, h2);
+  }
+  float sum[4];
+  reduce_sum4(i1, i2, h1, h2, sum);
+  const float by_n = 1.0F / static_cast<float>(n), i_mean = sum[0] * by_n, h_mean = sum[2] * by_n;
+  const float i_squares = sum[1] - sum[0] * i_mean, h_squares = sum[3] - sum[2] * h_mean;
+  Offsets o;
+  o.target = i[0] + i_mean;
+  o.host = h[0] + h_mean;
+  const double ratio = h_squares > 0 ? static_cast<double>(i_squares) / static_cast<double>(h_squares) : 0;
+  o.kappa = ratio > 1e-4 && ratio < 1e4 ? static_cast<float>(sqrt_d(ratio)) : 1.0F;
+  return o;
+}
+struct CentredSums {
+  vf i, ii, h, hh;
+};
+struct SideSums {
+  CentredSums lanes;
+  int terms;
+  double i, ii, h, hh;
+};
+TEXTPLANE_SIMD_INLINE SideSums no_sides() noexcept { return SideSums{{zero(), zero(), zero(), zero()}, 0, 0, 0, 0, 0}; }
+TEXTPLANE_SIMD_INLINE void centre_vector(vf i, vf h, vf kappa, float* target, float* difference,
+                                         CentredSums* s) noexcept {
+  store(target, i);
+  store(difference, sub(mul(kappa, h), i));
+  s->i = add(s->i, i);
+  s->h = add(s->h, h);
+  s->ii = madd(i, i, s->ii);
+  s->hh = madd(h, h, s->hh);
+}
+TEXTPLANE_SIMD_ENTRY void centre_strip(float* TEXTPLANE_SIMD_RESTRICT target, const float* TEXTPLANE_SIMD_RESTRICT host,
+                                       float* TEXTPLANE_SIMD_RESTRICT difference, int n, const Offsets& o, bool last,
+                                       SideSums* sums) noexcept {
+  CentredSums s = sums->lanes;
+  const vf kappa = set1(o.kappa), i_offset = set1(o.target), h_offset = set1(o.host);
+  int k = 0;
+  for (; k + kLanes <= n; k += kLanes)
+    centre_vector(sub(load(target + k), i_offset), sub(load(host + k), h_offset), kappa, target + k, difference + k,
+                  &s);
+  if (k < n) {
+    const vm counted = first_n(n - k);
+    centre_vector(keep(counted, sub(load(target + k), i_offset)), keep(counted, sub(load_n(host + k, n - k), h_offset)),
+                  kappa, target + k, difference + k, &s);
+  }
+  sums->terms += kStrip / kLanes;
+  if (last || sums->terms >= kFoldTerms) {
+    sums->i += reduce_sum_double(s.i);
+    sums->ii += reduce_sum_double(s.ii);
+    sums->h += reduce_sum_double(s.h);
+    sums->hh += reduce_sum_double(s.hh);
+    s.i = s.ii = s.h = s.hh = zero();
+    sums->terms = 0;
+  }
+  sums->lanes = s;
+}
+struct Residual {
+  double on_d, on_i, shift, i_mean, i_s;
+};
+TEXTPLANE_SIMD_INLINE bool has_contrast(const simd::ResidualArgs& a, double squares, double mean,
+                                        double count) noexcept {
+  const double least = a.min_contrast > 0 ? a.min_contrast : 0, floor = 1e-6 * mean;
+  return squares > count * (least * least) && squares > count * (floor * floor);
+}
+TEXTPLANE_SIMD_ENTRY Status make_residual(const simd::ResidualArgs& a, const Offsets& o, const SideSums& sums, int n,
+                                          Residual* r, simd::ResidualInfo* info) noexcept {
+  const double count = n, i_mean = sums.i / count, i_squares = sums.ii - sums.i * i_mean;
+  const double h_mean = sums.h / count, h_squares = sums.hh - sums.h * h_mean;
+  if (!finite_d(h_squares)) return Status::non_finite;
+  if (!has_contrast(a, i_squares, i_mean + static_cast<double>(o.target), count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(o.host), count))
+    return Status::no_contrast;
+  const double i_s = sqrt_d(i_squares), h_s = sqrt_d(h_squares), root = sqrt_d(count),
+               kappa = static_cast<double>(o.kappa);
+  const double i_scale = root / i_s, h_scale = root / h_s;
+  r->on_d = h_scale / kappa;
+  r->on_i = r->on_d - i_scale;
+  r->shift = i_mean * i_scale - h_mean * h_scale;
+  r->i_mean = i_mean;
+  r->i_s = i_s;
+  info->mean = i_mean + static_cast<double>(o.target);
+  info->s = i_s;
+  return Status::ok;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -21687,6 +24288,171 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+struct CostSums {
+  vf squares, rho;
+};
+TEXTPLANE_SIMD_INLINE unsigned cost_vector(vf e, vf limit, CostSums* sums) noexcept {
+  const vf size = abs_(e), m = min_(size, limit);
+  sums->squares = madd(e, e, sums->squares);
+  sums->rho = madd(m, add(size, sub(size, m)), sums->rho);
+  return bits_from_mask(gt(size, limit));
+}
+TEXTPLANE_SIMD_ENTRY int add_huber_costs(const float* d, const float* i, int n, const Residual& r, bool huber,
+                                         float delta, std::int32_t* list, double* squares, double* rho) noexcept {
+  const vf limit = set1(huber ? delta : 3.0e38F), shift = set1(static_cast<float>(r.shift));
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  int listed = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums sums = {zero(), zero()};
+    for (int k = begin; k < end; k += 64) {
+      std::uint64_t word = 0;
+      if (end - k >= 64) {
+        for (int j = k; j < k + 64; j += kLanes) {
+          const vf e = madd(load(d + j), on_d, madd(load(i + j), on_i, shift));
+          word |= static_cast<std::uint64_t>(cost_vector(e, limit, &sums)) << (j - k);
+        }
+      } else {
+        for (int j = k; j < end; j += kLanes) {
+          const vf e = madd(load(d + j), on_d, madd(load(i + j), on_i, shift));
+          word |= static_cast<std::uint64_t>(cost_vector(keep(first_n(end - j), e), limit, &sums)) << (j - k);
+        }
+      }
+      if (!list) continue;
+      for (; word != 0; word &= word - 1) list[listed++] = k + lowest_bit(word);
+    }
+    *squares += reduce_sum_double(sums.squares);
+    *rho += reduce_sum_double(sums.rho);
+  }
+  if (list) storei(list + listed, seti(0));
+  return listed;
+}
+TEXTPLANE_SIMD_ENTRY void add_weighted_costs(const float* d, const float* i, int n, const Residual& r, RobustKind kind,
+                                             double delta, double* squares, double* rho) noexcept {
+  const RobustVectors robust = broadcast_robust(kind, delta);
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums sums = {zero(), zero()};
+    for (int k = begin; k < end; k += kLanes) {
+      const vf e = keep(first_n(end - k), madd(load(d + k), on_d, madd(load(i + k), on_i, shift))), square = mul(e, e);
+      vf cost, root;
+      robust_vector(robust, square, &cost, &root);
+      sums.squares = add(sums.squares, square);
+      sums.rho = add(sums.rho, cost);
+    }
+    *squares += reduce_sum_double(sums.squares);
+    *rho += reduce_sum_double(sums.rho);
+  }
+}
+TEXTPLANE_SIMD_INLINE int add_costs(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                    std::int32_t* list, simd::ResidualInfo* info) noexcept {
+  double squares = 0, rho = 0;
+  int weighted = n;
+  if (weighs_all(a.robust))
+    add_weighted_costs(s.d, s.i, n, r, a.robust, a.delta, &squares, &rho);
+  else
+    weighted = add_huber_costs(s.d, s.i, n, r, a.robust == RobustKind::huber, static_cast<float>(a.delta), list,
+                               &squares, &rho);
+  info->error = squares / n;
+  info->cost = rho / n;
+  return weighted;
+}
+struct WeightedStrip {
+  float x[kStrip], y[kStrip], a[kStrip], b[kStrip], p[kStrip], q[kStrip],
+      r[kStrip];
+};
+TEXTPLANE_SIMD_INLINE void weigh_strip_by(bool all, const simd::ResidualArgs& args, const ResidualArrays& s,
+                                          const std::int32_t* list, int begin, int n, const Residual& res, double root,
+                                          bool complement, WeightedStrip* w, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(args.robust, args.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(res.on_d)), on_i = set1(static_cast<float>(res.on_i));
+  const vf shift = set1(static_cast<float>(res.shift)), limit = set1(static_cast<float>(args.delta));
+  const vf i_mean = set1(static_cast<float>(res.i_mean)), i_scale = set1(static_cast<float>(1 / res.i_s));
+  const vf e_scale = set1(static_cast<float>(1 / root)), one = set1(1.0F);
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero();
+  for (int j = 0; j < n; j += kLanes) {
+    const std::int32_t* at = list ? list + j : nullptr;
+    const int k = begin + j;
+    const vf i = at ? gather(s.i, at) : load(s.i + k), d = at ? gather(s.d, at) : load(s.d + k);
+    const vf x = at ? gather(s.x, at) : load(s.x + k), y = at ? gather(s.y, at) : load(s.y + k);
+    const vf a = at ? gather(s.a, at) : load(s.a + k), b = at ? gather(s.b, at) : load(s.b + k);
+    const vf e = madd(d, on_d, madd(i, on_i, shift));
+    vf weight, p;
+    if (all) {
+      vf rho;
+      robust_vector(robust, mul(e, e), &rho, &p);
+      if (n - j < kLanes) p = keep(first_n(n - j), p);
+      weight = mul(p, p);
+    } else {
+      const vf size = abs_(e), inner = min_(size, limit), least = max_(size, set1(1e-30F));
+      weight = div(complement ? sub(size, inner) : inner, least);
+      if (!complement) weight = select(gt(size, limit), weight, one);
+      if (n - j < kLanes) weight = keep(first_n(n - j), weight);
+      p = sqrt_(weight);
+    }
+    const vf nn = mul(sub(i, i_mean), i_scale), rr = mul(e, e_scale);
+    const vf q = mul(p, nn), r = mul(p, rr);
+    store(w->x + j, x);
+    store(w->y + j, y);
+    store(w->a + j, mul(p, a));
+    store(w->b + j, mul(p, b));
+    store(w->p + j, p);
+    store(w->q + j, q);
+    store(w->r + j, r);
+    s0 = add(s0, weight);
+    s1 = madd(p, q, s1);
+    s2 = madd(q, q, s2);
+    s3 = madd(p, r, s3);
+    s4 = madd(q, r, s4);
+  }
+  sums[0] += reduce_sum_double(s0);
+  sums[1] += reduce_sum_double(s1);
+  sums[2] += reduce_sum_double(s2);
+  sums[3] += reduce_sum_double(s3);
+  sums[4] += reduce_sum_double(s4);
+}
+TEXTPLANE_SIMD_ENTRY void weigh_huber(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
+                                      int begin, int n, const Residual& r, double root, bool complement,
+                                      WeightedStrip* w, double* sums) noexcept {
+  weigh_strip_by(false, a, s, list, begin, n, r, root, complement, w, sums);
+}
+TEXTPLANE_SIMD_ENTRY void weigh_all(const simd::ResidualArgs& a, const ResidualArrays& s, int begin, int n,
+                                    const Residual& r, double root, WeightedStrip* w, double* sums) noexcept {
+  weigh_strip_by(true, a, s, nullptr, begin, n, r, root, false, w, sums);
+}
+TEXTPLANE_SIMD_INLINE void weigh_strip(const simd::ResidualArgs& a, const ResidualArrays& s, const std::int32_t* list,
+                                       int begin, int n, const Residual& r, double root, bool complement,
+                                       WeightedStrip* w, double* sums) noexcept {
+  if (weighs_all(a.robust))
+    weigh_all(a, s, begin, n, r, root, w, sums);
+  else
+    weigh_huber(a, s, list, begin, n, r, root, complement, w, sums);
+}
+TEXTPLANE_SIMD_INLINE void add_strip_weights(int form, const WeightedStrip& w, const RowStrip& rows, int n, bool fresh,
+                                             float* acc) noexcept {
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.p, w.q, n, fresh, acc, acc + form * kLanes);
+  float* last = acc + 2 * form * kLanes;
+  add_strip_sums(form, w.x, w.y, w.a, w.b, rows, w.r, w.r, n, fresh, last, last);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -22676,6 +25442,161 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void unpack_block(const double* p, int at, double (*S)[8]) noexcept {
+  S[at][at] = p[0];
+  S[at][at + 1] = S[at + 1][at] = p[1];
+  S[at][at + 2] = S[at + 2][at] = p[2];
+  S[at + 1][at + 1] = p[3];
+  S[at + 1][at + 2] = S[at + 2][at + 1] = p[4];
+  S[at + 2][at + 2] = p[5];
+}
+TEXTPLANE_SIMD_INLINE void set_pair(double (*S)[8], int r, int c, double value) noexcept { S[r][c] = S[c][r] = value; }
+TEXTPLANE_SIMD_ENTRY void unpack_products(int form, const double* p, double (*S)[8]) noexcept {
+  unpack_block(p, 0, S);
+  if (form == 3) return;
+  unpack_block(p + 6, 3, S);
+  if (form == 6) {
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) set_pair(S, r, 3 + c, p[12 + 3 * r + c]);
+    return;
+  }
+  set_pair(S, 0, 3, p[12]);
+  set_pair(S, 0, 4, p[13]);
+  set_pair(S, 1, 3, p[13]);
+  set_pair(S, 0, 5, p[14]);
+  set_pair(S, 2, 3, p[14]);
+  set_pair(S, 1, 4, p[15]);
+  set_pair(S, 1, 5, p[16]);
+  set_pair(S, 2, 4, p[16]);
+  set_pair(S, 2, 5, p[17]);
+  set_pair(S, 0, 6, p[3] + p[16]);
+  set_pair(S, 0, 7, p[4] + p[17]);
+  set_pair(S, 3, 6, p[15] + p[10]);
+  set_pair(S, 3, 7, p[16] + p[11]);
+  set_pair(S, 1, 6, p[18]);
+  set_pair(S, 1, 7, p[19]);
+  set_pair(S, 2, 6, p[19]);
+  set_pair(S, 2, 7, p[20]);
+  set_pair(S, 4, 6, p[21]);
+  set_pair(S, 4, 7, p[22]);
+  set_pair(S, 5, 6, p[22]);
+  set_pair(S, 5, 7, p[23]);
+  S[6][6] = p[24];
+  set_pair(S, 6, 7, p[25]);
+  S[7][7] = p[26];
+}
+struct WeightedSums {
+  double S[8][8];
+  double w1[8], wn[8], wr[8], e[8], jn[8];
+  double w[5];
+};
+TEXTPLANE_SIMD_ENTRY void project_sums(int form, bool exact, double s, WeightedSums* k) noexcept {
+  const double scale = 1 / (s * s);
+  const vd by = setd(scale);
+  vd wr = loadd(k->wr);
+  if (exact) {
+    double p[8], q[8];
+    const vd e = loadd(k->e), jn = loadd(k->jn), minus = setd(-scale), mixed = setd(0.5 * scale * k->w[1]);
+    const vd by_p = maddd(setd(0.5 * scale * k->w[0]), e, maddd(mixed, jn, muld(minus, loadd(k->w1))));
+    const vd by_q = maddd(setd(0.5 * scale * k->w[2]), jn, maddd(mixed, e, muld(minus, loadd(k->wn))));
+    stored(p, by_p);
+    stored(q, by_q);
+    wr = maddd(setd(-k->w[3]), e, maddd(setd(-k->w[4]), jn, wr));
+    for (int i = 0; i < form; ++i) {
+      const vd by_e = maddd(setd(k->e[i]), by_p, maddd(setd(p[i]), e, muld(by, loadd(k->S[i]))));
+      stored(k->S[i], maddd(setd(k->jn[i]), by_q, maddd(setd(q[i]), jn, by_e)));
+    }
+  } else {
+    for (int i = 0; i < form; ++i) stored(k->S[i], muld(by, loadd(k->S[i])));
+  }
+  stored(k->wr, muld(setd(-scale * s), wr));
+}
+TEXTPLANE_SIMD_ENTRY void parameter_matrix(const simd::ResidualArgs& a, const ResidualFrame& f,
+                                           double (*M)[8]) noexcept {
+  const double fx = f.fx, fy = f.fy, ix = 1 / fx, iy = 1 / fy, c = f.c, d = f.d;
+  const double fxy = fx * iy, fyx = fy * ix, cx = c * ix, dy = d * iy;
+  for (int k = 0; k < 9; ++k) {
+    double m0 = 0, m1 = 0, m2 = 0, m3 = 0, m4 = 0, m5 = 0, m6 = 0, m7 = 0;
+    if (k >= 3 && k < 6) {
+      m0 = m6 = k == 4 ? 1 : 0;
+      m3 = m7 = k == 3 ? -1 : 0;
+      m2 = k == 5 ? -1 : 0;
+      m4 = -m2;
+    } else {
+      const double* right = k < 3 ? f.q : f.inverse + 3 * (k - 6);
+      const double l0 = k < 3 ? (k == 0 ? 1 : 0) : a.t[0], l1 = k < 3 ? (k == 1 ? 1 : 0) : a.t[1];
+      const double l2 = k < 3 ? (k == 2 ? 1 : 0) : a.t[2];
+      m0 = l0 * right[2];
+      m1 = l0 * right[0] - l2 * right[2];
+      m2 = l0 * right[1];
+      m3 = l1 * right[2];
+      m4 = l1 * right[0];
+      m5 = l1 * right[1] - l2 * right[2];
+      m6 = -l2 * right[0];
+      m7 = -l2 * right[1];
+    }
+    double* out = k < 8 ? &M[0][k] : M[8];
+    const int step = k < 8 ? 8 : 1;
+    const double both = cx * m6 + dy * m7;
+    out[0] = fx * m0 - c * m1 - fxy * d * m2 + c * both;
+    out[step] = m1 - cx * m6 - both;
+    out[2 * step] = fxy * m2 - c * iy * m7;
+    out[3 * step] = fy * m3 - fyx * c * m4 - d * m5 + d * both;
+    out[4 * step] = fyx * m4 - d * ix * m6;
+    out[5 * step] = m5 - both - dy * m7;
+    out[6 * step] = m6 * ix;
+    out[7 * step] = m7 * iy;
+  }
+}
+TEXTPLANE_SIMD_INLINE vd row_product(const double* left, std::ptrdiff_t step, const double (*rows)[8]) noexcept {
+  const vd one = setd(1.0);
+  vd even = muld(setd(left[0]), loadd(rows[0])), odd = muld(setd(left[step]), loadd(rows[1]));
+  even = maddd(setd(left[2 * step]), loadd(rows[2]), even);
+  odd = maddd(setd(left[3 * step]), loadd(rows[3]), odd);
+  even = maddd(setd(left[4 * step]), loadd(rows[4]), even);
+  odd = maddd(setd(left[5 * step]), loadd(rows[5]), odd);
+  even = maddd(setd(left[6 * step]), loadd(rows[6]), even);
+  odd = maddd(setd(left[7 * step]), loadd(rows[7]), odd);
+  return maddd(one, even, odd);
+}
+TEXTPLANE_SIMD_ENTRY void change_parameters(const double (*M)[8], const double (*S)[8], const double* g, double* H,
+                                            double* b) noexcept {
+  double T[8][8], last[8], row[8];
+  for (int r = 0; r < 8; ++r) stored(T[r], row_product(S[r], 1, M));
+  stored(last, row_product(M[8], 1, S));
+  for (int r = 0; r < 8; ++r) stored(H + 9 * r, row_product(&M[0][r], 8, T));
+  stored(H + 72, row_product(M[8], 1, T));
+  stored(b, row_product(g, 1, M));
+  stored(row, muld(loadd(last), loadd(M[8])));
+  H[80] = ((row[0] + row[1]) + (row[2] + row[3])) + ((row[4] + row[5]) + (row[6] + row[7]));
+  stored(row, muld(loadd(g), loadd(M[8])));
+  b[8] = ((row[0] + row[1]) + (row[2] + row[3])) + ((row[4] + row[5]) + (row[6] + row[7]));
+  for (int r = 0; r < 8; ++r) H[9 * r + 8] = H[72 + r];
+  for (int r = 0; r < 8; ++r)
+    for (int c = 0; c < r; ++c) H[9 * r + c] = H[9 * c + r];
+}
+TEXTPLANE_SIMD_ENTRY bool finite_sums(int parameters, const simd::ResidualInfo& info, const double* H,
+                                      const double* b) noexcept {
+  double sum = info.cost;
+  for (int i = 0; i < parameters; ++i) sum += H[(parameters + 1) * i] + b[i];
+  return finite_d(sum);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -23258,6 +26179,140 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_ENTRY Status evaluate_large(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
+                                           const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  const int n = host.n;
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_values(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  add_costs(a, s, n, r, nullptr, info);
+  return Status::ok;
+}
+TEXTPLANE_SIMD_INLINE void unweighted_sums(const double* rows, int form, const Residual& r, double count, double root,
+                                           double error, WeightedSums* sums) noexcept {
+  const double by_s = 1 / r.i_s, by_root = 1 / root;
+  const vd j1 = loadd(rows), ji = loadd(rows + form), jd = loadd(rows + 2 * form);
+  const vd jn = maddd(setd(by_s), ji, muld(setd(-r.i_mean * by_s), j1));
+  const vd jr = maddd(setd(r.on_d * by_root), jd, maddd(setd(r.on_i * by_root), ji, muld(setd(r.shift * by_root), j1)));
+  stored(sums->e, muld(setd(1 / count), j1));
+  stored(sums->jn, jn);
+  stored(sums->w1, j1);
+  stored(sums->wn, jn);
+  stored(sums->wr, jr);
+  sums->w[0] = count;
+  sums->w[1] = 0;
+  sums->w[2] = 1;
+  sums->w[3] = 0;
+  sums->w[4] = -0.5 * error;
+}
+TEXTPLANE_SIMD_INLINE void correct_weights(int form, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                           int outliers, const Residual& r, double root, const RowConstants& constants,
+                                           RowStrip* rows, float* acc, double* total, WeightedSums* sums) noexcept {
+  const int products = product_count(form), all = products + 3 * form;
+  const bool direct = outliers > n / 2;
+  const int weighted = direct ? n : outliers;
+  double w[5] = {0, 0, 0, 0, 0}, other[kMostSums];
+  int terms = 0;
+  WeightedStrip ws;
+  for (int begin = 0; begin < weighted; begin += kStrip) {
+    const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
+    weigh_strip(a, s, direct ? nullptr : s.list + begin, begin, m, r, root, !direct, &ws, w);
+    add_strip_products(form, false, constants, ws.x, ws.y, ws.a, ws.b, m, rows, terms == 0, acc);
+    add_strip_weights(form, ws, *rows, m, terms == 0, acc + products * kLanes);
+    terms += kStrip / kLanes;
+    if (terms >= kFoldTerms || begin + kStrip >= weighted) {
+      fold(acc, all, begin < kFoldTerms * kLanes, other);
+      terms = 0;
+    }
+  }
+  const double sign = direct ? 1 : -1;
+  const vd rest = setd(direct ? 0 : 1), by = setd(sign);
+  for (int k = 0; k < products; k += 8) stored(total + k, maddd(by, loadd(other + k), muld(rest, loadd(total + k))));
+  stored(sums->w1, maddd(by, loadd(other + products), muld(rest, loadd(sums->w1))));
+  stored(sums->wn, maddd(by, loadd(other + products + form), muld(rest, loadd(sums->wn))));
+  stored(sums->wr, maddd(by, loadd(other + products + 2 * form), muld(rest, loadd(sums->wr))));
+  for (int k = 0; k < 5; ++k) sums->w[k] = (direct ? 0 : sums->w[k]) + sign * w[k];
+}
+TEXTPLANE_SIMD_INLINE Status linearise_large(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
+                                             const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info,
+                                             double* H, double* b) noexcept {
+  const int form = parameters == 9 ? 8 : parameters, products = product_count(form), all = products + 3 * form;
+  const int n = host.n;
+  double total[kMostSums];
+  float acc[(kMostSums + 8) * kMostLanes], *sum_i = acc + (products + form) * kLanes, *sum_d = sum_i + form * kLanes;
+  zero_rest(all, acc);
+  RowConstants constants;
+  if (form != 8) make_row_constants(a, f, &constants);
+  SampleStrip strip;
+  RowStrip rows;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  const int block = kManyRegisters && form == 8 ? kBlock : static_cast<int>(kStrip);
+  int terms = 0;
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+    const int end = begin + count, from = begin / block * block;
+    if (end % block != 0 && end < n) continue;
+    const float *x = s.x + from, *y = s.y + from, *ga = s.a + from, *gb = s.b + from, *i = s.i + from, *d = s.d + from;
+    const bool fresh = terms == 0;
+    add_strip_products(form, true, constants, x, y, ga, gb, end - from, &rows, fresh, acc);
+    add_strip_sums(form, x, y, ga, gb, rows, i, d, end - from, fresh, sum_i, sum_d);
+    terms += block / kLanes;
+    if (terms >= kFoldTerms || end == n) {
+      fold(acc, all, end <= kFoldTerms * kLanes, total);
+      terms = 0;
+    }
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  const double root = sqrt_d(n);
+  const int outliers = add_costs(a, s, n, r, s.list, info);
+  WeightedSums sums;
+  unweighted_sums(total + products, form, r, n, root, info->error, &sums);
+  if (outliers > 0) correct_weights(form, a, s, n, outliers, r, root, constants, &rows, acc, total, &sums);
+  unpack_products(form, total, sums.S);
+  project_sums(form, a.exact, r.i_s, &sums);
+  if (form == 8) {
+    double M[9][8];
+    parameter_matrix(a, f, M);
+    change_parameters(M, sums.S, sums.wr, H, b);
+  } else {
+    for (int i = 0; i < form; ++i) {
+      b[i] = sums.wr[i];
+      for (int j = i; j < form; ++j) H[form * i + j] = H[form * j + i] = sums.S[i][j];
+    }
+  }
+  return finite_sums(parameters, *info, H, b) ? Status::ok : Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -24796,6 +27851,275 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kFewStep = kRowPixels + kMostLanes };
+struct FewPixels {
+  float i[kFewStep], e[kFewStep], root[kFewStep];
+};
+TEXTPLANE_SIMD_INLINE void centre_few(const float* target, const float* host, int n, FewPixels* p, float* sum,
+                                      float* i_offset, float* h_offset) noexcept {
+  const int first = n < kMostLanes ? n : static_cast<int>(kMostLanes);
+  vf t = zero(), h = zero();
+  for (int k = 0; k < first; k += kLanes) {
+    t = add(t, load(target + k));
+    h = add(h, load_part(host + k, n - k));
+  }
+  const float share = 1.0F / static_cast<float>(first);
+  const float i_first = reduce_sum(t) * share, h_first = reduce_sum(h) * share;
+  *i_offset = i_first;
+  *h_offset = h_first;
+  vf i1 = zero(), i2 = zero(), h1 = zero(), h2 = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    vf i = sub(load(target + k), set1(i_first)), j = sub(load_part(host + k, n - k), set1(h_first));
+    if (n - k < kLanes) {
+      i = keep(first_n(n - k), i);
+      j = keep(first_n(n - k), j);
+    }
+    store(p->i + k, i);
+    store(p->e + k, j);
+    i1 = add(i1, i);
+    h1 = add(h1, j);
+    i2 = madd(i, i, i2);
+    h2 = madd(j, j, h2);
+  }
+  reduce_sum4(i1, i2, h1, h2, sum);
+}
+TEXTPLANE_SIMD_ENTRY Status weigh_few(const simd::ResidualArgs& a, const float* target, const float* host, int n,
+                                      FewPixels* p, simd::ResidualInfo* info) noexcept {
+  const double count = n, by_count = 1 / count;
+  float sum[4], i_offset, h_offset;
+  centre_few(target, host, n, p, sum, &i_offset, &h_offset);
+  const double i_mean = static_cast<double>(sum[0]) * by_count, h_mean = static_cast<double>(sum[2]) * by_count;
+  const double i_squares = static_cast<double>(sum[1]) - static_cast<double>(sum[0]) * i_mean,
+               h_squares = static_cast<double>(sum[3]) - static_cast<double>(sum[2]) * h_mean;
+  if (!finite_d(h_squares)) return Status::non_finite;
+  info->mean = i_mean + static_cast<double>(i_offset);
+  if (!has_contrast(a, i_squares, info->mean, count) ||
+      !has_contrast(a, h_squares, h_mean + static_cast<double>(h_offset), count))
+    return Status::no_contrast;
+  const double i_s = sqrt_d(i_squares), root = sqrt_d(count), i_scale = root / i_s, h_scale = root / sqrt_d(h_squares);
+  info->s = i_s;
+  const bool huber = a.robust == RobustKind::huber;
+  const float delta = static_cast<float>(a.delta);
+  const vf limit = set1(delta > 1e-30F ? delta : 1e-30F), root_limit = sqrt_(limit);
+  const vf by_i = set1(static_cast<float>(i_scale));
+  const vf by_h = set1(static_cast<float>(h_scale)), mean = set1(static_cast<float>(i_mean));
+  const vf shift = set1(static_cast<float>(i_mean * i_scale - h_mean * h_scale));
+  const vf by_s = set1(static_cast<float>(1 / i_s)), by_root = set1(static_cast<float>(-1 / root));
+  vf squares = zero(), rho = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    vf i = load(p->i + k), e = madd(load(p->e + k), by_h, nmadd(i, by_i, shift)), w = set1(1.0F);
+    i = sub(i, mean);
+    if (n - k < kLanes) {
+      const vm counted = first_n(n - k);
+      i = keep(counted, i);
+      e = keep(counted, e);
+      w = keep(counted, w);
+    }
+    squares = madd(e, e, squares);
+    if (huber) {
+      const vf size = abs_(e), m = min_(size, limit);
+      rho = madd(m, add(size, sub(size, m)), rho);
+      w = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), w);
+    }
+    store(p->i + k, i);
+    store(p->e + k, mul(w, mul(e, by_root)));
+    store(p->root + k, mul(w, by_s));
+  }
+  reduce_sum4(squares, huber ? rho : squares, squares, rho, sum);
+  info->error = static_cast<double>(sum[0]) * by_count;
+  info->cost = static_cast<double>(sum[1]) * by_count;
+  return Status::ok;
+}
+TEXTPLANE_SIMD_ENTRY void weigh_few_all(const simd::ResidualArgs& a, int n, FewPixels* p,
+                                        simd::ResidualInfo* info) noexcept {
+  const RobustVectors robust = broadcast_robust(a.robust, a.delta);
+  const vf count = set1(static_cast<float>(n));
+  vf sum = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vf r = load(p->e + k);
+    vf rho, w;
+    robust_vector(robust, mul(count, mul(r, r)), &rho, &w);
+    store(p->e + k, mul(w, r));
+    store(p->root + k, mul(w, load(p->root + k)));
+    sum = add(sum, rho);
+  }
+  info->cost = static_cast<double>(reduce_sum(sum)) / n;
+}
+TEXTPLANE_SIMD_ENTRY void project_few(const FewPixels& p, int n, bool exact, float by_count, float by_squares,
+                                      float* row) noexcept {
+  float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
+  if (!exact) {
+    for (int k = 0; k < n; k += kLanes) {
+      const vf w = hold(load(p.root + k));
+      store(r0 + k, mul(w, load(r0 + k)));
+      store(r1 + k, mul(w, load(r1 + k)));
+      store(r2 + k, mul(w, load(r2 + k)));
+    }
+    return;
+  }
+  vf s0 = zero(), s1 = zero(), s2 = zero(), t0 = zero(), t1 = zero(), t2 = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vf i = hold(load(p.i + k)), a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k));
+    s0 = add(s0, a);
+    s1 = add(s1, b);
+    s2 = add(s2, c);
+    t0 = madd(a, i, t0);
+    t1 = madd(b, i, t1);
+    t2 = madd(c, i, t2);
+  }
+  float sum[8];
+  reduce_sum4(s0, s1, s2, s2, sum);
+  reduce_sum4(t0, t1, t2, t2, sum + 4);
+  const vf mean = set1(by_count), along = set1(by_squares);
+  s0 = mul(set1(sum[0]), mean);
+  s1 = mul(set1(sum[1]), mean);
+  s2 = mul(set1(sum[2]), mean);
+  t0 = mul(set1(sum[4]), along);
+  t1 = mul(set1(sum[5]), along);
+  t2 = mul(set1(sum[6]), along);
+  for (int k = 0; k < n; k += kLanes) {
+    const vf i = hold(load(p.i + k)), w = hold(load(p.root + k));
+    store(r0 + k, mul(w, nmadd(i, t0, sub(load(r0 + k), s0))));
+    store(r1 + k, mul(w, nmadd(i, t1, sub(load(r1 + k), s1))));
+    store(r2 + k, mul(w, nmadd(i, t2, sub(load(r2 + k), s2))));
+  }
+}
+TEXTPLANE_SIMD_ENTRY void square_few(const float* row, const float* e, int n, float* out) noexcept {
+  const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), b0 = zero(), b1 = zero(),
+     b2 = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), r = hold(load(e + k));
+    s0 = madd(a, a, s0);
+    s1 = madd(a, b, s1);
+    s2 = madd(a, c, s2);
+    s3 = madd(b, b, s3);
+    s4 = madd(b, c, s4);
+    s5 = madd(c, c, s5);
+    b0 = madd(a, r, b0);
+    b1 = madd(b, r, b1);
+    b2 = madd(c, r, b2);
+  }
+  reduce_sum4(s0, s1, s2, s3, out);
+  reduce_sum4(s4, s5, b0, b1, out + 4);
+  out[8] = reduce_sum(b2);
+}
+TEXTPLANE_SIMD_ENTRY void cross_few(const float* row, const float* other, int n, float* out) noexcept {
+  const float *r0 = row, *r1 = row + kFewStep, *r2 = row + 2 * kFewStep;
+  const float *q0 = other, *q1 = other + kFewStep, *q2 = other + 2 * kFewStep;
+  vf s0 = zero(), s1 = zero(), s2 = zero(), s3 = zero(), s4 = zero(), s5 = zero(), s6 = zero(), s7 = zero(),
+     s8 = zero();
+  for (int k = 0; k < n; k += kLanes) {
+    const vf a = hold(load(r0 + k)), b = hold(load(r1 + k)), c = hold(load(r2 + k)), x = hold(load(q0 + k)),
+             y = hold(load(q1 + k)), z = hold(load(q2 + k));
+    s0 = madd(a, x, s0);
+    s1 = madd(a, y, s1);
+    s2 = madd(a, z, s2);
+    s3 = madd(b, x, s3);
+    s4 = madd(b, y, s4);
+    s5 = madd(b, z, s5);
+    s6 = madd(c, x, s6);
+    s7 = madd(c, y, s7);
+    s8 = madd(c, z, s8);
+  }
+  reduce_sum4(s0, s1, s2, s3, out);
+  reduce_sum4(s4, s5, s6, s7, out + 4);
+  out[8] = reduce_sum(s8);
+}
+TEXTPLANE_SIMD_INLINE void put_square(const float* p, int at, int size, double* H) noexcept {
+  double* q = H + size * at + at;
+  q[0] = static_cast<double>(p[0]);
+  q[1] = q[size] = static_cast<double>(p[1]);
+  q[2] = q[2 * size] = static_cast<double>(p[2]);
+  q[size + 1] = static_cast<double>(p[3]);
+  q[size + 2] = q[2 * size + 1] = static_cast<double>(p[4]);
+  q[2 * size + 2] = static_cast<double>(p[5]);
+}
+TEXTPLANE_SIMD_INLINE void put_block(const float* p, int r, int c, int size, double* H) noexcept {
+  double *q = H + size * r + c, *mirror = H + size * c + r;
+  q[0] = mirror[0] = static_cast<double>(p[0]);
+  q[1] = mirror[size] = static_cast<double>(p[1]);
+  q[2] = mirror[2 * size] = static_cast<double>(p[2]);
+  q[size] = mirror[1] = static_cast<double>(p[3]);
+  q[size + 1] = mirror[size + 1] = static_cast<double>(p[4]);
+  q[size + 2] = mirror[2 * size + 1] = static_cast<double>(p[5]);
+  q[2 * size] = mirror[2] = static_cast<double>(p[6]);
+  q[2 * size + 1] = mirror[size + 2] = static_cast<double>(p[7]);
+  q[2 * size + 2] = mirror[2 * size + 2] = static_cast<double>(p[8]);
+}
+TEXTPLANE_SIMD_ENTRY Status evaluate_small(const simd::ResidualArgs& a, const ResidualFrame& f, const HostPixels& host,
+                                           const ResidualArrays& s, simd::ResidualInfo* info) noexcept {
+  SampleStrip strip;
+  collect_values(host, f, 0, host.n, s, &strip);
+  FewPixels pixels;
+  const Status status = weigh_few(a, s.i, host.h, host.n, &pixels, info);
+  if (weighs_all(a.robust) && status == Status::ok) weigh_few_all(a, host.n, &pixels, info);
+  return status;
+}
+TEXTPLANE_SIMD_INLINE Status linearise_small(int parameters, const simd::ResidualArgs& a, const ResidualFrame& f,
+                                             const HostPixels& host, const ResidualArrays& s, simd::ResidualInfo* info,
+                                             double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  collect_strip(host, f, 0, n, s, &strip);
+  float row[9 * kFewStep];
+  RowConstants constants;
+  make_row_constants(a, f, &constants);
+  if (parameters != 3) pose_rows(constants, s.x, s.y, s.a, s.b, n, kFewStep, row);
+  if (parameters != 6) plane_rows(constants, s.x, s.y, s.a, s.b, n, kFewStep, row + (parameters - 3) * kFewStep);
+  FewPixels pixels;
+  const Status status = weigh_few(a, s.i, host.h, n, &pixels, info);
+  if (status != Status::ok) return status;
+  if (weighs_all(a.robust)) weigh_few_all(a, n, &pixels, info);
+  const float by_count = static_cast<float>(1.0 / n), by_squares = static_cast<float>(1 / (info->s * info->s));
+  float *r0 = row, *r1 = row + 3 * kFewStep, *r2 = row + 6 * kFewStep, sum[6][12];
+  for (int g = 0; g < parameters; g += 3) project_few(pixels, n, a.exact, by_count, by_squares, row + g * kFewStep);
+  square_few(r0, pixels.e, n, sum[0]);
+  if (parameters > 3) {
+    square_few(r1, pixels.e, n, sum[1]);
+    cross_few(r0, r1, n, sum[2]);
+  }
+  if (parameters > 6) {
+    square_few(r2, pixels.e, n, sum[3]);
+    cross_few(r0, r2, n, sum[4]);
+    cross_few(r1, r2, n, sum[5]);
+  }
+  put_square(sum[0], 0, parameters, H);
+  for (int k = 0; k < 3; ++k) b[k] = static_cast<double>(sum[0][6 + k]);
+  if (parameters > 3) {
+    put_square(sum[1], 3, parameters, H);
+    put_block(sum[2], 0, 3, parameters, H);
+    for (int k = 0; k < 3; ++k) b[3 + k] = static_cast<double>(sum[1][6 + k]);
+  }
+  if (parameters > 6) {
+    put_square(sum[3], 6, parameters, H);
+    put_block(sum[4], 0, 6, parameters, H);
+    put_block(sum[5], 3, 6, parameters, H);
+    for (int k = 0; k < 3; ++k) b[6 + k] = static_cast<double>(sum[3][6 + k]);
+  }
+  double squares = 0;
+  for (int g = 0; g < parameters; g += 3) {
+    const float* p = sum[g / 3 < 2 ? g / 3 : 3];
+    squares += (static_cast<double>(p[0]) + static_cast<double>(p[3])) + static_cast<double>(p[5]);
+  }
+  return finite_d(squares) ? Status::ok : Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -25079,6 +28403,68 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void residual_any(int parameters, const simd::ResidualArgs& a, simd::ResidualInfo* info,
+                                        double* H, double* b) noexcept {
+  simd::PointBounds bounds = a.bounds;
+  if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (!make_frame(a, bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    info->status = Status::too_few;
+    if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    if (kInt16Tiles != 0 && pixels.n > kRowPixels) choose_tiles(a, bounds, pixels, &f);
+    if (parameters == 0)
+      info->status =
+          pixels.n <= kRowPixels ? evaluate_small(a, f, pixels, s, info) : evaluate_large(a, f, pixels, s, info);
+    else
+      info->status = pixels.n <= kRowPixels ? linearise_small(parameters, a, f, pixels, s, info, H, b)
+                                            : linearise_large(parameters, a, f, pixels, s, info, H, b);
+    if (info->status == Status::ok && !finite_d(info->cost)) info->status = Status::unsupported;
+    if (info->status != Status::non_finite) return;
+  }
+  info->status = Status::unsupported;
+}
+enum : int { kFewLanes = simd::lanes(simd::Target::TEXTPLANE_SIMD_REGION_FEW) };
+TEXTPLANE_SIMD_INLINE bool leave_few(int n) noexcept { return kFewLanes != kLanes && n <= 2 * kLanes; }
+TEXTPLANE_SIMD_ENTRY void linearise_plane(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                          double* b) noexcept {
+  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_plane(a, info, H, b);
+  residual_any(3, a, info, H, b);
+}
+TEXTPLANE_SIMD_ENTRY void linearise_pose(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                         double* b) noexcept {
+  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_pose(a, info, H, b);
+  residual_any(6, a, info, H, b);
+}
+TEXTPLANE_SIMD_ENTRY void linearise_pose_plane(const simd::ResidualArgs& a, simd::ResidualInfo* info, double* H,
+                                               double* b) noexcept {
+  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::linearise_pose_plane(a, info, H, b);
+  residual_any(9, a, info, H, b);
+}
+TEXTPLANE_SIMD_ENTRY void evaluate(const simd::ResidualArgs& a, simd::ResidualInfo* info) noexcept {
+  if (leave_few(a.n)) return TEXTPLANE_SIMD_REGION_FEW::evaluate(a, info);
+  residual_any(0, a, info, nullptr, nullptr);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -25556,22 +28942,32 @@ struct PhotometricOptions {
 ///   template_jacobian  dI = c . dq,  c = H^-T a_h,  a_h = dI_host/dm~: where the images match, I_target(H m~) and
 ///                      I_host(m~) have the same derivatives by m~, and m~ moves by H^-1 dq. Constant but for H^-1
 ///   esm                the mean of the two normalised rows, right to second order near the match
+///   hybrid             b of forward; H = ratio H_template, H_template by the rows of template_jacobian over the whole
+///                      patch, without weights; ratio = w (sum |J^T a_t|^2 / s_t^2) / (sum |a_h|^2 / s_h^2): the mean
+///                      weight, and the energies of the gradients of target (visible pixels) and host (all pixels),
+///                      a_t by the target's rays, J = d ray / d host pixel at the patch's centre
 ///
-/// All three vanish together at a perfect match. Elsewhere only the first is a gradient of the cost, so a solver must
-/// judge the steps of the others by the cost. Ours do.
+/// All vanish together at a perfect match. Elsewhere b of forward and hybrid alone is a gradient of the cost, so a
+/// solver must judge the steps of the others by the cost. Ours do.
 enum class LinearisePolicy : std::uint8_t {
   forward,            ///< Gradients of the target: the derivative of the cost itself.
   template_jacobian,  ///< Gradients of the host, prepared once: the cheapest iteration.
   esm,                ///< The mean of both: the widest basin.
-  automatic,          ///< A coarse-to-fine solver chooses by level: see policy_at_level().
+  /// The exact gradient of the cost with the template's H: half the work of forward, and the same minimum. Needs
+  /// `prepared`; without it, with a mask, and where no more than kHybridPixels are visible it is forward.
+  hybrid,
+  automatic,  ///< A coarse-to-fine solver chooses by level: see policy_at_level().
 };
 
-/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where forward ends at the minimum of
-/// the cost. The other policies are themselves on every level.
+/// So few visible pixels are linearised by their own rows as fast as by what is prepared: hybrid is forward.
+constexpr int kHybridPixels = 256;
+
+/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where hybrid (forward, where nothing is
+/// prepared) ends at the minimum of the cost. The other policies are themselves on every level.
 constexpr LinearisePolicy policy_at_level(LinearisePolicy policy, int level, int finest_level) noexcept {
   return policy != LinearisePolicy::automatic ? policy
          : level > finest_level               ? LinearisePolicy::esm
-                                              : LinearisePolicy::forward;
+                                              : LinearisePolicy::hybrid;
 }
 
 class TemplatePatch;
@@ -25590,7 +28986,8 @@ struct ResidualRequest {
   PerturbationSide side = PerturbationSide::right;  ///< Of both world poses; see world_request().
 
   /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if
-  /// given, is of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
+  /// given, is of input.patch; LinearisePolicy::template_jacobian is faster by it, and hybrid is forward without. It
+  /// must outlive the request.
   PolicyRequest<T> by(LinearisePolicy policy, const TemplatePatch* prepared = nullptr) const noexcept {
     return {*this, policy, prepared};
   }
@@ -26138,6 +29535,10 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 
+// The double reference of LinearisePolicy::hybrid: its H. residual_request.hpp has the formula.
+#ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
+#define TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
+
 // Photometric residuals through rolling shutters: a request whose images take their rows one after the other becomes
 // one of still images by the warp of geometry/row_warp.hpp, and what comes back is seen through it.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_ROWS_HPP
@@ -26227,6 +29628,101 @@ class RowForm {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_RESIDUAL_ROWS_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+
+// Whether the policy hybrid has what it needs; else it is forward.
+template <class T>
+bool takes_hybrid(const PolicyRequest<T>& q, int visible) noexcept {
+  return q.prepared && !q.input.patch.mask && visible > kHybridPixels;
+}
+
+// Of the visible pixels, whose weights are in the workspace: the mean weight times sum |J^T a|^2.
+template <class T>
+double pulled_energy(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
+  const auto& in = request.input;
+  const Pinhole<double>&h = in.host_camera, &c = in.target_camera;
+  const Matrix3<double> H = plane_homography(request.theta, request.T_t_h);
+  const Vector3<double> middle = H * patch_centre(in);
+  FixedMatrix<double, 2, 2> J;
+  for (int r = 0; r < 2; ++r) {
+    const double ray = middle[r] / middle[2];
+    J(r, 0) = (H(r, 0) - ray * H(2, 0)) / (middle[2] * h.fx);
+    J(r, 1) = (H(r, 1) - ray * H(2, 1)) / (middle[2] * h.fy);
+  }
+  const std::uint8_t* visible = workspace.visible();
+  const double* w = workspace.intensities();
+  double energy = 0, weights = 0;
+  int seen = 0;
+  for (int i = 0; i < in.patch.n; ++i) {
+    if (!visible[i]) continue;
+    const Vector3<double> q = H * h.unproject({in.patch.x[i], in.patch.y[i]});
+    Vector2<double> m(q[0] / q[2], q[1] / q[2]);
+    FixedMatrix<double, 2, 2> D = FixedMatrix<double, 2, 2>::Identity();
+    if (in.lens) m = in.lens->distort(m, &D);
+    double value, gx, gy;
+    sample_inside(in.target, c.fx * m[0] + c.cx, c.fy * m[1] + c.cy, &value, &gx, &gy);
+    const double a = gx * c.fx, b = gy * c.fy, by_u = a * D(0, 0) + b * D(1, 0), by_v = a * D(0, 1) + b * D(1, 1);
+    for (int j = 0; j < 2; ++j) {
+      const double pulled = J(0, j) * by_u + J(1, j) * by_v;
+      energy += pulled * pulled;
+    }
+    weights += w[seen++];
+  }
+  return weights / seen * energy;
+}
+
+// The template's H of the whole patch, times `energy` of the target's normalised gradients over that of the host's. The
+// workspace's numbers are lost.
+template <int P, class T>
+FixedMatrix<double, P, P> hybrid_matrix(const PolicyRequest<T>& request, const Matrix3<double>& inverse, double energy,
+                                        PhotometricWorkspace& workspace) noexcept {
+  const PatchView& patch = request.input.patch;
+  const Pinhole<double>& camera = request.input.host_camera;
+  const Matrix3<double> H = plane_homography(request.theta, request.T_t_h);
+  const double* t = request.T_t_h.t.data();
+  const bool exact = request.options.normalisation == Normalisation::exact;
+  double host_energy = 0, mean = 0, squares = 0;
+  for (int i = 0; i < patch.n; ++i) mean += static_cast<double>(patch.intensity[i]) / patch.n;
+  double *rows = workspace.rows(), *h = workspace.residuals();
+  for (int i = 0; i < patch.n; ++i) {
+    h[i] = static_cast<double>(patch.intensity[i]) - mean;
+    squares += h[i] * h[i];
+    const Vector3<double> m = camera.unproject({patch.x[i], patch.y[i]}), q = H * m;
+    const double gx = static_cast<double>(patch.gx[i]), gy = static_cast<double>(patch.gy[i]);
+    host_energy += gx * gx + gy * gy;
+    const double au = gx * camera.fx, av = gy * camera.fy, aw = -(au * m[0] + av * m[1]);
+    double a[3];
+    for (int j = 0; j < 3; ++j) a[j] = au * inverse(0, j) + av * inverse(1, j) + aw * inverse(2, j);
+    intensity_row<P>(m[0], m[1], q.data(), request.theta.dot(m), a, t, rows + static_cast<std::ptrdiff_t>(i) * P);
+  }
+  double e[kLength<P>] = {}, c[kLength<P>] = {};
+  for (int i = 0; exact && i < patch.n; ++i)
+    for (int j = 0; j < P; ++j) {
+      e[j] += rows[i * P + j] / patch.n;
+      c[j] += h[i] / squares * rows[i * P + j];
+    }
+  FixedMatrix<double, P, P> out = FixedMatrix<double, P, P>::Zero();
+  for (int i = 0; i < patch.n; ++i) {
+    double row[kLength<P>];
+    for (int j = 0; j < P; ++j) row[j] = rows[i * P + j] - e[j] - h[i] * c[j];
+    for (int r = 0; r < P; ++r)
+      for (int k = 0; k < P; ++k) out(r, k) += row[r] * row[k];
+  }
+  // 1 / s_h^2 of the rows and of the host's energy cancel.
+  const double scale = energy / host_energy;
+  for (int r = 0; r < P; ++r)
+    for (int k = 0; k < P; ++k) out(r, k) *= scale;
+  return out;
+}
+
+}  // namespace detail
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
 // The normal equations of pose and plane, seen through the world poses of host and target.
 #ifndef TEXTPLANE_PHOTOMETRY_WORLD_PARAMETERS_HPP
 #define TEXTPLANE_PHOTOMETRY_WORLD_PARAMETERS_HPP
@@ -26327,8 +29823,8 @@ Preamble begin(const ResidualRequest<T>& q, const std::uint8_t* on_set, std::uin
 template <class T>
 Status check_policy(const PolicyRequest<T>& q, Matrix3<double>* inverse) noexcept {
   if (q.policy == LinearisePolicy::forward) return Status::ok;
-  if (q.policy != LinearisePolicy::template_jacobian && q.policy != LinearisePolicy::esm)
-    return Status::invalid_argument;
+  if (q.policy == LinearisePolicy::hybrid && !takes_hybrid(q, q.input.patch.n)) return Status::ok;
+  if (q.policy >= LinearisePolicy::automatic) return Status::invalid_argument;
   if (q.input.patch.n > 0 && (!q.input.patch.gx || !q.input.patch.gy)) return Status::invalid_argument;
   return plane_homography_inverse(q.theta, q.T_t_h, inverse);
 }
@@ -26401,10 +29897,15 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
     if (!is_ok(out.status)) return out;
     const int n = start.seen.visible;
     detail::project<P>(n, start.target.s, request.options.normalisation, workspace);
-    if (request.policy != LinearisePolicy::forward)
+    const bool hybrid = request.policy == LinearisePolicy::hybrid;
+    if (request.policy != LinearisePolicy::forward && !hybrid)
       detail::add_host_rows<P>(request, inverse, start.host.s, n, workspace);
     const detail::WeightedCost sum = detail::weigh(n, request.options.robust, workspace);
     detail::accumulate<P>(n, workspace, &out.H, &out.b);
+    if (hybrid && detail::takes_hybrid(request, n)) {
+      const double energy = detail::pulled_energy(request, workspace) / (start.target.s * start.target.s);
+      out.H = detail::hybrid_matrix<P>(request, inverse, energy, workspace);
+    }
     if (!all_finite(out.H) || !all_finite(out.b) || !is_finite(sum.cost)) {
       out.clear();
       out.status = Status::non_finite;
@@ -29589,6 +33090,234 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kBatchStep = simd::kBatchLanes, kBatchFields = 12, kBatchStrip = 16 };
+enum : int { kBatchRow = 0, kBatchTarget = 9, kBatchHost = 10, kBatchWeight = 11 };
+TEXTPLANE_SIMD_INLINE vp batch_most(vp f0, vp f1, vp f2, vp ru, vp rv) noexcept {
+  return madd_p(abs_p(f0), ru, madd_p(abs_p(f1), rv, f2));
+}
+struct BatchVerdict {
+  double size[simd::kBatchLanes], most[simd::kBatchLanes], least[simd::kBatchLanes], inside[simd::kBatchLanes],
+      whole[simd::kBatchLanes];
+};
+TEXTPLANE_SIMD_INLINE void batch_borders(const vp* g, vp r0, vp r1, vp r2, vp ox, vp oy, vp w1, vp h1, vp ru, vp rv,
+                                         int l, BatchVerdict* verdict) noexcept {
+  const vp margin = set_p(1e-3), x0 = add_p(ox, margin), y0 = add_p(oy, margin);
+  const vp x1 = add_p(sub_p(w1, ox), margin), y1 = add_p(sub_p(h1, oy), margin);
+  const vp left2 = madd_p(x0, g[8], g[2]), upper2 = madd_p(y0, g[8], g[5]);
+  const vp right2 = sub_p(mul_p(x1, g[8]), g[2]), lower2 = sub_p(mul_p(y1, g[8]), g[5]);
+  const vp left = batch_most(madd_p(x0, g[6], g[0]), madd_p(x0, g[7], g[1]), left2, ru, rv);
+  const vp upper = batch_most(madd_p(y0, g[6], g[3]), madd_p(y0, g[7], g[4]), upper2, ru, rv);
+  const vp right = batch_most(sub_p(mul_p(x1, g[6]), g[0]), sub_p(mul_p(x1, g[7]), g[1]), right2, ru, rv);
+  const vp lower = batch_most(sub_p(mul_p(y1, g[6]), g[3]), sub_p(mul_p(y1, g[7]), g[4]), lower2, ru, rv);
+  const vp front = batch_most(g[6], g[7], g[8], ru, rv), front_h = batch_most(r0, r1, r2, ru, rv);
+  const vp back = batch_most(sub_p(set_p(0.0), g[6]), g[7], sub_p(set_p(0.0), g[8]), ru, rv);
+  const vp back_h = batch_most(sub_p(set_p(0.0), r0), r1, sub_p(set_p(0.0), r2), ru, rv);
+  store_p(verdict->most + l, min_p(front, front_h));
+  const vp least = sub_p(set_p(0.0), max_p(back, back_h));
+  store_p(verdict->least + l, least);
+  store_p(verdict->inside + l, min_p(min_p(left, right), min_p(upper, lower)));
+  const vp across = min_p(sub_p(add_p(left2, left2), left), sub_p(add_p(right2, right2), right));
+  const vp down = min_p(sub_p(add_p(upper2, upper2), upper), sub_p(add_p(lower2, lower2), lower));
+  store_p(verdict->whole + l, min_p(sub_p(min_p(across, down), mul_p(add_p(margin, margin), front)), least));
+}
+TEXTPLANE_SIMD_INLINE void batch_lanes(const simd::BatchArgs& a, const simd::BatchGroup& o, const double* const* pose,
+                                       int l, BatchFrame* f, BatchVerdict* verdict) noexcept {
+  const vp fx = set_p(a.camera[0]), fy = set_p(a.camera[1]), cx = set_p(a.camera[2]), cy = set_p(a.camera[3]);
+  const vp one = set_p(1.0), none = set_p(0.0), ifx = load_p(o.ifx + l), ify = load_p(o.ify + l), mu = load_p(o.mu + l),
+           mv = load_p(o.mv + l);
+  const vp p0 = load_p(o.theta[0] + l), p1 = load_p(o.theta[1] + l), p2 = load_p(o.theta[2] + l);
+  const vp ru = load_p(o.ru + l), rv = load_p(o.rv + l);
+  vp S[3][3], t[3];
+  for (int r = 0; r < 3; ++r) {
+    t[r] = from_p(pose + l, a.t_offset + r);
+    const vp h0 = madd_p(t[r], p0, from_p(pose + l, r)), h1 = madd_p(t[r], p1, from_p(pose + l, 3 + r));
+    S[r][0] = mul_p(h0, ifx);
+    S[r][1] = mul_p(h1, ify);
+    S[r][2] = madd_p(h0, mu, madd_p(h1, mv, madd_p(t[r], p2, from_p(pose + l, 6 + r))));
+  }
+  const vp z = S[2][2], size = madd_p(set_p(50.0), add_p(abs_p(S[2][0]), abs_p(S[2][1])), abs_p(z)),
+           scale = div_p(one, size);
+  const vp inverse = positive_p(z, div_p(one, z), none);
+  const vp w1 = set_p(a.target.width - 1), h1 = set_p(a.target.height - 1);
+  const vp ox = trunc_p(min_p(max_p(madd_p(mul_p(fx, S[0][2]), inverse, cx), none), w1));
+  const vp oy = trunc_p(min_p(max_p(madd_p(mul_p(fy, S[1][2]), inverse, cy), none), h1));
+  const vp du = sub_p(cx, ox), dv = sub_p(cy, oy);
+  vp g[9];
+  for (int k = 0; k < 3; ++k) {
+    g[k] = mul_p(madd_p(fx, S[0][k], mul_p(du, S[2][k])), scale);
+    g[3 + k] = mul_p(madd_p(fy, S[1][k], mul_p(dv, S[2][k])), scale);
+    g[6 + k] = mul_p(S[2][k], scale);
+  }
+  const vp r0 = mul_p(mul_p(p0, ifx), scale), r1 = mul_p(mul_p(p1, ify), scale),
+           r2 = mul_p(madd_p(p0, mu, madd_p(p1, mv, p2)), scale);
+  vp sum = add_p(add_p(size, div_p(one, size)), add_p(abs_p(r0), add_p(abs_p(r1), abs_p(r2))));
+  for (int k = 0; k < 9; ++k) {
+    store_as_float(f->g[k] + l, g[k]);
+    sum = add_p(sum, abs_p(g[k]));
+  }
+  for (int k = 0; k < 3; ++k) {
+    store_as_float(f->t[k] + l, mul_p(t[k], scale));
+    sum = madd_p(abs_p(t[k]), scale, sum);
+  }
+  store_as_float(f->rho[0] + l, r0);
+  store_as_float(f->rho[1] + l, r1);
+  store_as_float(f->rho[2] + l, r2);
+  store_as_float(f->u0 + l, div_p(sub_p(none, du), fx));
+  store_as_float(f->v0 + l, div_p(sub_p(none, dv), fy));
+  store_as_float(f->hu[0] + l, ifx);
+  store_as_float(f->hu[1] + l, mu);
+  store_as_float(f->hv[0] + l, ify);
+  store_as_float(f->hv[1] + l, mv);
+  store_as_float(f->x_low + l, sub_p(none, ox));
+  store_as_float(f->y_low + l, sub_p(none, oy));
+  store_as_float(f->x_high + l, sub_p(w1, ox));
+  store_as_float(f->y_high + l, sub_p(h1, oy));
+  store_p(verdict->size + l, sum);
+  batch_borders(g, r0, r1, r2, ox, oy, w1, h1, ru, rv, l, verdict);
+}
+TEXTPLANE_SIMD_INLINE void batch_group(const simd::BatchArgs& a, const simd::BatchGroup& o, int first, int members,
+                                       BatchFrame* f) noexcept {
+  const double* pose[simd::kBatchLanes];
+  for (int l = 0; l < simd::kBatchLanes; ++l) pose[l] = a.pose + (first + (l < members ? l : 0)) * a.pose_step;
+  BatchVerdict verdict;
+  for (int l = 0; l < simd::kBatchLanes; l += kDoubles) batch_lanes(a, o, pose, l, f, &verdict);
+  for (int l = 0; l < simd::kBatchLanes; ++l) {
+    f->whole[l] = verdict.whole[l] > 0 && verdict.size[l] < 1e30;
+    f->n[l] = l < members && f->whole[l] ? o.n[l] : 0;
+    Status status = Status::ok;
+    if (f->n[l] > 0) {
+      a.status[first + l] = status;
+      continue;
+    }
+    if (l >= members) continue;
+    if (!(verdict.size[l] < 1e30))
+      status = Status::non_finite;
+    else if (o.n[l] < 1)
+      status = Status::too_few;
+    else if (!(verdict.most[l] > 0))
+      status = Status::behind_camera;
+    else if (verdict.least[l] > 0 && !(verdict.inside[l] > 0))
+      status = Status::out_of_view;
+    else
+      f->n[l] = o.n[l];
+    a.status[first + l] = status;
+  }
+}
+struct BatchStripMemory {
+  float x[kBatchStrip][simd::kBatchLanes], y[kBatchStrip][simd::kBatchLanes], inverse[kBatchStrip][simd::kBatchLanes];
+  float fx[kBatchStrip][simd::kBatchLanes], fy[kBatchStrip][simd::kBatchLanes];
+  std::int32_t offset[kBatchStrip * simd::kBatchLanes];
+  std::uint32_t taps[kBatchStrip * simd::kBatchLanes];
+};
+struct BatchCounts {
+  vf visible, behind, target, host;
+};
+TEXTPLANE_SIMD_INLINE void batch_warp(const BatchFrame& f, int lane, bool whole, const float* pixels, int k, int m,
+                                      int stride, BatchStripMemory* s, float* scratch, BatchCounts* counts) noexcept {
+  const vf g0 = load(f.g[0] + lane), g1 = load(f.g[1] + lane), g2 = load(f.g[2] + lane);
+  const vf g3 = load(f.g[3] + lane), g4 = load(f.g[4] + lane), g5 = load(f.g[5] + lane);
+  const vf g6 = load(f.g[6] + lane), g7 = load(f.g[7] + lane), g8 = load(f.g[8] + lane);
+  const vf r0 = load(f.rho[0] + lane), r1 = load(f.rho[1] + lane), r2 = load(f.rho[2] + lane);
+  const vf x_low = load(f.x_low + lane), x_high = load(f.x_high + lane), y_low = load(f.y_low + lane);
+  const vf y_high = load(f.y_high + lane), one = set1(1.0F), n = to_float(loadi(f.n + lane));
+  const vi rows = seti(stride), base = addi(muli(to_int(y_low), rows), to_int(x_low));
+  for (int i = 0; i < m; ++i) {
+    const float* p = pixels + static_cast<std::ptrdiff_t>(k + i) * 3 * kBatchStep + lane;
+    const vf u = load(p), v = load(p + kBatchStep);
+    const vf divisor = madd(g6, u, madd(g7, v, g8)), inverse = div(one, divisor);
+    const vf x = mul(madd(g0, u, madd(g1, v, g2)), inverse), y = mul(madd(g3, u, madd(g4, v, g5)), inverse);
+    float* out = scratch + static_cast<std::ptrdiff_t>(k + i) * kBatchFields * kLanes;
+    store(s->x[i] + lane, x);
+    store(s->y[i] + lane, y);
+    const vf last = sub(x_high, one), below = sub(y_high, one);
+    const vf cx = min_(max_(floor_(x), x_low), last), cy = min_(max_(floor_(y), y_low), below);
+    storei(s->offset + i * kLanes, subi(addi(muli(to_int(cy), rows), to_int(cx)), base));
+    if (whole) {
+      const vf host = load(p + 2 * kBatchStep);
+      store(s->inverse[i] + lane, inverse);
+      store(s->fx[i] + lane, sub(x, cx));
+      store(s->fy[i] + lane, sub(y, cy));
+      store(out + kBatchHost * kLanes, host);
+      counts->host = add(counts->host, host);
+      continue;
+    }
+    const vf rho = madd(r0, u, madd(r1, v, r2));
+    const vm exists = lt(set1(static_cast<float>(k + i)), n);
+    const vm ahead = and_(gt(rho, zero()), gt(divisor, zero()));
+    const vm inside = and_(and_(ge(x, x_low), le(x, x_high)), and_(ge(y, y_low), le(y, y_high)));
+    const vm seen = and_(and_(exists, ahead), inside);
+    store(s->inverse[i] + lane, keep(seen, inverse));
+    store(s->fx[i] + lane, keep(seen, sub(x, cx)));
+    store(s->fy[i] + lane, keep(seen, sub(y, cy)));
+    const vf weight = keep(seen, one), host = keep(seen, load(p + 2 * kBatchStep));
+    store(out + kBatchWeight * kLanes, weight);
+    store(out + kBatchHost * kLanes, host);
+    counts->visible = add(counts->visible, weight);
+    counts->behind = add(counts->behind, keep(andnot_(ahead, exists), one));
+    counts->host = add(counts->host, host);
+  }
+  if (whole) counts->visible = add(counts->visible, set1(static_cast<float>(m)));
+}
+TEXTPLANE_SIMD_INLINE void batch_rows(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
+                                      int parameters, const float* pixels, int k, int m, const BatchStripMemory& s,
+                                      float* scratch, BatchCounts* counts) noexcept {
+  const vf r0 = load(f.rho[0] + lane), r1 = load(f.rho[1] + lane), r2 = load(f.rho[2] + lane);
+  const vf t0 = load(f.t[0] + lane), t1 = load(f.t[1] + lane), t2 = load(f.t[2] + lane);
+  const vf u0 = load(f.u0 + lane), v0 = load(f.v0 + lane);
+  const vf fx = set1(static_cast<float>(a.camera[0])), fy = set1(static_cast<float>(a.camera[1]));
+  const vf ifx = set1(static_cast<float>(1 / a.camera[0])), ify = set1(static_cast<float>(1 / a.camera[1]));
+  for (int i = 0; i < m; ++i) {
+    float* out = scratch + static_cast<std::ptrdiff_t>(k + i) * kBatchFields * kLanes;
+    const taps_t taps = load_taps(s.taps + i * kLanes);
+    const vf dx = load(s.fx[i] + lane), dy = load(s.fy[i] + lane), dxy = tap_dxy(taps), along = tap_dx(taps);
+    const vf gx = madd(dy, dxy, along), gy = madd(dx, dxy, tap_dy(taps));
+    const vf weight = whole ? set1(1.0F) : load(out + kBatchWeight * kLanes),
+             here = madd(dy, gy, madd(dx, along, tap_value(taps)));
+    const vf value = whole ? here : mul(weight, here);
+    if (whole) store(out + kBatchWeight * kLanes, weight);
+    store(out + kBatchTarget * kLanes, value);
+    counts->target = add(counts->target, value);
+    if (parameters == 0) continue;
+    const float* p = pixels + static_cast<std::ptrdiff_t>(k + i) * 3 * kBatchStep + lane;
+    const vf u = load(p), v = load(p + kBatchStep), inverse = load(s.inverse[i] + lane);
+    vf tu = madd(load(s.x[i] + lane), ifx, u0), tv = madd(load(s.y[i] + lane), ify, v0);
+    if (!whole) {
+      const vm seen = gt(weight, zero());
+      tu = keep(seen, tu);
+      tv = keep(seen, tv);
+    }
+    const vf a0 = mul(whole ? gx : mul(weight, gx), fx), a1 = mul(whole ? gy : mul(weight, gy), fy);
+    const vf a2 = neg(madd(a0, tu, mul(a1, tv)));
+    const vf depth = mul(madd(r0, u, madd(r1, v, r2)), inverse);
+    store(out, mul(depth, a0));
+    store(out + kLanes, mul(depth, a1));
+    store(out + 2 * kLanes, mul(depth, a2));
+    store(out + 3 * kLanes, sub(mul(tv, a2), a1));
+    store(out + 4 * kLanes, nmadd(tu, a2, a0));
+    store(out + 5 * kLanes, sub(mul(tu, a1), mul(tv, a0)));
+    if (parameters == 6) continue;
+    const vf at = mul(madd(a0, t0, madd(a1, t1, mul(a2, t2))), inverse);
+    store(out + 6 * kLanes, mul(at, madd(u, load(f.hu[0] + lane), load(f.hu[1] + lane))));
+    store(out + 7 * kLanes, mul(at, madd(v, load(f.hv[0] + lane), load(f.hv[1] + lane))));
+    store(out + 8 * kLanes, at);
+  }
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -30048,6 +33777,110 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void batch_means(const float* scratch, int n, int row, vf* sum, vf* product) noexcept {
+  vf s0 = zero(), s1 = s0, s2 = s0, p0 = s0, p1 = s0, p2 = s0;
+  for (int k = 0; k < n; ++k) {
+    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf i = hold(load(p + kBatchTarget * kLanes));
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
+    s0 = add(s0, a);
+    s1 = add(s1, b);
+    s2 = add(s2, c);
+    p0 = madd(i, a, p0);
+    p1 = madd(i, b, p1);
+    p2 = madd(i, c, p2);
+  }
+  sum[row] = s0;
+  sum[row + 1] = s1;
+  sum[row + 2] = s2;
+  product[row] = p0;
+  product[row + 1] = p1;
+  product[row + 2] = p2;
+}
+TEXTPLANE_SIMD_INLINE int batch_at(int parameters, int r, int c) noexcept {
+  return r * parameters - r * (r - 1) / 2 + c - r;
+}
+TEXTPLANE_SIMD_INLINE void batch_put(float* out, int entry, vf value) noexcept {
+  store(out + entry * kBatchStep, value);
+}
+TEXTPLANE_SIMD_INLINE vf batch_square(const float* scratch, int n, int parameters, int row, vf scale, vf scale_b,
+                                      float* out) noexcept {
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, b0 = s0, b1 = s0, b2 = s0;
+  for (int k = 0; k < n; ++k) {
+    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
+    const vf r = hold(load(p + kBatchHost * kLanes));
+    s0 = madd(a, a, s0);
+    s1 = madd(a, b, s1);
+    s2 = madd(a, c, s2);
+    s3 = madd(b, b, s3);
+    s4 = madd(b, c, s4);
+    s5 = madd(c, c, s5);
+    b0 = madd(a, r, b0);
+    b1 = madd(b, r, b1);
+    b2 = madd(c, r, b2);
+  }
+  batch_put(out, batch_at(parameters, row, row), mul(scale, s0));
+  batch_put(out, batch_at(parameters, row, row + 1), mul(scale, s1));
+  batch_put(out, batch_at(parameters, row, row + 2), mul(scale, s2));
+  batch_put(out, batch_at(parameters, row + 1, row + 1), mul(scale, s3));
+  batch_put(out, batch_at(parameters, row + 1, row + 2), mul(scale, s4));
+  batch_put(out, batch_at(parameters, row + 2, row + 2), mul(scale, s5));
+  float* b_out = out + (parameters * (parameters + 1) / 2 + row) * kBatchStep;
+  batch_put(b_out, 0, mul(scale_b, b0));
+  batch_put(b_out, 1, mul(scale_b, b1));
+  batch_put(b_out, 2, mul(scale_b, b2));
+  return madd(scale, add(s0, add(s3, s5)), mul(scale_b, add(b0, add(b1, b2))));
+}
+TEXTPLANE_SIMD_INLINE void batch_cross(const float* scratch, int n, int parameters, int row, int column, vf scale,
+                                       float* out) noexcept {
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
+  for (int k = 0; k < n; ++k) {
+    const float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf a = hold(load(p + row * kLanes)), b = hold(load(p + (row + 1) * kLanes)),
+             c = hold(load(p + (row + 2) * kLanes));
+    const vf x = hold(load(p + column * kLanes)), y = hold(load(p + (column + 1) * kLanes)),
+             z = hold(load(p + (column + 2) * kLanes));
+    s0 = madd(a, x, s0);
+    s1 = madd(a, y, s1);
+    s2 = madd(a, z, s2);
+    s3 = madd(b, x, s3);
+    s4 = madd(b, y, s4);
+    s5 = madd(b, z, s5);
+    s6 = madd(c, x, s6);
+    s7 = madd(c, y, s7);
+    s8 = madd(c, z, s8);
+  }
+  const int r0 = batch_at(parameters, row, column), r1 = batch_at(parameters, row + 1, column);
+  const int r2 = batch_at(parameters, row + 2, column);
+  batch_put(out, r0, mul(scale, s0));
+  batch_put(out, r0 + 1, mul(scale, s1));
+  batch_put(out, r0 + 2, mul(scale, s2));
+  batch_put(out, r1, mul(scale, s3));
+  batch_put(out, r1 + 1, mul(scale, s4));
+  batch_put(out, r1 + 2, mul(scale, s5));
+  batch_put(out, r2, mul(scale, s6));
+  batch_put(out, r2 + 1, mul(scale, s7));
+  batch_put(out, r2 + 2, mul(scale, s8));
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -31051,6 +34884,218 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void batch_centre(float* scratch, int n, vf target_mean, vf host_mean, vf* target,
+                                        vf* host) noexcept {
+  vf t = zero(), h = zero();
+  for (int k = 0; k < n; ++k) {
+    float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf w = load(p + kBatchWeight * kLanes);
+    const vf a = mul(w, sub(load(p + kBatchTarget * kLanes), target_mean));
+    const vf b = mul(w, sub(load(p + kBatchHost * kLanes), host_mean));
+    store(p + kBatchTarget * kLanes, a);
+    store(p + kBatchHost * kLanes, b);
+    t = madd(a, a, t);
+    h = madd(b, b, h);
+  }
+  *target = t;
+  *host = h;
+}
+TEXTPLANE_SIMD_INLINE void batch_weigh(float* scratch, int n, int parameters, RobustKind kind, const simd::BatchArgs& a,
+                                       vf host_scale, vf target_scale, const vf* mean, const vf* along, vf* cost,
+                                       vf* error) noexcept {
+  const bool huber = kind == RobustKind::huber, all = kind == RobustKind::cauchy;
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf limit = set1(huber ? static_cast<float>(a.delta) : 0.0F), root_limit = sqrt_(limit);
+  vf c = zero(), s = zero();
+  for (int k = 0; k < n; ++k) {
+    float* p = scratch + static_cast<std::ptrdiff_t>(k) * kBatchFields * kLanes;
+    const vf i = hold(load(p + kBatchTarget * kLanes)),
+             e = nmadd(i, target_scale, mul(load(p + kBatchHost * kLanes), host_scale));
+    vf root = load(p + kBatchWeight * kLanes);
+    s = madd(e, e, s);
+    if (huber) {
+      const vf size = abs_(e), m = min_(size, limit);
+      c = madd(m, add(size, sub(size, m)), c);
+      root = select(gt(size, limit), mul(root_limit, inverse_root(max_(size, limit))), root);
+    } else if (all) {
+      vf rho, weight;
+      robust_vector(robust, mul(e, e), &rho, &weight);
+      c = add(c, rho);
+      root = mul(root, weight);
+    }
+    if (parameters == 0) continue;
+    store(p + kBatchHost * kLanes, huber || all ? mul(root, e) : e);
+    for (int j = 0; j < parameters; j += 3) {
+      float* row = p + j * kLanes;
+      store(row, mul(root, nmadd(i, along[j], sub(load(row), mean[j]))));
+      store(row + kLanes, mul(root, nmadd(i, along[j + 1], sub(load(row + kLanes), mean[j + 1]))));
+      store(row + 2 * kLanes, mul(root, nmadd(i, along[j + 2], sub(load(row + 2 * kLanes), mean[j + 2]))));
+    }
+  }
+  *cost = huber || all ? c : s;
+  *error = s;
+}
+TEXTPLANE_SIMD_ENTRY void batch_weigh_all(const simd::BatchArgs& a, int n, int parameters, const vf* scales,
+                                          const vf* mean, const vf* along, vf* cost, vf* error) noexcept {
+  batch_weigh(a.scratch, n, parameters, RobustKind::cauchy, a, scales[0], scales[1], mean, along, cost, error);
+}
+TEXTPLANE_SIMD_INLINE void batch_strips(const simd::BatchArgs& a, const BatchFrame& f, int lane, bool whole,
+                                        int parameters, const float* pixels, int n, BatchStripMemory* strip,
+                                        BatchCounts* counts) noexcept {
+  const int stride = static_cast<int>(a.target.stride);
+  for (int k = 0; k < n; k += kBatchStrip) {
+    const int m = n - k < kBatchStrip ? n - k : kBatchStrip;
+    if (whole)
+      batch_warp(f, lane, true, pixels, k, m, stride, strip, a.scratch, counts);
+    else
+      batch_warp(f, lane, false, pixels, k, m, stride, strip, a.scratch, counts);
+    fetch_rows(a.target.data, a.target.stride, strip->offset, m * kLanes, strip->taps);
+    if (whole)
+      batch_rows(a, f, lane, true, parameters, pixels, k, m, *strip, a.scratch, counts);
+    else
+      batch_rows(a, f, lane, false, parameters, pixels, k, m, *strip, a.scratch, counts);
+  }
+}
+TEXTPLANE_SIMD_INLINE unsigned batch_judge(const simd::BatchArgs& a, const BatchFrame& f, int lane, int lanes,
+                                           bool whole, const BatchCounts& counts, vf target, vf host, vf target_s,
+                                           vf host_s, vf target_mean, vf host_mean, vf root, unsigned all_lanes,
+                                           Status* status) noexcept {
+  const vf least = mul(root, set1(static_cast<float>(a.min_contrast > 0 ? a.min_contrast : 0))), floor = set1(1e-6F),
+           one = set1(1.0F);
+  const vm contrast = and_(and_(gt(target_s, least), gt(target_s, mul(root, mul(floor, abs_(target_mean))))),
+                           and_(gt(host_s, least), gt(host_s, mul(root, mul(floor, abs_(host_mean))))));
+  const vm enough = and_(ge(counts.visible, set1(static_cast<float>(a.min_visible))), ge(counts.visible, one));
+  const vm finite = lt(add(target, host), set1(3e38F));
+  const unsigned good = bits_from_mask(and_(and_(contrast, enough), finite)), many = bits_from_mask(enough),
+                 sane = bits_from_mask(finite);
+  const unsigned none = bits_from_mask(lt(counts.visible, one));
+  const unsigned behind = bits_from_mask(ge(counts.behind, to_float(loadi(f.n + lane))));
+  const bool easy = whole && (good & many) == all_lanes;
+  unsigned keep_lanes = easy ? all_lanes : 0;
+  for (int l = 0; l < lanes && !easy; ++l) {
+    if (status[l] != Status::ok) continue;
+    const unsigned bit = 1U << l;
+    if (!(many & bit))
+      status[l] = !(none & bit) ? Status::too_few : behind & bit ? Status::behind_camera : Status::out_of_view;
+    else if (!(sane & bit))
+      status[l] = Status::non_finite;
+    else if (!(good & bit))
+      status[l] = Status::no_contrast;
+    else
+      keep_lanes |= bit;
+  }
+  return keep_lanes;
+}
+TEXTPLANE_SIMD_INLINE unsigned batch_products(const float* scratch, int n, int parameters, vf target_s, vf root,
+                                              float* out) noexcept {
+  const vf inverse_s = div(set1(1.0F), max_(target_s, set1(1e-30F))), scale = mul(inverse_s, inverse_s);
+  const vf scale_b = neg(div(inverse_s, max_(root, set1(1.0F))));
+  vf all = batch_square(scratch, n, parameters, 0, scale, scale_b, out);
+  all = add(all, batch_square(scratch, n, parameters, 3, scale, scale_b, out));
+  batch_cross(scratch, n, parameters, 0, 3, scale, out);
+  if (parameters > 6) {
+    all = add(all, batch_square(scratch, n, parameters, 6, scale, scale_b, out));
+    batch_cross(scratch, n, parameters, 0, 6, scale, out);
+    batch_cross(scratch, n, parameters, 3, 6, scale, out);
+  }
+  return bits_from_mask(lt(abs_(all), set1(3e38F)));
+}
+TEXTPLANE_SIMD_INLINE void batch_vector(const simd::BatchArgs& a, const BatchFrame& f, int lane, int parameters,
+                                        const float* pixels, int n, Status* status, int lanes, float* out) noexcept {
+  BatchStripMemory strip;
+  BatchCounts counts = {zero(), zero(), zero(), zero()};
+  bool whole = true;
+  for (int l = lane; l < lane + kLanes; ++l) whole = whole && f.whole[l] && f.n[l] == n;
+  batch_strips(a, f, lane, whole, parameters, pixels, n, &strip, &counts);
+  const vf one = set1(1.0F), inverse_n = div(one, max_(counts.visible, one)), root = sqrt_(counts.visible);
+  const vf target_mean = mul(counts.target, inverse_n), host_mean = mul(counts.host, inverse_n);
+  vf target, host, cost, error;
+  batch_centre(a.scratch, n, target_mean, host_mean, &target, &host);
+  const vf tiny = set1(1e-30F), target_s = sqrt_(target), host_s = sqrt_(host);
+  const vf target_scale = div(root, max_(target_s, tiny)), host_scale = div(root, max_(host_s, tiny));
+  const unsigned all_lanes = 1U << (kLanes - 1) | ((1U << (kLanes - 1)) - 1U);
+  unsigned keep_lanes = batch_judge(a, f, lane, lanes, whole, counts, target, host, target_s, host_s, target_mean,
+                                    host_mean, root, all_lanes, status);
+  const int head = parameters * (parameters + 1) / 2 + parameters;
+  if (keep_lanes != 0) {
+    vf e[9], c[9];
+    if (parameters > 0) {
+      batch_means(a.scratch, n, 0, e, c);
+      batch_means(a.scratch, n, 3, e, c);
+      if (parameters > 6) batch_means(a.scratch, n, 6, e, c);
+      const vf square = div(one, max_(target, tiny));
+      for (int j = 0; j < parameters; ++j) {
+        e[j] = a.exact ? mul(e[j], inverse_n) : zero();
+        c[j] = a.exact ? mul(c[j], square) : zero();
+      }
+    }
+    const vf scales[2] = {host_scale, target_scale};
+    if (a.robust == RobustKind::huber)
+      batch_weigh(a.scratch, n, parameters, RobustKind::huber, a, host_scale, target_scale, e, c, &cost, &error);
+    else if (weighs_all(a.robust))
+      batch_weigh_all(a, n, parameters, scales, parameters > 0 ? e : nullptr, parameters > 0 ? c : nullptr, &cost,
+                      &error);
+    else
+      batch_weigh(a.scratch, n, parameters, RobustKind::l2, a, host_scale, target_scale, e, c, &cost, &error);
+    if (parameters > 0) {
+      const unsigned finite = batch_products(a.scratch, n, parameters, target_s, root, out);
+      for (int l = 0; (keep_lanes & ~finite) != 0 && l < lanes; ++l)
+        if (keep_lanes & ~finite & 1U << l) status[l] = Status::non_finite;
+      keep_lanes &= finite;
+    }
+    float* tail = out + head * kBatchStep;
+    batch_put(tail, static_cast<int>(simd::BatchEntry::cost), mul(cost, inverse_n));
+    batch_put(tail, static_cast<int>(simd::BatchEntry::error), mul(error, inverse_n));
+    batch_put(tail, static_cast<int>(simd::BatchEntry::mean), target_mean);
+    batch_put(tail, static_cast<int>(simd::BatchEntry::s), target_s);
+  }
+  const int visible = head + static_cast<int>(simd::BatchEntry::visible);
+  batch_put(out, visible, counts.visible);
+  if (keep_lanes != all_lanes)
+    for (int l = 0; l < kLanes; ++l)
+      if (!(keep_lanes >> l & 1U))
+        for (int entry = 0; entry < visible; ++entry) out[entry * kBatchStep + l] = 0.0F;
+}
+TEXTPLANE_SIMD_INLINE void batch_any(const simd::BatchArgs& a, int parameters) noexcept {
+  const int entries = simd::batch_entries(parameters);
+  for (int group = 0, first = 0; first < a.count; ++group, first += kBatchStep) {
+    const int members = a.count - first < kBatchStep ? a.count - first : static_cast<int>(kBatchStep);
+    float* out = a.out + static_cast<std::ptrdiff_t>(group) * entries * kBatchStep;
+    BatchFrame frame;
+    batch_group(a, a.groups[group], first, members, &frame);
+    for (int lane = 0; lane < kBatchStep; lane += kLanes) {
+      int n = 0;
+      for (int l = lane; l < lane + kLanes; ++l) n = frame.n[l] > n ? frame.n[l] : n;
+      const int lanes = members - lane < kLanes ? members - lane : static_cast<int>(kLanes);
+      if (n == 0) {
+        for (int entry = 0; entry < entries; ++entry) batch_put(out + lane, entry, zero());
+        continue;
+      }
+      batch_vector(a, frame, lane, parameters, a.pixels + a.groups[group].start, n, a.status + first + lane, lanes,
+                   out + lane);
+    }
+  }
+}
+TEXTPLANE_SIMD_ENTRY void batch_evaluate(const simd::BatchArgs& a) noexcept { batch_any(a, 0); }
+TEXTPLANE_SIMD_ENTRY void batch_linearise_pose(const simd::BatchArgs& a) noexcept { batch_any(a, 6); }
+TEXTPLANE_SIMD_ENTRY void batch_linearise_pose_plane(const simd::BatchArgs& a) noexcept { batch_any(a, 9); }
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -32906,7 +36951,8 @@ TEXTPLANE_END_NAMESPACE
 #include <algorithm>
 #include <cstddef>
 
-// linearise() by a policy: gradients of the target (forward), the host (template Jacobian), or both (ESM).
+// linearise() by a policy: gradients of the target (forward), the host (template Jacobian), both (ESM), or b by the
+// target's and H by the host's (hybrid).
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 
@@ -33279,6 +37325,75 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void set_generator(const double* left, const double* right, std::ptrdiff_t step,
+                                         double* m) noexcept {
+  const double corner = left[2] * right[2];
+  m[0] = left[0] * right[2];
+  m[step] = left[0] * right[0] - corner;
+  m[2 * step] = left[0] * right[1];
+  m[3 * step] = left[1] * right[2];
+  m[4 * step] = left[1] * right[0];
+  m[5 * step] = left[1] * right[1] - corner;
+  m[6 * step] = -(left[2] * right[0]);
+  m[7 * step] = -(left[2] * right[1]);
+}
+TEXTPLANE_SIMD_INLINE void take_generator(const double* left, const double* right, std::ptrdiff_t step,
+                                          double* m) noexcept {
+  const double corner = left[2] * right[2];
+  m[0] -= left[0] * right[2];
+  m[step] -= left[0] * right[0] - corner;
+  m[2 * step] -= left[0] * right[1];
+  m[3 * step] -= left[1] * right[2];
+  m[4 * step] -= left[1] * right[0];
+  m[5 * step] -= left[1] * right[1] - corner;
+  m[6 * step] += left[2] * right[0];
+  m[7 * step] += left[2] * right[1];
+}
+TEXTPLANE_SIMD_INLINE void host_matrix(const simd::ResidualArgs& a, const ResidualFrame& f, double (*M)[8]) noexcept {
+  const double fx = a.host_camera[0], fy = a.host_camera[1], ifx = 1 / fx, ify = 1 / fy;
+  const double c = a.host_camera[2] - static_cast<double>(f.warp.hx),
+               d = a.host_camera[3] - static_cast<double>(f.warp.hy), cx = c * ifx, dy = d * ify;
+  double column[3][3], row[3][3], back[3];
+  for (int k = 0; k < 3; ++k) {
+    const double h0 = f.inverse[k], h1 = f.inverse[3 + k], h2 = f.inverse[6 + k];
+    column[k][0] = fx * h0 + c * h2;
+    column[k][1] = fy * h1 + d * h2;
+    column[k][2] = h2;
+    const double q0 = a.R[3 * k] + a.t[k] * a.theta[0], q1 = a.R[3 * k + 1] + a.t[k] * a.theta[1];
+    const double q2 = a.R[3 * k + 2] + a.t[k] * a.theta[2];
+    row[k][0] = q0 * ifx;
+    row[k][1] = q1 * ify;
+    row[k][2] = q2 - q0 * cx - q1 * dy;
+  }
+  for (int r = 0; r < 3; ++r) back[r] = column[0][r] * a.t[0] + column[1][r] * a.t[1] + column[2][r] * a.t[2];
+  const double theta[3] = {a.theta[0] * ifx, a.theta[1] * ify, a.theta[2] - a.theta[0] * cx - a.theta[1] * dy};
+  const double unit[3][3] = {{ifx, 0, -cx}, {0, ify, -dy}, {0, 0, 1}};
+  for (int k = 0; k < 3; ++k) {
+    const int next = k < 2 ? k + 1 : 0, last = k > 0 ? k - 1 : 2;
+    set_generator(column[k], theta, 8, &M[0][k]);
+    set_generator(column[last], row[next], 8, &M[0][3 + k]);
+    take_generator(column[next], row[last], 8, &M[0][3 + k]);
+  }
+  set_generator(back, unit[0], 8, &M[0][6]);
+  set_generator(back, unit[1], 8, &M[0][7]);
+  set_generator(back, unit[2], 1, M[8]);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -34381,6 +38496,202 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void close_up_like(const std::uint8_t* flags, const float* p, int n, float* out) noexcept {
+  int visible = 0;
+  for (int i = 0; i < n; ++i) {
+    out[visible] = p[i];
+    visible += flags[i];
+  }
+}
+TEXTPLANE_SIMD_INLINE void pull_back(const simd::Warp8& w, const float* px, const float* py, int n, float* x, float* y,
+                                     float* a, float* b) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    const vm counted = first_n(n - i);
+    const vf u = sub(load_part(px + i, n - i), set1(w.hx)), v = sub(load_part(py + i, n - i), set1(w.hy));
+    const vf z = div(set1(1.0F), madd(set1(w.g[6]), u, madd(set1(w.g[7]), v, set1(w.g[8]))));
+    const vf gx = mul(load(a + i), z), gy = mul(load(b + i), z);
+    const vf along = neg(madd(gx, load(x + i), mul(gy, load(y + i))));
+    store(a + i, keep(counted, madd(gx, set1(w.g[0]), madd(gy, set1(w.g[3]), mul(along, set1(w.g[6]))))));
+    store(b + i, keep(counted, madd(gx, set1(w.g[1]), madd(gy, set1(w.g[4]), mul(along, set1(w.g[7]))))));
+    store(x + i, keep(counted, u));
+    store(y + i, keep(counted, v));
+  }
+}
+TEXTPLANE_SIMD_INLINE void mix_gradients(float on_target, float on_host, const float* g, int n, float* a,
+                                         float* host) noexcept {
+  for (int i = 0; i < n; i += kLanes) {
+    const vf h = mul(set1(on_host), load_part(g + i, n - i));
+    store(host + i, h);
+    store(a + i, madd(set1(on_target), load(a + i), h));
+  }
+}
+TEXTPLANE_SIMD_INLINE void residual_sums(const Residual& r, double root, const double* one, const double* i,
+                                         const double* d, double* with_n, double* with_r) noexcept {
+  for (int k = 0; k < 8; ++k) {
+    with_n[k] = (i[k] - r.i_mean * one[k]) / r.i_s;
+    with_r[k] = (d[k] * r.on_d + i[k] * r.on_i + one[k] * r.shift) / root;
+  }
+}
+struct EsmSums {
+  double S[8][8], X[3][8], W[3][3];
+};
+TEXTPLANE_SIMD_INLINE void project_esm(const double (*c)[8], EsmSums* k) noexcept {
+  double WC[3][8];
+  for (int p = 0; p < 3; ++p)
+    for (int i = 0; i < 8; ++i) WC[p][i] = k->W[p][0] * c[0][i] + k->W[p][1] * c[1][i] + k->W[p][2] * c[2][i];
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      for (int p = 0; p < 3; ++p) k->S[i][j] += c[p][i] * (WC[p][j] - k->X[p][j]) - k->X[p][i] * c[p][j];
+  for (int i = 0; i < 8; ++i) k->X[2][i] -= WC[2][i];
+}
+TEXTPLANE_SIMD_INLINE void unweighted_esm(const double* total, const double* total_host, const Residual& r,
+                                          double count, double root, double error, EsmSums* sums,
+                                          double (*c)[8]) noexcept {
+  unpack_products(8, total, sums->S);
+  const double* j1 = total + 27;
+  residual_sums(r, root, j1, j1 + 8, j1 + 16, sums->X[1], sums->X[2]);
+  double host_n[8], host_r[8];
+  residual_sums(r, root, total_host, total_host + 8, total_host + 16, host_n, host_r);
+  for (int k = 0; k < 8; ++k) {
+    sums->X[0][k] = j1[k];
+    c[0][k] = j1[k] / count;
+    c[1][k] = sums->X[1][k] + host_r[k];
+    c[2][k] = host_n[k] + host_r[k];
+  }
+  const double w_all[9] = {count, 0, 0, 0, 1, -0.5 * error, 0, -0.5 * error, error};
+  for (int k = 0; k < 9; ++k) sums->W[k / 3][k % 3] = w_all[k];
+}
+TEXTPLANE_SIMD_INLINE void correct_esm(const simd::ResidualArgs& a, const ResidualArrays& s, int n, int outliers,
+                                       const Residual& r, double root, RowStrip* rows, float* acc, float* unused_sums,
+                                       EsmSums* sums) noexcept {
+  enum : int { kProducts = 27, kAll = 51 };
+  const bool direct = outliers > n / 2;
+  const int weighted = direct ? n : outliers;
+  double w[5] = {0, 0, 0, 0, 0}, w_rr = 0, other[kMostSums];
+  RowConstants unused;
+  WeightedStrip ws;
+  for (int begin = 0; begin < weighted; begin += kStrip) {
+    const int m = weighted - begin < kStrip ? weighted - begin : kStrip;
+    weigh_strip(a, s, direct ? nullptr : s.list + begin, begin, m, r, root, !direct, &ws, w);
+    vf rr = zero();
+    for (int k = 0; k < m; k += kLanes) rr = madd(load(ws.r + k), load(ws.r + k), rr);
+    w_rr += reduce_sum_double(rr);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, rows, true, acc);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, *rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                   acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, *rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
+  }
+  double S[8][8];
+  unpack_products(8, other, S);
+  const double keep_all = direct ? 0 : 1, sign = direct ? 1 : -1;
+  const double w_some[9] = {w[0], w[1], w[3], w[1], w[2], w[4], w[3], w[4], w_rr};
+  for (int k = 0; k < 9; ++k) sums->W[k / 3][k % 3] = keep_all * sums->W[k / 3][k % 3] + sign * w_some[k];
+  for (int k = 0; k < 8; ++k) {
+    for (int p = 0; p < 3; ++p) sums->X[p][k] = keep_all * sums->X[p][k] + sign * other[kProducts + 8 * p + k];
+    for (int j = 0; j < 8; ++j) sums->S[k][j] = keep_all * sums->S[k][j] + sign * S[k][j];
+  }
+}
+TEXTPLANE_SIMD_INLINE Status esm_pixels(const simd::EsmArgs& e, const ResidualFrame& f, const HostPixels& host,
+                                        const float* gx, const float* gy, const ResidualArrays& s,
+                                        simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const simd::ResidualArgs& a = e.base;
+  enum : int { kProducts = 27, kAll = 51 };
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+    pull_back(f.warp, host.x + begin, host.y + begin, count, s.x + begin, s.y + begin, s.a + begin, s.b + begin);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  const double count = n, root = sqrt_d(count), host_s = root / (static_cast<double>(offsets.kappa) * r.on_d);
+  const float on_target = e.average ? static_cast<float>(0.5 / r.i_s) : 0.0F;
+  const float on_host = static_cast<float>((e.average ? 0.5 : 1.0) / host_s);
+  float acc[(kMostSums + 8) * kMostLanes], acc_host[32 * kMostLanes], ones[kStrip], ha[kStrip], hb[kStrip];
+  double total[kMostSums], total_host[32];
+  zero_rest(kAll, acc);
+  for (int k = 0; k < kStrip; k += kLanes) store(ones + k, set1(1.0F));
+  RowConstants unused;
+  RowStrip rows;
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int m = n - begin < kStrip ? n - begin : kStrip;
+    const float *x = s.x + begin, *y = s.y + begin, *i = s.i + begin, *d = s.d + begin;
+    mix_gradients(on_target, on_host, gx + begin, m, s.a + begin, ha);
+    mix_gradients(on_target, on_host, gy + begin, m, s.b + begin, hb);
+    const bool fresh = (begin / kStrip) % kLanes == 0;
+    add_strip_products(8, true, unused, x, y, s.a + begin, s.b + begin, m, &rows, fresh, acc);
+    add_strip_sums(8, x, y, s.a + begin, s.b + begin, rows, i, d, m, fresh, acc + (kProducts + 8) * kLanes,
+                   acc + (kProducts + 16) * kLanes);
+    if (!kManyRegisters) homography_rows(x, y, ha, hb, m, rows.row);
+    add_strip_sums(8, x, y, ha, hb, rows, ones, ones, m, fresh, acc_host, acc_host + 24 * kLanes);
+    add_strip_sums(8, x, y, ha, hb, rows, i, d, m, fresh, acc_host + 8 * kLanes, acc_host + 16 * kLanes);
+    if ((begin / kStrip) % kLanes == kLanes - 1 || begin + kStrip >= n) {
+      fold(acc, kAll, begin < kLanes * kStrip, total);
+      fold(acc_host, 32, begin < kLanes * kStrip, total_host);
+    }
+  }
+  const int outliers = add_costs(a, s, n, r, s.list, info);
+  EsmSums sums;
+  double c[3][8];
+  unweighted_esm(total, total_host, r, count, root, info->error, &sums, c);
+  if (outliers > 0) correct_esm(a, s, n, outliers, r, root, &rows, acc, acc_host, &sums);
+  if (a.exact) project_esm(c, &sums);
+  double g[8], M[9][8];
+  for (int k = 0; k < 8; ++k) g[k] = -sums.X[2][k];
+  host_matrix(a, f, M);
+  change_parameters(M, sums.S, g, H, b);
+  return Status::ok;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_esm(const simd::EsmArgs& e, simd::ResidualInfo* info, double* H,
+                                        double* b) noexcept {
+  const simd::ResidualArgs& a = e.base;
+  simd::PointBounds bounds = a.bounds;
+  if (bounds.n != a.n) find_bounds(a.x, a.y, a.n, &bounds);
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (!make_frame(a, bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  float *cx = e.scratch, *cy = e.scratch + simd::esm_scratch(a.n) / 2;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const HostPixels pixels = host_pixels(a, f, attempt == 1, s, info);
+    if (kInt16Tiles != 0 && pixels.n > kRowPixels) choose_tiles(a, bounds, pixels, &f);
+    info->status = Status::too_few;
+    if (pixels.n < 1 || pixels.n < a.min_visible) return;
+    const bool closed = pixels.x != a.x;
+    if (closed) {
+      close_up_like(a.flags, e.gx, a.n, cx);
+      close_up_like(a.flags, e.gy, a.n, cy);
+    }
+    info->status = esm_pixels(e, f, pixels, closed ? cx : e.gx, closed ? cy : e.gy, s, info, H, b);
+    if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::unsupported;
+    if (info->status != Status::non_finite) return;
+  }
+  info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -34798,6 +39109,81 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int {
+  kTemplateStrip = 16 * k16Lanes,
+  kTemplateChunk = 512 * kTemplateStrip,
+  kTemplateSums = 11,
+};
+struct TemplateStrip {
+  float inverse[kTemplateStrip];
+  std::int32_t offset[kTemplateStrip];
+  std::int16_t x[kTemplateStrip], y[kTemplateStrip];
+  std::int16_t fx[kTemplateStrip], fy[kTemplateStrip];
+};
+TEXTPLANE_SIMD_INLINE void template_store(bool tiles, vi rows, vi low, vi high, v16 x_high, v16 y_high, vi x0, vi y0,
+                                          vi x1, vi y1, int i, TemplateStrip& s) noexcept {
+  const vi fraction = seti(32767);
+  if (tiles) {
+    store16(s.x + i, min_unsigned16(pack16(shr(x0, 15), shr(x1, 15)), x_high));
+    store16(s.y + i, min_unsigned16(pack16(shr(y0, 15), shr(y1, 15)), y_high));
+  } else {
+    const vi o0 = addi(muli(shr(y0, 15), rows), shr(x0, 15)), o1 = addi(muli(shr(y1, 15), rows), shr(x1, 15));
+    storei(s.offset + i, mini(maxi(o0, low), high));
+    storei(s.offset + i + kLanes, mini(maxi(o1, low), high));
+  }
+  store16(s.fx + i, pack16(andi(x0, fraction), andi(x1, fraction)));
+  store16(s.fy + i, pack16(andi(y0, fraction), andi(y1, fraction)));
+}
+TEXTPLANE_SIMD_INLINE void template_lens_loop(const simd::TemplateArgs& a, const LensFrame& l, int kind,
+                                              const ImageTiles* tiles, int from, int stride, int low_offset,
+                                              int high_offset, int n, TemplateStrip& s) noexcept {
+  const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset);
+  const v16 x_high = set16(tiles ? tiles->x_high : 0), y_high = set16(tiles ? tiles->y_high : 0);
+  const LensVectors lens = broadcast_lens(l);
+  const vf g0 = set1(a.g[0]), g1 = set1(a.g[1]), g2 = set1(a.g[2]), g3 = set1(a.g[3]), g4 = set1(a.g[4]),
+           g5 = set1(a.g[5]), half = set1(0.5f), scale = set1(32768.0f);
+  vi at[4];
+  for (int i = 0; i < n; i += k16Lanes) {
+    TEXTPLANE_SIMD_UNROLL
+    for (int k = 0; k < 2; ++k) {
+      const int j = i + k * kLanes;
+      const vf u = load(a.u + from + j), v = load(a.v + from + j), z = load(s.inverse + j);
+      vf x, y, unused_t, unused_s, unused_slope;
+      lens_vector(l, lens, kind, false, mul(madd(g0, u, madd(g1, v, g2)), z), mul(madd(g3, u, madd(g4, v, g5)), z), &x,
+                  &y, &unused_t, &unused_s, &unused_slope);
+      at[2 * k] = to_int(madd(x, scale, half));
+      at[2 * k + 1] = to_int(madd(y, scale, half));
+    }
+    template_store(tiles != nullptr, rows, low, high, x_high, y_high, at[0], at[1], at[2], at[3], i, s);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void template_lens_cells(const simd::TemplateArgs& a, const LensFrame& l, const ImageTiles* tiles,
+                                              int from, int stride, int low_offset, int high_offset, int n,
+                                              TemplateStrip& s) noexcept {
+  const int low = low_offset, high = high_offset;
+  switch (lens_kind(l)) {
+    case kLensShort: return template_lens_loop(a, l, kLensShort, tiles, from, stride, low, high, n, s);
+    case kLensTangential: return template_lens_loop(a, l, kLensTangential, tiles, from, stride, low, high, n, s);
+    case kLensMiddle: return template_lens_loop(a, l, kLensMiddle, tiles, from, stride, low, high, n, s);
+    default: return template_lens_loop(a, l, kLensLong, tiles, from, stride, low, high, n, s);
+  }
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -35896,6 +40282,246 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE void template_divide(const simd::TemplateArgs& a, int from, int n, TemplateStrip& s) noexcept {
+  const vf g6 = set1(a.g[6]), g7 = set1(a.g[7]), one = set1(1.0f);
+  const float *u = a.u + from, *v = a.v + from;
+  for (int i = 0; i < n; i += k16Lanes) {
+    const vf w0 = madd(g6, load(u + i), madd(g7, load(v + i), one));
+    const vf w1 = madd(g6, load(u + i + kLanes), madd(g7, load(v + i + kLanes), one));
+    const vf r = div(one, mul(w0, w1));
+    store(s.inverse + i, mul(r, w1));
+    store(s.inverse + i + kLanes, mul(r, w0));
+  }
+}
+TEXTPLANE_SIMD_INLINE void template_cells(const simd::TemplateArgs& a, const ImageTiles* tiles, int from, int stride,
+                                          int low_offset, int high_offset, int n, TemplateStrip& s) noexcept {
+  const float scale = 32768.0f;
+  const vf g0 = set1(a.g[0] * scale), g1 = set1(a.g[1] * scale), g2 = set1(a.g[2] * scale);
+  const vf g3 = set1(a.g[3] * scale), g4 = set1(a.g[4] * scale), g5 = set1(a.g[5] * scale), half = set1(0.5f);
+  const vi rows = seti(stride), low = seti(low_offset), high = seti(high_offset);
+  const v16 x_high = set16(tiles ? tiles->x_high : 0), y_high = set16(tiles ? tiles->y_high : 0);
+  const float *u = a.u + from, *v = a.v + from;
+  for (int i = 0; i < n; i += k16Lanes) {
+    const vf p0 = load(u + i), q0 = load(v + i), z0 = load(s.inverse + i);
+    const vi x0 = to_int(madd(madd(g0, p0, madd(g1, q0, g2)), z0, half));
+    const vi y0 = to_int(madd(madd(g3, p0, madd(g4, q0, g5)), z0, half));
+    const vf p1 = load(u + i + kLanes), q1 = load(v + i + kLanes), z1 = load(s.inverse + i + kLanes);
+    const vi x1 = to_int(madd(madd(g0, p1, madd(g1, q1, g2)), z1, half));
+    const vi y1 = to_int(madd(madd(g3, p1, madd(g4, q1, g5)), z1, half));
+    template_store(tiles != nullptr, rows, low, high, x_high, y_high, x0, y0, x1, y1, i, s);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void template_tile_cells(const simd::TemplateArgs& a, const ImageTiles& w, int from, int n,
+                                              TemplateStrip& s) noexcept {
+  template_cells(a, &w, from, 0, 0, 0, n, s);
+}
+TEXTPLANE_SIMD_INLINE v16 template_value(v16 first, v16 second, v16 f, v16 g) noexcept {
+  const v16 a = add16(dot_pair(first, 64, 0), mul15(dot_pair(first, -64, 64), f));
+  const v16 b = add16(dot_pair(second, 64, 0), mul15(dot_pair(second, -64, 64), f));
+  return sub16(add16(a, mul15(sub16(b, a), g)), set16(8160));
+}
+TEXTPLANE_SIMD_INLINE void fetch_ahead(const std::int16_t* rows, int i) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  if (!kManyRegisters || !rows || i % kStep != 0) return;
+  const std::int16_t* p = rows + i * simd::kTemplateColumns;
+  TEXTPLANE_SIMD_PREFETCH(p);
+  TEXTPLANE_SIMD_PREFETCH(p + kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 2 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 3 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 4 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 5 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 6 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 7 * kStep);
+  TEXTPLANE_SIMD_PREFETCH(p + 8 * kStep);
+}
+TEXTPLANE_SIMD_INLINE void template_rows(const simd::TemplateArgs& a, int n, const TemplateStrip& s,
+                                         const std::int16_t* rows, std::int16_t* values) noexcept {
+  const std::uint8_t* upper = a.target.data + a.oy * a.target.stride + a.ox;
+  const std::uint8_t* lower = upper + a.target.stride;
+  for (int i = 0; i < n; i += k16Lanes) {
+    v16 first, second;
+    fetch_ahead(rows, i);
+    gather16(upper, lower, s.offset + i, &first, &second);
+    store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+  }
+}
+TEXTPLANE_SIMD_ENTRY void template_tiles(const ImageTiles& w, int n, const TemplateStrip& s, const std::int16_t* rows,
+                                         std::int16_t* values) noexcept {
+  const TileVectors v = broadcast_tiles(w);
+  std::uint64_t groups = 0;
+  for (int begin = 0; begin < n; begin += 256) {
+    const int end = n - begin < 256 ? n : begin + 256;
+    std::uint64_t fours = 0;
+    for (int i = begin; i < end; i += k16Lanes) {
+      v16 first, second;
+      fetch_ahead(rows, i);
+      fours |= static_cast<std::uint64_t>(tile_pairs(v, s.x + i, s.y + i, &first, &second)) << ((i - begin) / 4);
+      store16(values + i, template_value(first, second, load16(s.fx + i), load16(s.fy + i)));
+    }
+    groups |= ((fours | fours >> 1) & 0x5555555555555555ULL) << (begin / 256);
+  }
+  for (; groups != 0; groups &= groups - 1) {
+    const int bit = lowest_bit(groups), i = bit / 2 * 8 + (bit & 1) * 256;
+    int offset[8];
+    group_offsets(s.x + i, s.y + i, static_cast<int>(w.stride), offset);
+    v16 first, second;
+    fetch_group(v.upper, v.middle, offset, &first, &second);
+    store_group(values + i, template_value(first, second, load_group(s.fx + i), load_group(s.fy + i)));
+  }
+}
+TEXTPLANE_SIMD_INLINE void template_pairs(const simd::TemplateArgs& a, int n, TemplateStrip& s,
+                                          const std::int16_t* rows, std::int16_t* values) noexcept {
+  const std::uint16_t* origin = a.target.pairs + a.oy * a.target.pair_stride + a.ox;
+  for (int i = 0; i < n; i += k16Lanes) {
+    fetch_ahead(rows, i);
+    const vi p = gather_pairs(origin, s.offset + i), q = gather_pairs(origin, s.offset + i + kLanes);
+    store16(values + i, template_value(low16(p, q), high16(p, q), load16(s.fy + i), load16(s.fx + i)));
+  }
+}
+TEXTPLANE_SIMD_INLINE void template_flush(vi sum, bool first, vi* low, vi* high) noexcept {
+  const vi lower = andi(sum, seti(65535)), upper = shr(sum, 16);
+  *low = first ? lower : addi(*low, lower);
+  *high = first ? upper : addi(*high, upper);
+}
+TEXTPLANE_SIMD_INLINE void template_products(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                             vi* low, vi* high) noexcept {
+  vi total = seti(0), square = total, host = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
+    for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
+    }
+  }
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
+}
+TEXTPLANE_SIMD_INLINE void template_products4(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
+  vi c0 = seti(0), c1 = c0, c2 = c0, c3 = c0;
+  for (int i = 0; i < n; i += simd::kTemplateBlock, rows += simd::kTemplateColumns * simd::kTemplateBlock) {
+    for (int j = 0; j < simd::kTemplateBlock; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      c0 = add_dot16(c0, value, load16(rows + j));
+      c1 = add_dot16(c1, value, load16(rows + j + simd::kTemplateBlock));
+      c2 = add_dot16(c2, value, load16(rows + j + 2 * simd::kTemplateBlock));
+      c3 = add_dot16(c3, value, load16(rows + j + 3 * simd::kTemplateBlock));
+    }
+  }
+  template_flush(c0, first, low, high);
+  template_flush(c1, first, low + 1, high + 1);
+  template_flush(c2, first, low + 2, high + 2);
+  template_flush(c3, first, low + 3, high + 3);
+}
+TEXTPLANE_SIMD_ENTRY void template_products11(const std::int16_t* rows, const std::int16_t* values, int n, bool first,
+                                              vi* low, vi* high) noexcept {
+  enum : int { kStep = simd::kTemplateBlock };
+  vi total = seti(0), square = total, host = total;
+  vi c0 = total, c1 = total, c2 = total, c3 = total, c4 = total, c5 = total, c6 = total, c7 = total;
+  const v16 ones = set16(1);
+  for (int i = 0; i < n; i += kStep, rows += simd::kTemplateColumns * kStep) {
+    for (int j = 0; j < kStep; j += k16Lanes) {
+      const v16 value = load16(values + i + j);
+      total = add_dot16(total, value, ones);
+      square = add_dot16(square, value, value);
+      host = add_dot16(host, value, load16(rows + j));
+      c0 = add_dot16(c0, value, load16(rows + j + kStep));
+      c1 = add_dot16(c1, value, load16(rows + j + 2 * kStep));
+      c2 = add_dot16(c2, value, load16(rows + j + 3 * kStep));
+      c3 = add_dot16(c3, value, load16(rows + j + 4 * kStep));
+      c4 = add_dot16(c4, value, load16(rows + j + 5 * kStep));
+      c5 = add_dot16(c5, value, load16(rows + j + 6 * kStep));
+      c6 = add_dot16(c6, value, load16(rows + j + 7 * kStep));
+      c7 = add_dot16(c7, value, load16(rows + j + 8 * kStep));
+    }
+  }
+  template_flush(total, first, low, high);
+  template_flush(square, first, low + 1, high + 1);
+  template_flush(host, first, low + 2, high + 2);
+  template_flush(c0, first, low + 3, high + 3);
+  template_flush(c1, first, low + 4, high + 4);
+  template_flush(c2, first, low + 5, high + 5);
+  template_flush(c3, first, low + 6, high + 6);
+  template_flush(c4, first, low + 7, high + 7);
+  template_flush(c5, first, low + 8, high + 8);
+  template_flush(c6, first, low + 9, high + 9);
+  template_flush(c7, first, low + 10, high + 10);
+}
+TEXTPLANE_SIMD_INLINE void template_run(const simd::TemplateArgs& a, const ImageTiles* tiles, const LensFrame* lens,
+                                        bool derivatives, simd::TemplateSums& out) noexcept {
+  const int padded = (a.n + simd::kTemplateBlock - 1) / simd::kTemplateBlock * simd::kTemplateBlock;
+  const int used = derivatives ? kTemplateSums : 3;
+  const bool paired = a.target.pairs != nullptr;
+  const int stride = static_cast<int>(paired ? a.target.pair_stride : a.target.stride);
+  const int low_offset = -(a.oy * stride + a.ox);
+  const int high_offset = (a.target.height - 2) * stride + a.target.width - 2 + low_offset;
+  for (int k = 0; k < simd::kTemplateColumns; ++k) out.column[k] = 0;
+  out.value = out.square = 0;
+  TemplateStrip strip;
+  for (int begin = 0; begin < padded; begin += kTemplateChunk) {
+    const int end = padded - begin < kTemplateChunk ? padded : begin + kTemplateChunk;
+    vi low[kTemplateSums], high[kTemplateSums];
+    for (int from = begin; from < end; from += kTemplateStrip) {
+      const int n = end - from < kTemplateStrip ? end - from : kTemplateStrip;
+      std::int16_t* values = a.values + from;
+      const std::int16_t* rows = a.rows + static_cast<std::ptrdiff_t>(from) * simd::kTemplateColumns;
+      const std::int16_t* ahead = derivatives ? rows : nullptr;
+      template_divide(a, from, n, strip);
+      if (lens) template_lens_cells(a, *lens, tiles, from, stride, low_offset, high_offset, n, strip);
+      if (kInt16Tiles != 0 && tiles) {
+        if (!lens) template_tile_cells(a, *tiles, from, n, strip);
+        template_tiles(*tiles, n, strip, ahead, values);
+      } else {
+        if (!lens) template_cells(a, nullptr, from, stride, low_offset, high_offset, n, strip);
+        if (paired)
+          template_pairs(a, n, strip, ahead, values);
+        else
+          template_rows(a, n, strip, ahead, values);
+      }
+      if (a.n - from < n) zero16(values, a.n - from, n);
+      if (kManyRegisters && derivatives) {
+        template_products11(rows, values, n, from == begin, low, high);
+        continue;
+      }
+      template_products(rows, values, n, from == begin, low, high);
+      if (derivatives) {
+        template_products4(rows + simd::kTemplateBlock, values, n, from == begin, low + 3, high + 3);
+        template_products4(rows + 5 * simd::kTemplateBlock, values, n, from == begin, low + 7, high + 7);
+      }
+    }
+    std::int64_t total[kTemplateSums];
+    for (int k = 0; k < used; ++k)
+      total[k] = reduce_sum_int(low[k]) + static_cast<std::int64_t>(reduce_sum_int(high[k])) * 65536;
+    out.value += total[0];
+    out.square += total[1];
+    for (int k = 2; k < used; ++k) out.column[k - 2] += total[k];
+  }
+}
+TEXTPLANE_SIMD_ENTRY void template_sums(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
+  template_run(a, nullptr, nullptr, true, out);
+}
+TEXTPLANE_SIMD_ENTRY void template_correlation(const simd::TemplateArgs& a, simd::TemplateSums& out) noexcept {
+  template_run(a, nullptr, nullptr, false, out);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
@@ -37403,6 +42029,248 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE bool template_origin(const ResidualFrame& f, double x_low, double y_low, double x_high,
+                                           double y_high, simd::TemplateArgs* t, int* dx, int* dy) noexcept {
+  if (!(x_low > -60000.0 && y_low > -60000.0 && x_high - x_low < 60000.0 && y_high - y_low < 60000.0)) return false;
+  *dx = static_cast<int>(x_low + 65536.0) - 65537;
+  *dy = static_cast<int>(y_low + 65536.0) - 65537;
+  t->ox = f.ox + *dx;
+  t->oy = f.oy + *dy;
+  return true;
+}
+TEXTPLANE_SIMD_INLINE bool template_tiles_fit(const ResidualFrame& f, const simd::TemplateArgs& t, double x_low,
+                                              double y_low, double x_high, double y_high, ImageTiles* tiles) noexcept {
+  const simd::Image8& target = t.target;
+  return make_tiles(target.data, target.stride, target.width, target.height, t.ox, t.oy, tiles) && !target.pairs &&
+         x_low + f.ox >= 1 && y_low + f.oy >= 1 && x_high + f.ox < target.width - 16 &&
+         y_high + f.oy < target.height - 3;
+}
+TEXTPLANE_SIMD_INLINE bool template_frame(const simd::TemplateModel& m, const ResidualFrame& f, simd::TemplateArgs* t,
+                                          ImageTiles* tiles) noexcept {
+  if (!f.inside) return false;
+  double g[8];
+  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
+  for (int k = 0; k < 8; ++k) g[k] = static_cast<double>(f.warp.g[k]) * scale;
+  const double u = static_cast<double>(m.bounds.x_high) - static_cast<double>(f.warp.hx),
+               v = static_cast<double>(m.bounds.y_high) - static_cast<double>(f.warp.hy);
+  double x_low = 1e9, y_low = 1e9, x_high = -1e9, y_high = -1e9;
+  for (int corner = 0; corner < 4; ++corner) {
+    const double p = corner & 1 ? u : -u, q = corner & 2 ? v : -v, z = 1.0 / (g[6] * p + g[7] * q + 1.0);
+    const double x = (g[0] * p + g[1] * q + g[2]) * z, y = (g[3] * p + g[4] * q + g[5]) * z;
+    x_low = x < x_low ? x : x_low;
+    y_low = y < y_low ? y : y_low;
+    x_high = x > x_high ? x : x_high;
+    y_high = y > y_high ? y : y_high;
+  }
+  int dx, dy;
+  if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
+  for (int k = 0; k < 3; ++k) {
+    const double w = k < 2 ? g[6 + k] : 1.0;
+    t->g[k] = static_cast<float>(g[k] - dx * w);
+    t->g[3 + k] = static_cast<float>(g[3 + k] - dy * w);
+  }
+  t->g[6] = static_cast<float>(g[6]);
+  t->g[7] = static_cast<float>(g[7]);
+  if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
+    const float* k = t->g;
+    tiles->guess =
+        guess_tiles(m.u, m.v, m.n, k[0] - k[2] * k[6], k[1] - k[2] * k[7], k[3] - k[5] * k[6], k[4] - k[5] * k[7]);
+  }
+  return true;
+}
+TEXTPLANE_SIMD_ENTRY bool template_lens_frame(const simd::TemplateModel& m, const ResidualFrame& f,
+                                              simd::TemplateArgs* t, LensFrame* lens, ImageTiles* tiles) noexcept {
+  if (!f.inside) return false;
+  const float* box = f.lens.box;
+  const double x_low = static_cast<double>(box[0]), y_low = static_cast<double>(box[1]),
+               x_high = static_cast<double>(box[2]), y_high = static_cast<double>(box[3]);
+  int dx, dy;
+  if (!template_origin(f, x_low, y_low, x_high, y_high, t, &dx, &dy)) return false;
+  const double scale = 1.0 / static_cast<double>(f.warp.g[8]);
+  for (int k = 0; k < 8; ++k) t->g[k] = static_cast<float>(static_cast<double>(f.warp.g[k]) * scale);
+  *lens = f.lens;
+  lens->ax -= static_cast<float>(dx);
+  lens->ay -= static_cast<float>(dy);
+  if (template_tiles_fit(f, *t, x_low, y_low, x_high, y_high, tiles)) {
+    const float* k = t->g;
+    float a = k[0] - k[2] * k[6], b = k[1] - k[2] * k[7], c = k[3] - k[5] * k[6], d = k[4] - k[5] * k[7];
+    lens_turn(f.lens, &a, &b, &c, &d);
+    tiles->guess = guess_tiles(m.u, m.v, m.n, a, b, c, d);
+  }
+  return true;
+}
+TEXTPLANE_SIMD_INLINE Status template_residual(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                               const simd::TemplateSums& sums, double* mean, double* norm, Residual* r,
+                                               simd::ResidualInfo* info) noexcept {
+  const double count = m.n, root = sqrt_d(count), total = static_cast<double>(sums.value);
+  *mean = total / count;
+  const double squares = static_cast<double>(sums.square) - total * *mean;
+  const double least = a.min_contrast > 0 ? a.min_contrast : 0;
+  const double sigma = squares > 0 ? sqrt_d(squares / count) : 0;
+  if (!(sigma > 64 * least) || !(sigma > 1.0) || !(m.s > least * root) || !(m.norm > 0)) return Status::no_contrast;
+  *norm = sqrt_d(squares);
+  info->mean = *mean / 64 + 127.5;
+  info->s = *norm / 64;
+  const double product = (static_cast<double>(sums.column[0]) - m.mean * total) / (m.norm * *norm);
+  info->error = info->cost = 2 - 2 * product;
+  r->on_d = -root / *norm;
+  r->on_i = root / m.norm;
+  r->shift = root * (*mean / *norm - m.mean / m.norm);
+  r->i_mean = m.mean;
+  r->i_s = m.norm;
+  return Status::ok;
+}
+TEXTPLANE_SIMD_INLINE void widen_values(const std::int16_t* values, int n, float* out) noexcept {
+  for (int i = 0; i < n; i += k16Lanes) {
+    const v16 v = load16(values + i);
+    store(out + i, to_float(widen_low16(v)));
+    if (i + kLanes < n) store(out + i + kLanes, to_float(widen_high16(v)));
+  }
+}
+TEXTPLANE_SIMD_INLINE ResidualArrays template_arrays(const simd::TemplateModel& m, float* scratch) noexcept {
+  ResidualArrays s;
+  make_arrays(scratch, m.n, &s);
+  s.x = const_cast<float*>(m.u);
+  s.y = const_cast<float*>(m.v);
+  s.a = const_cast<float*>(m.gx);
+  s.b = const_cast<float*>(m.gy);
+  s.i = const_cast<float*>(m.intensity);
+  return s;
+}
+TEXTPLANE_SIMD_INLINE void template_unweighted(const simd::TemplateModel& m, const simd::TemplateSums& exact,
+                                               double mean, double norm, double error, WeightedSums* sums) noexcept {
+  const double count = m.n;
+  for (int k = 0; k < 8; ++k) {
+    const double with_n = (static_cast<double>(exact.column[k + 1]) * m.step[k] - mean * count * m.e[k]) / norm;
+    sums->e[k] = m.e[k];
+    sums->jn[k] = sums->wn[k] = m.c[k];
+    sums->w1[k] = count * m.e[k];
+    sums->wr[k] = m.c[k] - with_n;
+    for (int j = 0; j < 8; ++j) sums->S[k][j] = m.S[k][j];
+  }
+  sums->w[0] = count;
+  sums->w[1] = sums->w[3] = 0;
+  sums->w[2] = 1;
+  sums->w[4] = 0.5 * error;
+}
+TEXTPLANE_SIMD_INLINE void template_outliers(const simd::ResidualArgs& a, const ResidualArrays& s, int outliers,
+                                             bool direct, const Residual& r, double root, WeightedSums* sums) noexcept {
+  enum : int { kProducts = 27, kAll = 51 };
+  float acc[(kMostSums + 8) * kMostLanes], unused_sums[8 * kMostLanes];
+  double other[kMostSums], w[5] = {0, 0, 0, 0, 0}, S[8][8];
+  zero_rest(kAll, acc);
+  WeightedStrip ws;
+  RowStrip rows;
+  RowConstants unused;
+  for (int begin = 0; begin < outliers; begin += kStrip) {
+    const int m = outliers - begin < kStrip ? outliers - begin : kStrip;
+    if (direct)
+      weigh_all(a, s, begin, m, r, root, &ws, w);
+    else
+      weigh_huber(a, s, s.list + begin, begin, m, r, root, true, &ws, w);
+    add_strip_products(8, false, unused, ws.x, ws.y, ws.a, ws.b, m, &rows, true, acc);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.p, ws.q, m, true, acc + kProducts * kLanes,
+                   acc + (kProducts + 8) * kLanes);
+    add_strip_sums(8, ws.x, ws.y, ws.a, ws.b, rows, ws.r, ws.r, m, true, acc + (kProducts + 16) * kLanes, unused_sums);
+    fold(acc, kAll, begin == 0, other);
+  }
+  if (direct) {
+    unpack_products(8, other, sums->S);
+    stored(sums->w1, loadd(other + kProducts));
+    stored(sums->wn, loadd(other + kProducts + 8));
+    stored(sums->wr, loadd(other + kProducts + 16));
+    for (int k = 0; k < 5; ++k) sums->w[k] = w[k];
+    return;
+  }
+  unpack_products(8, other, S);
+  for (int k = 0; k < 8; ++k) {
+    sums->w1[k] -= other[kProducts + k];
+    sums->wn[k] -= other[kProducts + 8 + k];
+    sums->wr[k] -= other[kProducts + 16 + k];
+    for (int j = 0; j < 8; ++j) sums->S[k][j] -= S[k][j];
+  }
+  for (int k = 0; k < 5; ++k) sums->w[k] -= w[k];
+}
+TEXTPLANE_SIMD_INLINE void template_any(const simd::TemplateModel& m, const simd::ResidualArgs& a, std::int16_t* values,
+                                        bool derivatives, simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  simd::TemplateArgs t;
+  t.target = a.target;
+  ImageTiles tiles;
+  LensFrame lens;
+  info->status = Status::unsupported;
+  if (f.lens.on ? !template_lens_frame(m, f, &t, &lens, &tiles) : !template_frame(m, f, &t, &tiles)) return;
+  info->candidates = info->visible = m.n;
+  if (a.flags) set_all(a.flags, a.n);
+  info->status = Status::too_few;
+  if (m.n < 1 || m.n < a.min_visible) return;
+  t.u = m.u;
+  t.v = m.v;
+  t.rows = m.rows;
+  t.n = m.n;
+  t.values = values;
+  simd::TemplateSums exact;
+  template_run(t, tiles.guess.likely ? &tiles : nullptr, f.lens.on ? &lens : nullptr, derivatives, exact);
+  Residual r;
+  double mean, norm;
+  info->status = template_residual(m, a, exact, &mean, &norm, &r, info);
+  if (info->status != Status::ok) return;
+  const double count = m.n, root = sqrt_d(count);
+  const ResidualArrays s = template_arrays(m, a.scratch);
+  int outliers = 0;
+  if (a.robust != RobustKind::l2) {
+    const double error = info->error;
+    widen_values(values, m.n, s.d);
+    outliers = add_costs(a, s, m.n, r, derivatives ? s.list : nullptr, info);
+    info->error = error;
+  }
+  if (!derivatives) return;
+  double M[9][8];
+  host_matrix(a, f, M);
+  if (outliers == 0) {
+    double g[8];
+    const double unit = 1 / m.s, on_c = a.exact ? 1 - 0.5 * info->error : 1.0;
+    for (int k = 0; k < 8; ++k) {
+      const double with_n = (static_cast<double>(exact.column[k + 1]) * m.step[k] - mean * count * m.e[k]) / norm;
+      g[k] = (with_n - on_c * m.c[k]) * unit;
+    }
+    change_parameters(M, a.exact ? m.H_exact : m.H_frozen, g, H, b);
+    return;
+  }
+  WeightedSums sums;
+  template_unweighted(m, exact, mean, norm, info->error, &sums);
+  template_outliers(a, s, outliers, weighs_all(a.robust), r, root, &sums);
+  project_sums(8, a.exact, m.s, &sums);
+  change_parameters(M, sums.S, sums.wr, H, b);
+}
+TEXTPLANE_SIMD_ENTRY void linearise_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                             std::int16_t* values, simd::ResidualInfo* info, double* H,
+                                             double* b) noexcept {
+  template_any(m, a, values, true, info, H, b);
+  if (info->status == Status::ok && !finite_sums(9, *info, H, b)) info->status = Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void evaluate_template(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                            std::int16_t* values, simd::ResidualInfo* info) noexcept {
+  template_any(m, a, values, false, info, nullptr, nullptr);
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -37616,15 +42484,1090 @@ class TemplatePatch {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_PHOTOMETRY_TEMPLATE_PATCH_HPP
+// Normal equations whose b is the gradient of the cost, exact, and whose H is the template's times one number: raw
+// pointers in, sums out. photometry/residual_request.hpp says what they are (LinearisePolicy::hybrid), and
+// docs/equations.md has the formulas.
+//
+// A pixel takes sampling with gradients, its residual, one factor, and eight sums; the 27 products of rows and all that
+// belongs to them are those of the prepared host patch. Error against the reference as that of simd/residual.hpp; of H
+// besides that of the template's rounded columns (simd/template.hpp).
+#ifndef TEXTPLANE_SIMD_HYBRID_HPP
+#define TEXTPLANE_SIMD_HYBRID_HPP
+
+#define TEXTPLANE_SIMD_KERNEL "textplane/simd/kernels/residual/hybrid.inl"
+#ifndef TEXTPLANE_SIMD_KERNEL
+#error "define TEXTPLANE_SIMD_KERNEL as the file to include"
+#endif
+#if TEXTPLANE_HAS_KERNELS
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(precise, on, push)
+#endif
+#pragma clang fp contract(off)
+#elif defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=off", "no-fast-math")
+#endif
+#define TEXTPLANE_SIMD_SLOT 0
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+// The kernel of simd/hybrid.hpp. Include before: residual/large.inl, residual/host_basis.inl.
+//
+// e = r sqrt(N) of a pixel is pulled to w e by the robust cost. With the projections through mean and norm taken from
+// it, one factor f a pixel is left, and b is a sum of rows times f:
+//
+//   f = w e - T0 / N - Tn n,   T0 = sum w e,  Tn = sum w e n,   b8 = -sum f j / (s sqrt(N))
+
+// Sums over all pixels, in the order in which they lie in an array of doubles: of e^2 and rho(e^2); of w e, w e i and
+// w; of A A, A B and B B.
+enum : int { kPullSums = 8 };
+
+// Residuals become w e in s.d. The sums of costs are those of add_costs(), to the bit: trials are compared with them.
+// `all`: Cauchy and Tukey, which weigh every pixel.
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+
+// Sums of the eight rows times f = w e - k0 - k1 i over the pixels from `begin` to `end`. Rows are zero beyond the
+// last.
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+
+// The energy of the target's gradients, pulled back to the host by the warp's derivative at the patch's centre.
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 1
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 2
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 3
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+enum : int { kPullSums = 8 };
+TEXTPLANE_SIMD_INLINE void pull_by(bool all, const simd::ResidualArgs& a, const ResidualArrays& s, int n,
+                                   const Residual& r, double* sums) noexcept {
+  const RobustVectors robust =
+      all ? broadcast_robust(a.robust, a.delta) : RobustVectors{zero(), zero(), RobustKind::l2};
+  const vf on_d = set1(static_cast<float>(r.on_d)), on_i = set1(static_cast<float>(r.on_i));
+  const vf shift = set1(static_cast<float>(r.shift));
+  const vf limit = set1(a.robust == RobustKind::huber ? static_cast<float>(a.delta) : 3.0e38F);
+  for (int k = 0; k < kPullSums; ++k) sums[k] = 0;
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    CostSums cost = {zero(), zero()};
+    vf s0 = zero(), s1 = s0, s2 = s0, e0 = s0, e1 = s0, e2 = s0;
+    for (int k = begin; k < end; k += kLanes) {
+      const vf i = load(s.i + k), A = load(s.a + k), B = load(s.b + k);
+      vf e = madd(load(s.d + k), on_d, madd(i, on_i, shift)), w;
+      if (end - k < kLanes) e = keep(first_n(end - k), e);
+      if (all) {
+        const vf square = mul(e, e);
+        vf rho, root;
+        robust_vector(robust, square, &rho, &root);
+        cost.squares = add(cost.squares, square);
+        cost.rho = add(cost.rho, rho);
+        w = mul(root, root);
+      } else {
+        const vf size = abs_(e), m = min_(size, limit);
+        cost.squares = madd(e, e, cost.squares);
+        cost.rho = madd(m, add(size, sub(size, m)), cost.rho);
+        w = div(limit, max_(size, limit));
+      }
+      if (end - k < kLanes) w = keep(first_n(end - k), w);
+      const vf we = mul(w, e);
+      store(s.d + k, we);
+      s0 = add(s0, we);
+      s1 = madd(we, i, s1);
+      s2 = add(s2, w);
+      e0 = madd(A, A, e0);
+      e1 = madd(A, B, e1);
+      e2 = madd(B, B, e2);
+    }
+    const vf all_sums[kPullSums] = {cost.squares, cost.rho, s0, s1, s2, e0, e1, e2};
+    for (int k = 0; k < kPullSums; ++k) sums[k] += reduce_sum_double(all_sums[k]);
+  }
+}
+TEXTPLANE_SIMD_ENTRY void pull_huber(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                     double* sums) noexcept {
+  pull_by(false, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void pull_all(const simd::ResidualArgs& a, const ResidualArrays& s, int n, const Residual& r,
+                                   double* sums) noexcept {
+  pull_by(true, a, s, n, r, sums);
+}
+TEXTPLANE_SIMD_ENTRY void add_hybrid(const ResidualArrays& s, int begin, int end, float k0, float k1,
+                                     float* acc) noexcept {
+  const vf constant = set1(k0), on_i = set1(-k1);
+  vf s0 = zero(), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0;
+  for (int k = begin; k < end; k += kLanes) {
+    const vf x = load(s.x + k), y = load(s.y + k);
+    const vf f = madd(on_i, load(s.i + k), sub(load(s.d + k), constant));
+    const vf fA = mul(f, load(s.a + k)), fB = mul(f, load(s.b + k)), fC = madd(fA, x, mul(fB, y));
+    s0 = add(s0, fA);
+    s1 = madd(fA, x, s1);
+    s2 = madd(fA, y, s2);
+    s3 = add(s3, fB);
+    s4 = madd(fB, x, s4);
+    s5 = madd(fB, y, s5);
+    s6 = madd(fC, x, s6);
+    s7 = madd(fC, y, s7);
+  }
+  put3(acc, s0, s1, s2);
+  put3(acc + 3 * kLanes, s3, s4, s5);
+  store(acc + 6 * kLanes, s6);
+  store(acc + 7 * kLanes, s7);
+}
+TEXTPLANE_SIMD_INLINE double pulled_energy(const simd::Warp8& w, const double* sums) noexcept {
+  const double z = 1 / static_cast<double>(w.g[8]), x = static_cast<double>(w.g[2]) * z,
+               y = static_cast<double>(w.g[5]) * z;
+  double energy = 0;
+  for (int k = 0; k < 2; ++k) {
+    const double along = static_cast<double>(w.g[6 + k]);
+    const double p = (static_cast<double>(w.g[k]) - x * along) * z,
+                 q = (static_cast<double>(w.g[3 + k]) - y * along) * z;
+    energy += p * p * sums[0] + 2 * p * q * sums[1] + q * q * sums[2];
+  }
+  return energy;
+}
+TEXTPLANE_SIMD_INLINE Status hybrid_pixels(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           const ResidualFrame& f, const HostPixels& host, const ResidualArrays& s,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  const int n = host.n;
+  SampleStrip strip;
+  Offsets offsets;
+  SideSums sides = no_sides();
+  for (int begin = 0; begin < n; begin += kStrip) {
+    const int count = n - begin < kStrip ? n - begin : kStrip;
+    collect_strip(host, f, begin, count, s, &strip);
+    if (begin == 0) offsets = first_offsets(s.i, host.h, count);
+    centre_strip(s.i + begin, host.h + begin, s.d + begin, count, offsets, begin + kStrip >= n, &sides);
+  }
+  Residual r;
+  const Status status = make_residual(a, offsets, sides, n, &r, info);
+  if (status != Status::ok) return status;
+  double pulls[kPullSums], k0 = 0, k1 = 0;
+  if (weighs_all(a.robust))
+    pull_all(a, s, n, r, pulls);
+  else
+    pull_huber(a, s, n, r, pulls);
+  info->error = pulls[0] / n;
+  info->cost = pulls[1] / n;
+  if (a.exact) {
+    k1 = (pulls[3] - r.i_mean * pulls[2]) / (r.i_s * r.i_s);
+    k0 = pulls[2] / n - k1 * r.i_mean;
+  }
+  float acc[8 * kMostLanes];
+  double total[8];
+  for (int begin = 0; begin < n; begin += kFoldTerms * kLanes) {
+    const int end = n - begin < kFoldTerms * kLanes ? n : begin + kFoldTerms * kLanes;
+    add_hybrid(s, begin, end, static_cast<float>(k0), static_cast<float>(k1), acc);
+    fold(acc, 8, begin == 0, total);
+  }
+  const double energy = pulls[4] / n * pulled_energy(f.warp, pulls + 5) / (r.i_s * r.i_s);
+  const double ratio = energy * (m.s * m.s) / (m.S[0][0] + m.S[3][3]);
+  double M[9][8], S[8][8], g[8], unused[9];
+  for (int k = 0; k < 8; ++k) {
+    g[k] = total[k] * (-1 / (r.i_s * sqrt_d(n)));
+    for (int j = 0; j < 8; ++j) S[k][j] = ratio * (a.exact ? m.H_exact[k][j] : m.H_frozen[k][j]);
+  }
+  host_matrix(a, f, M);
+  change_parameters(M, S, g, H, unused);
+  parameter_matrix(a, f, M);
+  stored(b, row_product(g, 1, M));
+  b[8] = 0;
+  for (int k = 0; k < 8; ++k) b[8] += g[k] * M[8][k];
+  return finite_sums(9, *info, H, b) ? Status::ok : Status::unsupported;
+}
+TEXTPLANE_SIMD_ENTRY void linearise_hybrid(const simd::TemplateModel& m, const simd::ResidualArgs& a,
+                                           simd::ResidualInfo* info, double* H, double* b) noexcept {
+  ResidualFrame f;
+  info->status = Status::unsupported;
+  if (m.bounds.n != a.n || m.n != a.n || !make_frame(a, m.bounds, &f)) return;
+  ResidualArrays s;
+  make_arrays(a.scratch, a.n, &s);
+  const HostPixels pixels = host_pixels(a, f, false, s, info);
+  info->status = Status::unsupported;
+  if (pixels.n <= kRowPixels || pixels.n < a.min_visible) return;
+  if (kInt16Tiles != 0) choose_tiles(a, m.bounds, pixels, &f);
+  info->status = hybrid_pixels(m, a, f, pixels, s, info, H, b);
+  if (info->status == Status::non_finite) info->status = Status::unsupported;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#if defined(__clang__)
+#if defined(__x86_64__) || defined(__i386__)
+#pragma float_control(pop)
+#else
+#pragma STDC FP_CONTRACT DEFAULT
+#endif
+#elif defined(__GNUC__)
+#pragma GCC pop_options
+#pragma GCC diagnostic pop
+#endif
+#endif
+#undef TEXTPLANE_SIMD_KERNEL
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace simd {
+
+/// Normal equations for (v, omega, theta): H (9 x 9) and b (9), of which nothing may be used unless the status is ok.
+/// `args` are of the pixels that `model` was prepared of. Status::unsupported also where no more than 256 pixels are
+/// visible (linearise_pose_plane() is quicker then), or a host intensity is not finite.
+TEXTPLANE_KERNEL void linearise_hybrid(const TemplateModel& model, const ResidualArgs& args, ResidualInfo* out,
+                                       double* H, double* b) noexcept
+    TEXTPLANE_SIMD_BODY(linearise_hybrid(model, args, out, H, b));
+
+}  // namespace simd
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SIMD_HYBRID_HPP
 
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
+// Of the sums by (v, omega, theta) those by the unknowns.
+template <int P>
+void take_parameters(const double* H, const double* b, NormalEquations<P>* out) noexcept {
+  constexpr int at = P == 3 ? 6 : 0;
+  for (int c = 0; c < P; ++c) {
+    out->b[c] = b[at + c];
+    for (int r = 0; r < P; ++r) out->H(r, c) = H[9 * (at + r) + at + c];
+  }
+}
+
 // The policies with the host's gradients, by the kernels; false where they do not take the request or declined.
 template <Parameters Unknowns>
 bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricWorkspace& workspace,
                               NormalEquations<dof(Unknowns)>* out) noexcept {
-  constexpr int P = dof(Unknowns), at = P == 3 ? 6 : 0;
+  constexpr int P = dof(Unknowns);
   const bool esm = q.policy == LinearisePolicy::esm;
   const PatchView& patch = q.input.patch;
   if ((!esm && q.policy != LinearisePolicy::template_jacobian) || !patch.gx || !patch.gy || !kernels_take(q, workspace))
@@ -37644,11 +43587,29 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
   // Not all of the patch is visible: the sums of what is.
   if (info.status == Status::unsupported) info = simd::linearise_esm(args, H, b);
   if (!take_info(info, q.options.min_visible, out)) return false;
-  if (P != 9 && is_ok(out->status))
-    for (int c = 0; c < P; ++c) {
-      out->b[c] = b[at + c];
-      for (int r = 0; r < P; ++r) out->H(r, c) = H[9 * (at + r) + at + c];
-    }
+  if (P != 9 && is_ok(out->status)) take_parameters<P>(H, b, out);
+  return true;
+}
+
+// The policy hybrid likewise; forward where that is what it means.
+template <Parameters Unknowns>
+bool kernel_linearise_hybrid(const PolicyRequest<std::uint8_t>& q, PhotometricWorkspace& workspace,
+                             NormalEquations<dof(Unknowns)>* out) noexcept {
+  constexpr int P = dof(Unknowns);
+  const PatchView& patch = q.input.patch;
+  if (!takes_hybrid(q, patch.n)) return kernel_linearise<Unknowns>(q, workspace, out);
+  if (!kernels_take(q, workspace) || !patch.gx || !patch.gy || q.prepared->size() != patch.n) return false;
+  simd::ResidualArgs args = kernel_args(q, workspace, workspace.visible_flags(), nullptr);
+  simd::LensFit fit;
+  if (q.input.lens && !fit_request(q, &args, &fit)) return false;
+  double all_H[81], all_b[9];
+  double *H = P == 9 ? out->H.data() : all_H, *b = P == 9 ? out->b.data() : all_b;
+  simd::ResidualInfo info;
+  simd::linearise_hybrid(q.prepared->model(), args, &info, H, b);
+  if (info.status == Status::unsupported && info.visible <= kHybridPixels)
+    return kernel_linearise<Unknowns>(q, workspace, out);
+  if (!take_info(info, q.options.min_visible, out)) return false;
+  if (P != 9 && is_ok(out->status)) take_parameters<P>(H, b, out);
   return true;
 }
 }  // namespace detail
@@ -37658,7 +43619,7 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
 /// rounded to 1/64 grey level and target intensities within 0.025 of the interpolant (simd/template.hpp): E and the
 /// entries of b, in units of sqrt(H_ii), are within 0.08 / sigma of the reference's, sigma being the lesser standard
 /// deviation of the two sides, and H within 3e-4 of sqrt(H_ii H_jj) without weights. Otherwise the bounds are those of
-/// simd/residual.hpp.
+/// simd/residual.hpp, of hybrid's H with that of the template's besides.
 template <Parameters Unknowns, class T>
 NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
   NormalEquations<dof(Unknowns)> out{detail::Unset()};
@@ -37673,8 +43634,9 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
     }
     bool taken = false;
     if constexpr (std::is_same<T, std::uint8_t>::value)
-      taken = request.policy == LinearisePolicy::forward
-                  ? detail::kernel_linearise<Unknowns>(request, workspace, &out)
+      taken = request.policy == LinearisePolicy::forward ? detail::kernel_linearise<Unknowns>(request, workspace, &out)
+              : request.policy == LinearisePolicy::hybrid
+                  ? detail::kernel_linearise_hybrid<Unknowns>(request, workspace, &out)
                   : detail::kernel_linearise_by_host<Unknowns>(request, workspace, &out);
     if (!taken) out = reference::linearise<Unknowns>(request, workspace);
   }
@@ -37737,7 +43699,7 @@ struct PoseTextTerm {
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< Multiplies lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(), for targets that see it at another size.
-  /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian, or null.
+  /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian and hybrid, or null.
   const TemplatePatch* prepared = nullptr;
   int camera = 0;  ///< Which camera of a rig sees it; 0 where there is one.
 };
@@ -38135,7 +44097,7 @@ class PoseProblem {
     path_ = (std::max)(path_, n.path);
     if (!is_ok(n.status)) return n.status;
     // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
-    if (q.prepared && q.policy != LinearisePolicy::forward) {
+    if (q.prepared && q.policy != LinearisePolicy::forward && q.policy != LinearisePolicy::hybrid) {
       const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
       if (is_ok(c.status)) n.cost = c.cost;
     }
@@ -39610,6 +45572,42 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_ENTRY void zncc_candidates(const simd::ZnccArgs& z) noexcept {
+  simd::ResidualArgs a = z.base;
+  a.robust = RobustKind::l2;
+  a.flags = nullptr;
+  for (int i = 0; i < z.count; ++i) {
+    const double *R = z.pose + i * z.pose_step, *t = R + z.t_offset;
+    for (int r = 0; r < 3; ++r) {
+      a.t[r] = t[r];
+      for (int c = 0; c < 3; ++c) a.R[3 * r + c] = R[3 * c + r];
+    }
+    simd::ResidualInfo info = simd::ResidualInfo();
+    template_any(*z.model, a, z.values, false, &info, nullptr, nullptr);
+    const double half = 0.5 * info.error;
+    z.zncc[i] = info.status == Status::ok ? static_cast<float>(half < 0.0   ? 1.0
+                                                               : half > 2.0 ? -1.0
+                                                                            : 1.0 - half)
+                : info.status == Status::no_contrast || info.status == Status::too_few ? -1.0F
+                                                                                       : simd::kZnccUnknown;
+  }
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
 #if defined(__clang__)
 #if defined(__x86_64__) || defined(__i386__)
 #pragma float_control(pop)
@@ -40083,6 +46081,85 @@ TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
 #undef TEXTPLANE_SIMD_REGION_FEW
 #undef TEXTPLANE_SIMD_SLOT
 #define TEXTPLANE_SIMD_SLOT 4
+#define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
+#define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
+#if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BEGIN, 0)
+TEXTPLANE_BEGIN_NAMESPACE
+namespace detail {
+namespace TEXTPLANE_SIMD_REGION {
+TEXTPLANE_SIMD_INLINE int warp_lens_row(const simd::WarpLensArgs& a, const WarpVectors& warp, const LensFrame& lens,
+                                        const SampleFrame& f, float row, SampleStrip* strip,
+                                        std::int32_t* in) noexcept {
+  const CellVectors cells = broadcast_cells(f);
+  const vf first = set1(static_cast<float>(a.x)), y = set1(row), one = set1(1.0F);
+  int inside = 0;
+  for (int i = 0; i < a.columns; i += kLanes) {
+    vf px, py, divisor;
+    warp_vector(warp, add(add(iota(), set1(static_cast<float>(i))), first), y, &px, &py, &divisor);
+    lens_or_outside(lens, px, py, &px, &py);
+    const vm seen = and_(inside_vector(f, px, py, divisor), first_n(a.columns - i));
+    inside += count_true(seen);
+    storei(in + i, to_int(keep(seen, one)));
+    cell_vector(cells, px, py, strip, i);
+  }
+  return inside;
+}
+TEXTPLANE_SIMD_ENTRY void warp_lens_block(const simd::WarpLensArgs& a, int* inside) noexcept {
+  const double* h = a.h;
+  const float hx = static_cast<float>(a.x) + 0.5F * static_cast<float>(a.columns - 1),
+              hy = static_cast<float>(a.y) + 0.5F * static_cast<float>(a.rows - 1);
+  const double u = static_cast<double>(hx), v = static_cast<double>(hy), x0 = a.lens->m0[0], y0 = a.lens->m0[1];
+  const double z = h[6] * u + h[7] * v + h[8];
+  const double g[9] = {h[0] - x0 * h[6],
+                       h[1] - x0 * h[7],
+                       h[0] * u + h[1] * v + h[2] - x0 * z,
+                       h[3] - y0 * h[6],
+                       h[4] - y0 * h[7],
+                       h[3] * u + h[4] * v + h[5] - y0 * z,
+                       h[6],
+                       h[7],
+                       z};
+  simd::Warp8 warp;
+  LensFrame lens;
+  SampleFrame f;
+  if (!make_lens_frame(*a.lens, a.camera, a.source.width, a.source.height, &lens) ||
+      !make_warp_around(g, hx, hy, 0, 0, &warp))
+    return;
+  make_sample_frame(a.source, lens.ox, lens.oy, &f);
+  const WarpVectors vectors = broadcast_warp(warp);
+  const bool paired = f.pairs != nullptr;
+  SampleStrip strip;
+  std::int32_t in[simd::kLensBlockWidth];
+  float values[simd::kLensBlockWidth];
+  int count = 0;
+  for (int row = 0; row < a.rows; ++row) {
+    count += warp_lens_row(a, vectors, lens, f, static_cast<float>(a.y + row), &strip, in);
+    fetch_taps(f, 0, a.columns, &strip);
+    interpolate_values(strip, a.columns, paired, values);
+    for (int i = 0; i < a.columns; i += kLanes)
+      store(values + i, select(gt(to_float(loadi(in + i)), zero()), load(values + i), set1(a.fill)));
+    std::uint8_t* out = static_cast<std::uint8_t*>(a.out) + row * a.out_stride;
+    if (a.bytes) {
+      for (int i = 0; i < a.columns; ++i) out[i] = static_cast<std::uint8_t>(values[i] + 0.5F);
+    } else {
+      copy_bytes(out, values, 4 * a.columns);
+    }
+    if (!a.mask) continue;
+    std::uint8_t* mask = a.mask + row * a.mask_stride;
+    for (int i = 0; i < a.columns; ++i) mask[i] = static_cast<std::uint8_t>(in[i]);
+  }
+  *inside = count;
+}
+}
+}
+TEXTPLANE_END_NAMESPACE
+TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_END, 0)
+#endif
+#undef TEXTPLANE_SIMD_REGION
+#undef TEXTPLANE_SIMD_REGION_FEW
+#undef TEXTPLANE_SIMD_SLOT
+#define TEXTPLANE_SIMD_SLOT 5
 #define TEXTPLANE_SIMD_REGION TEXTPLANE_SIMD_JOIN(TEXTPLANE_SIMD_NAME_, TEXTPLANE_SIMD_SLOT)
 #define TEXTPLANE_SIMD_REGION_FEW TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_FEW, 0)
 #if 0 TEXTPLANE_SIMD_ROW(TEXTPLANE_SIMD_SLOT)(TEXTPLANE_SIMD_BUILDS, TEXTPLANE_SIMD_WANTED)

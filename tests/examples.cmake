@@ -30,6 +30,10 @@ textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS 
   sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms")
 textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map TIERS first_look sanitizers EXCEPT
   sanitizers "LateDetections\\." first_look "LateDetections\\.")
+textplane_add_tests(map_file LIBRARIES textplane_textslam_map LABELS textslam TIERS first_look sanitizers EXCEPT
+  sanitizers "MapFileTest\\.AKill")
+
+textplane_add_tests(city LIBRARIES textplane_city TIERS first_look sanitizers EXCEPT sanitizers "CitySearch\\.")
 
 add_test(NAME examples.rooms COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/examples/textslam
   -P ${CMAKE_CURRENT_SOURCE_DIR}/textslam/rooms.cmake)
@@ -61,6 +65,7 @@ textplane_add_program_test(textslam_outputs_test first_look)
 textplane_add_program_test(textslam_recovery_test)
 textplane_add_program_test(textslam_report_test)
 textplane_add_program_test(textslam_run_test first_look)
+textplane_add_program_test(textslam_sessions_test first_look)
 textplane_add_program_test(textslam_unusual_input_test first_look sanitizers)
 textplane_add_program_test(textslam_calibrate_test first_look)
 

@@ -48,8 +48,8 @@ class Amalgamate(unittest.TestCase):
         for name in re.findall(r'#include "(textplane/[^"]+)"', umbrella):
             guard = name.upper().replace("/", "_").replace(".", "_")
             self.assertEqual(text.count(f"#define {guard}\n"), 1, name)
-        self.assertEqual(text.count("TEXTPLANE_SIMD_ENTRY void halve("), 5)
-        for target in ("scalar", "sse41", "avx2", "avx512", "neon"):
+        self.assertEqual(text.count("TEXTPLANE_SIMD_ENTRY void halve("), 6)
+        for target in ("scalar", "sse41", "avx2", "avx512", "neon", "simd128"):
             body = (ROOT / f"include/textplane/simd/ops/{target}.inl").read_text(encoding="utf-8")
             line = next(x for x in body.splitlines() if x.startswith("TEXTPLANE_SIMD_INLINE vf load"))
             self.assertTrue(line in text, line)

@@ -112,6 +112,7 @@ std::vector<Method> methods() {
   } ours[] = {{"forward", Policy::forward, false},
               {"template", Policy::template_jacobian, false},
               {"esm", Policy::esm, false},
+              {"hybrid", Policy::hybrid, false},
               {"automatic", Policy::automatic, false},
               {"search, then automatic", Policy::automatic, true}};
   for (const bool plane : {true, false})

@@ -72,7 +72,7 @@ std::string kernel_table(const Results& all) {
   for (const auto& [name, m] : all) {
     const std::size_t a = name.find('/'), b = name.find('/', a + 1);
     const std::string target = name.substr(a + 1, b - a - 1);
-    static const std::set<std::string> known = {"scalar", "sse41", "avx2", "avx512", "neon"};
+    static const std::set<std::string> known = {"scalar", "sse41", "avx2", "avx512", "neon", "simd128"};
     if (!known.count(target) || name.compare(0, 6, "growth") == 0 || m.ns_item.empty()) continue;
     targets.insert(target);
     rows[name.substr(0, a) + " | " + name.substr(b + 1)][target] = &m;

@@ -78,6 +78,7 @@ void add_converge() {
   add_targets("converge_template_l2", "4000",
               [=] { return converge_work(tp::LinearisePolicy::template_jacobian, l2); });
   add_targets("converge_esm", "4000", [] { return converge_work(tp::LinearisePolicy::esm); });
+  add_targets("converge_hybrid", "4000", [] { return converge_work(tp::LinearisePolicy::hybrid); });
   add_targets("converge_automatic", "4000", [] { return converge_work(tp::LinearisePolicy::automatic); });
 }
 

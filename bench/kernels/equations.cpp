@@ -113,7 +113,7 @@ void add_policy(const std::string& name, tp::LinearisePolicy policy, bool huber,
     return tp::linearise<U>(request(c, i, huber).by(policy, &c.prepared[i]), c.workspace);
   };
   const auto reference = [=](Cycle& c, std::size_t i) {
-    return tp::reference::linearise<U>(request(c, i, huber).by(policy), c.workspace);
+    return tp::reference::linearise<U>(request(c, i, huber).by(policy, &c.prepared[i]), c.workspace);
   };
   add_targets(name, size, equations(make, ours, reference));
 }
@@ -224,6 +224,7 @@ void add_equations() {
                                            cycle_of(n, 4, true));
     add_policy<tp::Parameters::pose_plane>("template_huber", tp::LinearisePolicy::template_jacobian, true, size, cycle);
     add_policy<tp::Parameters::pose_plane>("esm", tp::LinearisePolicy::esm, true, size, cycle);
+    add_policy<tp::Parameters::pose_plane>("hybrid", tp::LinearisePolicy::hybrid, true, size, cycle);
     add_cost("cost", n, cycle);
   }
   add_forward<tp::Parameters::plane>("plane", "4000", cycle_of(4000));

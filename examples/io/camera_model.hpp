@@ -24,6 +24,13 @@ namespace textslam {
 /// The shutter of an image whose rows are all taken at once; a readout that is given to it counts from the middle row.
 inline textplane::RollingShutter all_at_once(int rows) { return {0, 0.5 * (rows - 1), rows}; }
 
+/// The same shutter as seen from the time of its middle row.
+inline textplane::RollingShutter at_middle(const textplane::RollingShutter& shutter, int rows) {
+  textplane::RollingShutter out = all_at_once(rows);
+  if (shutter.rows > 1) out.readout = shutter.readout;
+  return out;
+}
+
 struct CameraModel {
   textplane::AnyCamera<double> raw;   ///< of the images as they were taken
   int width = 0, height = 0;          ///< px

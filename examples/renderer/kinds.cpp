@@ -4,13 +4,15 @@
 
 #include "io/input_error.hpp"
 #include "renderer/render_sequence.hpp"
+#include "renderer/walk.hpp"
 
 namespace textslam {
 
 namespace {
 
 struct Context {
-  std::uint64_t seed;
+  std::uint64_t seed;  // of the scene
+  std::uint64_t walk;  // of path and light
   int width, height;
 };
 
@@ -61,68 +63,68 @@ SensorProgram with_cover(const SensorProgram& sensor) {
 const Kind kKinds[] = {
     {"room",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, {}), room_motion(c.walk), 0.008, steady_sensor()};
      }},
     {"room-still",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}), still_then_room_motion(c.seed, 40.0 / 30.0), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, {}), still_then_room_motion(c.walk, 40.0 / 30.0), 0.008, steady_sensor()};
      }},
     {"corridor",
      [](const Context& c) {
-       return Shot{make_corridor(c.seed), corridor_motion(c.seed), 0.006, steady_sensor()};
+       return Shot{make_corridor(c.seed), corridor_motion(c.walk), 0.006, steady_sensor()};
      }},
     {"rapid",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}), rapid_motion(c.seed), 1.0 / 60.0, steady_sensor()};
+       return Shot{make_room(c.seed, {}), rapid_motion(c.walk), 1.0 / 60.0, steady_sensor()};
      }},
     {"lights",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, changing_lights(c.seed, c.width, c.height)};
+       return Shot{make_room(c.seed, {}), room_motion(c.walk), 0.008, changing_lights(c.walk, c.width, c.height)};
      }},
     {"night",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, night(c.seed)};
+       return Shot{make_room(c.seed, {}), room_motion(c.walk), 0.008, night(c.walk)};
      }},
     {"sparse",
      [](const Context& c) {
        RoomStyle style;
        style.bare = true;
-       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, style), room_motion(c.walk), 0.008, steady_sensor()};
      }},
     {"notext",
      [](const Context& c) {
        RoomStyle style;
        style.signs = false;
-       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, style), room_motion(c.walk), 0.008, steady_sensor()};
      }},
     {"loop",
      [](const Context& c) {
        RoomStyle style;
        style.all_round = true;
-       return Shot{make_room(c.seed, style), loop_motion(c.seed), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, style), loop_motion(c.walk), 0.008, steady_sensor()};
      },
      360},
     {"standoff",
      [](const Context& c) {
        RoomStyle style;
        style.off_walls = true;
-       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, style), room_motion(c.walk), 0.008, steady_sensor()};
      }},
     {"cylinders",
      [](const Context& c) {
        RoomStyle style;
        style.carrier = RoomStyle::Carrier::cylinder;
-       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, style), room_motion(c.walk), 0.008, steady_sensor()};
      }},
     {"glass",
      [](const Context& c) {
        RoomStyle style;
        style.carrier = RoomStyle::Carrier::pane;
-       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, style), room_motion(c.walk), 0.008, steady_sensor()};
      }},
     {"crowd",
      [](const Context& c) {
-       Shot shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor()};
+       Shot shot{make_room(c.seed, {}), room_motion(c.walk), 0.008, steady_sensor()};
        add_crowd(shot.scene, c.seed);
        return shot;
      }},
@@ -130,37 +132,37 @@ const Kind kKinds[] = {
      [](const Context& c) {
        RoomStyle style;
        style.sliding = true;
-       return Shot{make_room(c.seed, style), room_motion(c.seed), 0.008, steady_sensor()};
+       return Shot{make_room(c.seed, style), room_motion(c.walk), 0.008, steady_sensor()};
      }},
     {"cuts",
      [](const Context& c) {
        RoomStyle style;
        style.all_round = true;
-       return Shot{make_room(c.seed, style), with_cut(room_motion(c.seed), loop_motion(c.seed)), 0.008,
+       return Shot{make_room(c.seed, style), with_cut(room_motion(c.walk), loop_motion(c.walk)), 0.008,
                    steady_sensor()};
      }},
     {"covered",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, with_cover(steady_sensor())};
+       return Shot{make_room(c.seed, {}), room_motion(c.walk), 0.008, with_cover(steady_sensor())};
      }},
     {"wide",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor(), wide_lens()};
+       return Shot{make_room(c.seed, {}), room_motion(c.walk), 0.008, steady_sensor(), wide_lens()};
      }},
     {"uncalibrated",
      [](const Context& c) {
-       Shot shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor(), wide_lens()};
+       Shot shot{make_room(c.seed, {}), room_motion(c.walk), 0.008, steady_sensor(), wide_lens()};
        shot.calibrated = false;
        return shot;
      }},
     {"shutter",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}),      room_motion(c.seed), 0.008,   steady_sensor(),
+       return Shot{make_room(c.seed, {}),      room_motion(c.walk), 0.008,   steady_sensor(),
                    RadialTangential<double>{}, Shot().focal,        kReadout};
      }},
     {"fisheye",
      [](const Context& c) {
-       return Shot{make_room(c.seed, {}), room_motion(c.seed), 0.008, steady_sensor(), fisheye_lens(), kFisheyeFocal};
+       return Shot{make_room(c.seed, {}), room_motion(c.walk), 0.008, steady_sensor(), fisheye_lens(), kFisheyeFocal};
      }},
 };
 
@@ -181,8 +183,11 @@ std::vector<std::string> render_kinds() {
   return names;
 }
 
-Shot make_shot(const std::string& name, std::uint64_t seed, int width, int height) {
-  return kind_of(name).make({seed, width, height});
+Shot make_shot(const std::string& name, std::uint64_t seed, int width, int height, int walk) {
+  const std::uint64_t own = seed_of_walk(seed, walk);
+  Shot shot = kind_of(name).make({seed, own, width, height});
+  if (walk > 0) take_walk(own, &shot);
+  return shot;
 }
 
 int default_frames(const std::string& name) { return kind_of(name).frames; }

@@ -29,8 +29,9 @@ struct Shot {
 /// Number of frames, at 30 a second, that show the whole kind. Throws as make_shot() does.
 int default_frames(const std::string& kind);
 
-/// Throws InputError that lists the kinds for an unknown name, std::runtime_error where no font is found.
-Shot make_shot(const std::string& kind, std::uint64_t seed, int width, int height);
+/// `walk`: which visit to the scene (walk.hpp). Throws InputError that lists the kinds for an unknown name,
+/// std::runtime_error where no font is found.
+Shot make_shot(const std::string& kind, std::uint64_t seed, int width, int height, int walk = 0);
 
 /// How a room is furnished.
 struct RoomStyle {

@@ -18,6 +18,7 @@
 #include "renderer/kinds.hpp"
 #include "renderer/spanning.hpp"
 #include "renderer/truth.hpp"
+#include "renderer/walk.hpp"
 
 namespace textslam {
 
@@ -58,6 +59,7 @@ CameraModel camera_of(const RenderOptions& options, const Shot& shot) {
 void check(const RenderOptions& options) {
   const auto refuse = [](const std::string& what) { throw InputError("render options", 0, what); };
   if (options.output.empty()) refuse("no output folder given");
+  if (options.walk < 0) refuse("the walk must be 0 or more");
   if (options.frames < 0 || options.frames > 100000) refuse("the number of frames must be 1 to 100000");
   if (options.width < 64 || options.height < 48 || options.width > 4096 || options.height > 4096) {
     refuse("the image size must be 64x48 to 4096x4096");
@@ -81,6 +83,7 @@ class FrameWriter {
  public:
   FrameWriter(const RenderOptions& options, const CameraModel& camera, const Shot& shot)
       : options_(options),
+        walk_(seed_of_walk(options.seed, options.walk)),
         camera_(camera),
         shot_(shot),
         caster_(camera, pixel_grid()),
@@ -98,7 +101,7 @@ class FrameWriter {
       blur = {length, length};
     }
     const SensorState state = shot_.sensor(time);
-    const Image<std::uint8_t> picture = develop(light, state, hash(options_.seed, kNoiseStream, number));
+    const Image<std::uint8_t> picture = develop(light, state, hash(walk_, kNoiseStream, number));
     const std::string name = stem_of(frame);
     save_png(options_.output + "/images/" + name + ".png", picture.view());
 
@@ -107,9 +110,9 @@ class FrameWriter {
     std::vector<SignView> views = views_of_signs(shot_.scene, camera_, T_w_c, time);
     place_in_rows(camera_, shot_.motion, signs, time, &views);
     write_file(options_.output + "/truth/quads/" + name + ".txt", format_truth_quads(views, signs));
-    const Random random(hash(options_.seed, kDetectorStream, number));
+    const Random random(hash(walk_, kDetectorStream, number));
     std::vector<Detection> found = detect(views, signs, camera_, options_.detector, random);
-    const Random apart(hash(options_.seed, kSpanningStream, number));
+    const Random apart(hash(walk_, kSpanningStream, number));
     for (const Detection& d : detect_spanning(places_, shot_.scene, camera_, T_w_c, time, options_.detector, apart))
       found.push_back(d);
     write_detections(options_.output + "/detections/" + name + ".txt", found);
@@ -119,6 +122,7 @@ class FrameWriter {
 
  private:
   const RenderOptions& options_;
+  std::uint64_t walk_;  // seed
   const CameraModel& camera_;
   const Shot& shot_;
   RayCaster caster_;
@@ -161,7 +165,7 @@ void render_sequence(const RenderOptions& asked, const std::function<void(int do
   check(asked);
   RenderOptions options = asked;
   if (options.frames == 0) options.frames = default_frames(options.kind);
-  Shot shot = make_shot(options.kind, options.seed, options.width, options.height);
+  Shot shot = make_shot(options.kind, options.seed, options.width, options.height, options.walk);
   apply(options.conditions, &shot);
   const CameraModel camera = camera_of(options, shot);
   for (const char* folder : {"/images", "/detections", "/truth/quads"}) create_output_folder(options.output + folder);

@@ -25,6 +25,7 @@ struct RenderOptions {
   std::string kind = "room";  ///< one of render_kinds()
   std::string output;         ///< the folder; created if missing, files in it are replaced
   std::uint64_t seed = 1;
+  int walk = 0;    ///< Which visit to the scene, see walk.hpp.
   int frames = 0;  ///< at 30 a second; 0: default_frames() of kinds.hpp
   int width = 640,
       height =

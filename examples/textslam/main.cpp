@@ -73,12 +73,37 @@ void add_run_options(CLI::App& app, textslam::RunOptions& run) {
                "Print a JSON object for each frame as it is processed, then one with the metrics, and no table");
 }
 
+void add_map_options(CLI::App& app, textslam::RunOptions& run) {
+  CLI::Option* save = app.add_option(
+      "--save-map", run.save_map, "Save the map into this file, for later sessions; a map that is there is replaced");
+  CLI::Option* map = app.add_option("--map", run.map,
+                                    "Go on in the map of this file: the frames are found in it, and what is new is "
+                                    "added. It is saved there, or where --save-map says");
+  app.add_flag("--localise", run.localise, "Only find the frames in the map of --map, which stays as it is")
+      ->needs(map)
+      ->excludes(save);
+  app.add_option_function<std::vector<std::string>>(
+      "--scale",
+      [&run](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts)
+          if (!textslam::parse_known_width(text, &run.widths.emplace_back()))
+            throw CLI::ValidationError("--scale",
+                                       "should be WORD=WIDTH or WORD=WIDTH:SIGMA in metres, not '" + text + "'");
+      },
+      "WORD=WIDTH[:SIGMA], in metres: the word is written so wide on its sign. Makes the map metric; may be given "
+      "several times");
+}
+
 // The renderer checks the ranges.
 void add_render_options(CLI::App& app, Command& command) {
   textslam::RenderOptions& render = command.render;
   app.add_option("--render", render.kind, "Render a sequence of this kind into OUTPUT/sequence and run on it")
       ->check(CLI::IsMember(textslam::render_kinds()));
   app.add_option("--seed", render.seed, "Seed of the rendered sequence; the system itself draws nothing at random")
+      ->capture_default_str();
+  app.add_option("--walk", render.walk,
+                 "Another visit to the same scene: another path, light and errors of the detector; 0: the kind's own")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--frames", render.frames, "Number of rendered frames; by default what the kind needs")
       ->check(CLI::PositiveNumber);
@@ -117,6 +142,10 @@ int run_and_print(const textslam::RunOptions& options) {
                 (result.report.empty() ? options.output : result.report).c_str());
   for (const std::string& warning : textslam::warnings(result.summary))
     std::fprintf(stderr, "textslam: warning: %s\n", warning.c_str());
+  if (result.error.empty() && !result.unmapped.empty()) {
+    std::fprintf(stderr, "textslam: %s\n", result.unmapped.c_str());
+    return kNoMap;
+  }
   if (result.error.empty() && result.summary.tracked > 0) return 0;
   if (result.error.empty()) {
     std::fprintf(
@@ -137,6 +166,7 @@ int execute(int argc, char** argv) {
   options.command.assign(argv, argv + argc);
   CLI::App app{"SLAM with points and planar text: a sequence of images becomes a trajectory and a 3D text map."};
   add_run_options(app, options);
+  add_map_options(app, options);
   add_render_options(app, command);
   const auto check = [&] {
     if (options.sequence.empty() == command.render.kind.empty())

@@ -11,18 +11,19 @@
 #include "io/input_error.hpp"
 #include "io/interrupt.hpp"
 #include "io/output_file.hpp"
-#include "textslam/calibrate/self_calibration.hpp"
 #include "textslam/common/bounded_sampler.hpp"
 #include "textslam/detect/detection_thread.hpp"
 #include "textslam/detect/text_detector.hpp"
 #include "textslam/input/frame_clock.hpp"
 #include "textslam/input/make_frame.hpp"
 #include "textslam/input/sequence_camera.hpp"
+#include "textslam/map_session.hpp"
 #include "textslam/report/calibration.hpp"
 #include "textslam/report/frame_line.hpp"
 #include "textslam/report/outputs.hpp"
 #include "textslam/report/report.hpp"
 #include "textslam/report/report_frames.hpp"
+#include "textslam/run_camera.hpp"
 
 namespace textslam {
 namespace {
@@ -190,35 +191,34 @@ void track_frames(const RunOptions& options, const Sequence& sequence, const std
   }
 }
 
-// A camera file that knows nothing of rows means the middle one by its time stamps.
-void know_rows(const RunOptions& options, CameraModel* camera) {
-  textplane::RollingShutter& shutter = camera->shutter;
-  if (shutter.rows != camera->height) shutter = all_at_once(camera->height);
-  if (options.readout) shutter.readout = *options.readout;
+// By the signs whose widths are known.
+std::optional<MetricScale> make_metric(const RunOptions& options, System* system) {
+  if (options.widths.empty()) return std::nullopt;
+  const Map& map = system->map();
+  const MetricScale scale = metric_scale(map, at_size(options.parameters, map.width, map.height), options.widths);
+  if (scale.texts == 0)
+    throw InputError("--scale", 0,
+                     "no mapped text reads '" + options.widths.front().word +
+                         (options.widths.size() > 1 ? "' or another of the words" : "'") + ": the map has no scale");
+  system->scale_by(scale.metres);
+  return scale;
 }
 
-// Gives the sequence the camera that its images tell, where they do.
-SelfCalibration estimate_camera(const RunOptions& options, const std::vector<std::size_t>& frames, Sequence* sequence) {
-  Progress progress("calibrating");
-  Parameters parameters = options.parameters;
-  // What the shutter of a fast camera does passes for a lens: where neither is known they are found together. The run
-  // does not take the readout over: with it redkitchen has twice the error, and nobody knows why (docs/cameras.md).
-  const bool given = options.readout && !parameters.estimate_readout;
-  parameters.estimate_readout = sequence->camera_origin != CameraOrigin::file && !given;
-  SelfCalibration found =
-      self_calibrate(*sequence, frames, parameters, CalibrationOptions(),
-                     [&](std::size_t done, std::size_t total) { progress.show(done, total, "by points alone"); });
-  if (found.determined) {
-    found.camera.fps = sequence->camera.fps;
-    found.camera.shutter = sequence->camera.shutter;
-    sequence->camera = found.camera;
-    sequence->approximate_fov = 0;
-  }
-  return found;
+void write_camera(const RunOptions& options, CameraModel camera, double readout,
+                  const std::optional<SelfCalibration>& calibration) {
+  camera.shutter.readout = readout;
+  write_file(options.output + "/camera.yaml", camera_yaml(camera, calibration));
+}
+
+void name_detector(const RunOptions& options, std::size_t detected, RunSummary* summary) {
+  summary->detected = detected;
+  if (options.parameters.mode == Mode::points) return;
+  summary->detector = options.own_detector ? "of the program" : options.detector.name;
+  if (summary->detector == "files") summary->median_detect_ms = 0;  // they were only read
 }
 
 RunResult run_with_camera(const RunOptions& options, const Sequence& sequence, const std::vector<std::size_t>& asked,
-                          const std::optional<SelfCalibration>& calibration) {
+                          const std::optional<SelfCalibration>& calibration, MapSession& session) {
   const SequenceCamera camera(sequence.camera);
   FrameSource source(sequence, options);
   create_output_folder(options.output);
@@ -226,6 +226,7 @@ RunResult run_with_camera(const RunOptions& options, const Sequence& sequence, c
   RunResult result;
   System system(camera.view(), sequence.camera.width, sequence.camera.height, options.parameters,
                 sequence.camera.shutter);
+  session.begin(&system);
   FrameClock clock(options.parameters.real_time);
   Detections detections(source, options);
   keep_going(result, [&] { track_frames(options, sequence, asked, source, clock, detections, system, result); });
@@ -234,16 +235,17 @@ RunResult run_with_camera(const RunOptions& options, const Sequence& sequence, c
   source.read_texts(system);
   keep_going(result, [&] { system.fill_in([&](int index) { return source.frame(index); }); });
 
+  std::optional<MetricScale> metric;
+  keep_going(result, [&] { metric = make_metric(options, &system); });
+
   RunSummary& summary = result.summary;
   const std::size_t broken = summary.broken;
   summary = summarise(system, sequence, asked.size());
   summary.calibration = calibration;
+  summary.metric = metric;
   summary.broken = broken;
   summary.latency_ms = clock.latency_ms();
-  if (options.parameters.mode != Mode::points)
-    summary.detector = options.own_detector ? "of the program" : options.detector.name;
-  if (summary.detector == "files") summary.median_detect_ms = 0;  // they were only read
-  summary.detected = detections.count();
+  name_detector(options, detections.count(), &summary);
   std::vector<TrueSign> signs;
   if (is_aligned(summary))
     keep_going(result, [&] {
@@ -252,13 +254,11 @@ RunResult run_with_camera(const RunOptions& options, const Sequence& sequence, c
     });
   std::exception_ptr failure;
   try {
-    const auto image = [&](int index) { return source.name(index); };
+    const auto image = [&](int index) { return index < 0 ? session.image(index) : source.name(index); };
     write_outputs(options.output, system, summary, image);
-    if (calibration || options.parameters.estimate_readout) {
-      CameraModel found = sequence.camera;
-      found.shutter = system.map().shutter;
-      write_file(options.output + "/camera.yaml", camera_yaml(found, calibration));
-    }
+    result.unmapped = session.save(system, sequence.camera, metric, image);
+    if (calibration || options.parameters.estimate_readout)
+      write_camera(options, sequence.camera, system.map().shutter.readout, calibration);
   } catch (const std::exception&) {
     failure = std::current_exception();
   }
@@ -285,11 +285,10 @@ RunResult run(const RunOptions& options) {
   Sequence sequence = read_sequence(options.sequence, input);
   know_rows(options, &sequence.camera);
   const std::vector<std::size_t> asked = frames_asked(sequence, options);
+  MapSession session(options, &sequence);
   std::optional<SelfCalibration> calibration;
-  if (options.calibrate == Calibrate::always ||
-      (options.calibrate == Calibrate::automatic && sequence.camera_origin != CameraOrigin::file))
-    calibration = estimate_camera(options, asked, &sequence);
-  return run_with_camera(options, sequence, asked, calibration);
+  if (!session.has_earlier()) calibration = know_camera(options, asked, &sequence);
+  return run_with_camera(options, sequence, asked, calibration, session);
 }
 
 }  // namespace textslam

@@ -29,6 +29,10 @@ struct RunOptions {
   int last = -1;                               ///< Index of the last frame; -1: the sequence's last.
   int every = 1;                               ///< One frame of so many is used.
   bool skip_broken = false;                    ///< Frames that cannot be read are passed over; else the first ends it.
+  std::string save_map;                        ///< The map file that is written; empty: none, or `map` again.
+  std::string map;                             ///< The map file of earlier sessions; empty: none.
+  std::vector<KnownWidth> widths;              ///< Of signs; they make the map metric.
+  bool localise = false;                       ///< Frames are only localised in `map`, which stays as it is.
   Parameters parameters;
   std::optional<double> readout;  ///< s, of a rolling shutter; in place of what the camera file says.
   bool report = true;             ///< Write report.html.
@@ -39,6 +43,7 @@ struct RunOptions {
 struct RunResult {
   RunSummary summary;
   std::string report;        ///< Path of the report; empty where there is none.
+  std::string unmapped;      ///< Empty, or one line: why the map of earlier sessions is as it was.
   std::string error;         ///< Empty, or one line: what ended the run early. What came before is written.
   bool interrupted = false;  ///< By a signal: see io/interrupt.hpp.
 };

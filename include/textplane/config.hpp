@@ -28,6 +28,8 @@
 #define TEXTPLANE_ABI_ISA avx
 #elif defined(__SSE4_1__)
 #define TEXTPLANE_ABI_ISA sse41
+#elif defined(__wasm_simd128__)
+#define TEXTPLANE_ABI_ISA simd128
 #else
 #define TEXTPLANE_ABI_ISA base
 #endif

@@ -78,6 +78,7 @@
 #include "textplane/photometry/pyramid.hpp"
 #include "textplane/photometry/residual.hpp"
 #include "textplane/photometry/residual_autodiff.hpp"
+#include "textplane/photometry/residual_hybrid.hpp"
 #include "textplane/photometry/residual_kernels.hpp"
 #include "textplane/photometry/residual_passes.hpp"
 #include "textplane/photometry/residual_policy.hpp"

@@ -78,7 +78,7 @@ TEST(NoAllocation, NormalEquationsAndCosts) {
     const std::vector<tp::TextBatchItem> items(20, {i.in.patch, i.in.host_camera, i.scene.theta});
     const tp::TextBatch batch(items.data(), 20);
     tp::TextBatchResult result(batch);
-    std::array<Status, 9> status{};
+    std::array<Status, 10> status{};
     {
       const NoAllocation guard;
       const auto& [in, theta, T] = std::tie(i.in, i.scene.theta, i.scene.T_t_h);
@@ -98,6 +98,9 @@ TEST(NoAllocation, NormalEquationsAndCosts) {
               .status,
           tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, i.options}.by(tp::LinearisePolicy::esm),
                                               workspace)
+              .status,
+          tp::linearise<tp::Parameters::pose>(
+              tp::ResidualRequest{in, theta, T, i.options}.by(tp::LinearisePolicy::hybrid, &i.prepared), workspace)
               .status,
           tp::zncc_candidates(in, theta, poses.data(), 20, i.options, workspace, zncc.data(), &i.prepared),
           tp::linearise_batch<tp::Parameters::pose_plane>(batch, in.target, in.target_camera, poses.data(), i.options,

@@ -115,6 +115,7 @@ void count_policies(const Scene& scene, int n) {
   count_by("template_l2", tp::LinearisePolicy::template_jacobian, l2);
   count_by("template_huber", tp::LinearisePolicy::template_jacobian, {});
   count_by("esm", tp::LinearisePolicy::esm, {});
+  if (n > tp::kHybridPixels) count_by("hybrid", tp::LinearisePolicy::hybrid, {});
   const std::vector<tp::SE3d> poses(16, scene.T_t_h);
   std::vector<float> zncc(16);
   count("zncc_16" + size, [&] {

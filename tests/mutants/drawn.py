@@ -39,13 +39,15 @@ TESTS = [
     ("photometry/warp_patch", "simd/warp_kernels_test simd/warp_edges_test"),
     ("photometry/world_parameters", "simd/residual_kernels_test photometry/residual_jacobian_test"),
     ("photometry/photometric_input", "photometry/patch_test solver/align_pose_test solver/policy_test"),
-    ("photometry/residual_policy", "photometry/residual_policy_test simd/esm_kernels_test"),
+    ("photometry/residual_policy", "photometry/residual_policy_test simd/esm_kernels_test simd/hybrid_kernels_test"),
+    ("photometry/residual_hybrid", "photometry/residual_policy_test"),
     ("photometry/residual_reference", "photometry/residual_policy_test photometry/residual_jacobian_test photometry/visible_set_test "
                                       "photometry/residual_status_test"),
     ("photometry/", "photometry/residual_jacobian_test photometry/residual_status_test photometry/visible_set_test "
                     "simd/residual_visibility_test simd/residual_kernels_test photometry/residual_cost_test"),
     ("simd/kernels/residual/batch|simd/batch", "simd/batch_kernels_test simd/batch_visibility_test simd/stated_bounds_test"),
     ("simd/kernels/residual/(esm|host_basis)|simd/esm", "simd/esm_kernels_test simd/template_kernels_test"),
+    ("simd/(kernels/residual/)?hybrid", "simd/hybrid_kernels_test"),
     ("simd/kernels/residual/moments", "simd/residual_kernels_test simd/esm_kernels_test"),
     ("simd/kernels/residual/template|simd/template", "simd/template_kernels_test simd/zncc_kernels_test"),
     ("simd/kernels/zncc|simd/zncc", "simd/zncc_kernels_test"), ("simd/(kernels/)?klt", "simd/klt_kernels_test features/klt_test"),

@@ -65,7 +65,8 @@ void run_every_kernel(const tp::PhotometricInput& in, const tp::SE3d& T, tp::Pho
     tp::linearise<tp::Parameters::plane>(tp::ResidualRequest{in, theta, T, options}, workspace);
     tp::linearise<tp::Parameters::pose>(tp::ResidualRequest{in, theta, T, options}, workspace);
     tp::linearise<tp::Parameters::pose_plane>(tp::ResidualRequest{in, theta, T, options}, workspace);
-    for (const auto policy : {tp::LinearisePolicy::template_jacobian, tp::LinearisePolicy::esm}) {
+    for (const auto policy :
+         {tp::LinearisePolicy::template_jacobian, tp::LinearisePolicy::esm, tp::LinearisePolicy::hybrid}) {
       tp::linearise<tp::Parameters::pose>(
           tp::ResidualRequest{in, theta, T, options}.by(policy, ready ? &prepared : nullptr), workspace);
       tp::linearise<tp::Parameters::pose_plane>(
@@ -97,7 +98,7 @@ TEST(GuardPages, EveryKernelEveryBorder) {
       const Guarded<std::uint8_t> memory(static_cast<std::size_t>((height - 1) * stride + width));
       for (std::size_t i = 0; i < memory.size(); ++i)
         memory.data()[i] = memory.front()[i] = static_cast<std::uint8_t>(random.integer(0, 255));
-      for (const int n : {1, 2, 3, 7, 8, 9, 15, 16, 17, 31, 33, 64, 65, 200, 300}) {
+      for (const int n : {1, 2, 3, 7, 8, 9, 15, 16, 17, 31, 33, 64, 65, 200, 300, 301}) {
         const Pixels pixels(n, width, height, static_cast<unsigned>(n));
         tp::PhotometricWorkspace workspace(n);
         for (const std::uint8_t* pixel : {memory.data(), memory.front()}) {

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "photometry/scene.hpp"
+#include "textplane/photometry/template_patch.hpp"
 
 namespace residual_policy_test {
 using namespace textplane_test;
@@ -108,6 +110,76 @@ TEST(LinearisePolicy, RowsAreWhatTheyMean) {
         }
         EXPECT_NEAR(e.cost, residual.squaredNorm(), 1e-12);
       }
+    }
+}
+
+// By central differences: of the target's intensity at a warped pixel, and of the warp at the patch's centre. Its mean
+// weight times the energy of the target's gradients, sum |J^T g|^2, over that of the host's.
+double energy_ratio(const Patch& scene, const Eigen::VectorXd& residuals, const tp::Robust& robust) {
+  const auto [low_x, high_x] = std::minmax_element(scene.x.begin(), scene.x.end());
+  const auto [low_y, high_y] = std::minmax_element(scene.y.begin(), scene.y.end());
+  const double cx = 0.5 * (static_cast<double>(*low_x) + static_cast<double>(*high_x)),
+               cy = 0.5 * (static_cast<double>(*low_y) + static_cast<double>(*high_y)), h = 1e-5;
+  const auto value = [&](double x, double y) {
+    double v = 0;
+    EXPECT_TRUE(tp::sample_bilinear(scene.view(), x, y, &v));
+    return v;
+  };
+  Eigen::Matrix2d J;
+  J.col(0) = (scene.project(cx + h, cy) - scene.project(cx - h, cy)) / (2 * h);
+  J.col(1) = (scene.project(cx, cy + h) - scene.project(cx, cy - h)) / (2 * h);
+  double target = 0, host = 0, weights = 0;
+  const int n = scene.n();
+  for (int i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const tp::Vector2<double> at = scene.project(static_cast<double>(scene.x[k]), static_cast<double>(scene.y[k]));
+    const Eigen::Vector2d g((value(at[0] + h, at[1]) - value(at[0] - h, at[1])) / (2 * h),
+                            (value(at[0], at[1] + h) - value(at[0], at[1] - h)) / (2 * h));
+    target += (J.transpose() * g).squaredNorm();
+    host += Eigen::Vector2f(scene.gx[k], scene.gy[k]).cast<double>().squaredNorm();
+    weights += robust.weight(n * residuals[i] * residuals[i]) / n;
+  }
+  return weights * target / host;
+}
+
+// b is forward's; H that of the template's rows of all pixels times that ratio.
+TEST(LinearisePolicy, HybridIsForwardsGradientWithTheTemplatesMatrix) {
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    for (const bool exact : {true, false}) {
+      SCOPED_TRACE(seed);
+      const Patch scene(seed, 300);
+      tp::PhotometricWorkspace workspace(scene.n());
+      tp::PhotometricOptions options;
+      options.robust.delta = seed * 0.4;
+      options.normalisation = exact ? tp::Normalisation::exact : tp::Normalisation::frozen;
+      tp::TemplatePatch prepared;
+      ASSERT_EQ(prepared.prepare(scene.input().patch), tp::Status::ok);
+      Eigen::VectorXd residuals(scene.n());
+      ASSERT_EQ(tp::reference::residuals<tp::Parameters::pose_plane>(scene.request(options), workspace,
+                                                                     residuals.data(), nullptr)
+                    .visible,
+                scene.n());
+      Eigen::VectorXd host(scene.n());
+      Eigen::MatrixXd dI(scene.n(), 9);
+      for (int i = 0; i < scene.n(); ++i) {
+        host[i] = static_cast<double>(scene.intensity[static_cast<std::size_t>(i)]);
+        dI.row(i) = scene.template_row(i).transpose();
+      }
+      host.array() -= host.mean();
+      const double s = host.norm();
+      const Eigen::MatrixXd rows = project(dI, host / s, s, exact);
+
+      const auto forward = tp::reference::linearise<tp::Parameters::pose_plane>(scene.request(options), workspace);
+      const auto hybrid = tp::reference::linearise<tp::Parameters::pose_plane>(
+          scene.request(options).by(LinearisePolicy::hybrid, &prepared), workspace);
+      ASSERT_EQ(hybrid.status, tp::Status::ok);
+      EXPECT_EQ(hybrid.b, forward.b);
+      EXPECT_EQ(hybrid.cost, forward.cost);
+      EXPECT_EQ(hybrid.zncc, forward.zncc);
+      const double ratio = energy_ratio(scene, residuals, options.robust) * (s * s) / (forward.s * forward.s);
+      const Eigen::MatrixXd H = ratio * rows.transpose() * rows;
+      for (int i = 0; i < 9; ++i)
+        for (int j = 0; j < 9; ++j) EXPECT_NEAR(hybrid.H(i, j), H(i, j), 1e-6 * std::sqrt(H(i, i) * H(j, j)));
     }
 }
 

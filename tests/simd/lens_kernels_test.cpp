@@ -165,6 +165,11 @@ TEST(LensKernels, HostGradients) {
           EXPECT_EQ(fast.path, tp::Path::kernel);
           textplane_test::expect_close<9>(fast, reference, 0.08 / 30);
           EXPECT_LT((fast.H - reference.H).norm(), 2e-3 * reference.H.norm());
+          if (n < 66) continue;
+          const auto hybrid = request.by(tp::LinearisePolicy::hybrid, &prepared);
+          textplane_test::expect_close<9>(tp::linearise<tp::Parameters::pose_plane>(hybrid, scene.workspace),
+                                          tp::reference::linearise<tp::Parameters::pose_plane>(hybrid, scene.workspace),
+                                          3e-4);
         }
       }
   }

@@ -84,7 +84,8 @@ TEST(Policy, EveryPolicyFindsTheSamePose) {
     const tp::PoseFit forward = input.solve(start, LinearisePolicy::forward, false);
     ASSERT_EQ(forward.status, tp::Status::converged);
     EXPECT_LT(input.error(forward.T_t_w), 0.05);
-    for (const auto policy : {LinearisePolicy::template_jacobian, LinearisePolicy::esm, LinearisePolicy::automatic})
+    for (const auto policy : {LinearisePolicy::template_jacobian, LinearisePolicy::esm, LinearisePolicy::hybrid,
+                              LinearisePolicy::automatic})
       for (const bool prepared : {true, false}) {
         SCOPED_TRACE(static_cast<int>(policy));
         const tp::PoseFit fit = input.solve(start, policy, prepared);
@@ -93,6 +94,24 @@ TEST(Policy, EveryPolicyFindsTheSamePose) {
         EXPECT_LT(fit.cost, forward.cost * 1.02);
         EXPECT_EQ(fit.texts, 3);
       }
+  }
+}
+
+// The gradient of the cost is the same, so is its minimum.
+TEST(Policy, HybridEndsWhereForwardEnds) {
+  Input input;
+  for (const TextPatch& patch : input.patches) ASSERT_GT(patch.levels[0].view().n, tp::kHybridPixels);
+  Random random(7);
+  for (int trial = 0; trial < 10; ++trial) {
+    const SE3d start = tp::se3_exp<double>(random.twist(0.01, 0.008)) * input.truth;
+    const tp::PoseFit forward = input.solve(start, LinearisePolicy::forward, true);
+    const tp::PoseFit hybrid = input.solve(start, LinearisePolicy::hybrid, true);
+    ASSERT_EQ(forward.status, tp::Status::converged);
+    ASSERT_EQ(hybrid.status, tp::Status::converged);
+    EXPECT_FALSE(hybrid.information.isApprox(forward.information, 1e-9)) << "forward's matrix was taken";
+    for (const Sign& sign : input.scene.signs)
+      EXPECT_LT(input.scene.corner_error(sign, hybrid.T_t_w, forward.T_t_w), 0.01) << "px";
+    EXPECT_LE(hybrid.iterations, forward.iterations * 3 / 2 + 2);
   }
 }
 

@@ -1,6 +1,6 @@
 # The rooms of examples/textslam, the lowest first: a file includes its own room and those before it, nothing later.
 # Run as: cmake -DFOLDER=<examples/textslam> -P rooms.cmake
-set(rooms common input detect map track text adjust init relocalise loop system calibrate report)
+set(rooms common input detect map track text adjust init relocalise loop system calibrate report map_file)
 file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*.cpp ${FOLDER}/*.hpp)
 list(LENGTH files count)
 if(count LESS 50)

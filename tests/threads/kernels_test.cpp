@@ -41,6 +41,7 @@ struct Shared {
   tp::Vector3<double> theta{0.05, -0.04, 0.5};
   tp::SE3d T_t_h{tp::so3_exp<double>({0.01, -0.015, 0.02}), {0.03, -0.02, 0.01}};
   tp::TextPatch patch;
+  tp::TemplatePatch prepared;  // of its finest level
   std::vector<tp::TextBatchItem> items;
   tp::TextBatch batch;
 
@@ -54,6 +55,7 @@ struct Shared {
     quad.corner = {tp::Vector2<double>(60, 40), tp::Vector2<double>(140, 40), tp::Vector2<double>(140, 100),
                    tp::Vector2<double>(60, 100)};
     patch = tp::patch_from_pixels(pyramid.view(), camera, quad, pixels);
+    prepared.prepare(patch.levels[0].view());
     for (int i = 0; i < 20; ++i) {
       tp::PatchView view = patch.levels[0].view();
       view.n = 15 + i;
@@ -102,6 +104,8 @@ Bits run(const Shared& s) {
                    .H.data(),
                36);
   }
+  const auto hybrid = tp::ResidualRequest{in, s.theta, s.T_t_h, options}.by(tp::LinearisePolicy::hybrid, &s.prepared);
+  bits.add(tp::linearise<tp::Parameters::pose>(hybrid, workspace).H.data(), 36);
   tp::TextBatchResult result(s.batch);
   const std::vector<tp::SE3d> poses(s.items.size(), s.T_t_h);
   EXPECT_EQ(tp::linearise_batch<tp::Parameters::pose>(s.batch, s.image.view(), s.camera, poses.data(), options, result),

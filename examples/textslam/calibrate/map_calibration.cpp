@@ -213,7 +213,7 @@ MapCalibration calibrate(const Map& map, const CameraModel& camera, const Camera
                          const Parameters& parameters, const CalibrationPriors& priors) {
   MapCalibration out;
   out.camera = camera;
-  out.camera.shutter = map.shutter;
+  out.camera.shutter.readout = map.shutter.readout;
   out.sigma.assign(static_cast<std::size_t>(camera.raw.parameters().size()), 0);
   if (map.keyframe_ids().size() < 3) return out;
   CalibrationWindow window(map, parameters);

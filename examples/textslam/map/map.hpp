@@ -47,7 +47,7 @@ struct Map {
   int number = -1;    ///< Maps are numbered in the order in which they began.
   CameraView camera;  ///< Of all images, level 0. Its lens outlives the map.
   int width = 0, height = 0;
-  textplane::RollingShutter shutter;  ///< Of the camera.
+  textplane::RollingShutter shutter;  ///< Of the camera, by the time of its middle row, to which poses belong.
   std::vector<KeyFrame> keyframes;
   std::vector<MapPoint> points;
   std::vector<TextObject> texts;

@@ -10,29 +10,20 @@ namespace textslam {
 namespace {
 
 // Inlier points that lie on no mapped text.
-int points_off_texts(const Map& map, const Relocalisation& found) {
+int points_off_texts(const Map& map, const SE3d& T_c_w, const std::vector<Track>& tracks) {
   std::vector<Quad<double>> quads;
   for (const TextObject& text : map.texts) {
     Quad<double> quad;
-    if (text.state == TextState::mapped && project_text(map, text, found.T_c_w, &quad)) quads.push_back(quad);
+    if (text.state == TextState::mapped && project_text(map, text, T_c_w, &quad)) quads.push_back(quad);
   }
   int count = 0;
-  for (const Track& track : found.tracks) {
+  for (const Track& track : tracks) {
     const Vec2 px = track.px.cast<double>();
     const bool on_text = std::any_of(quads.begin(), quads.end(),
                                      [&](const Quad<double>& quad) { return textplane::contains(quad, px); });
     count += track.point >= 0 && track.inlier && !on_text ? 1 : 0;
   }
   return count;
-}
-
-// A wrong pose would spoil the map, and another lost frame costs little.
-bool holds(const Map& map, const Parameters& parameters, const Relocalisation& found) {
-  const int expected = std::min(static_cast<int>(found.visible.size()), parameters.max_reobserved);
-  if (!found.ok || found.inliers < parameters.relocalise_min_share * expected) return false;
-  return found.texts >= parameters.enough_texts ||
-         (found.inliers >= parameters.relocalise_inlier_factor * parameters.min_inliers &&
-          points_off_texts(map, found) >= parameters.min_inliers);
 }
 
 Relocalisation relocalise_by_keyframes(const Map& map, const Parameters& parameters, const Frame& frame) {
@@ -58,14 +49,24 @@ Relocalisation relocalise_by_keyframes(const Map& map, const Parameters& paramet
     tracker.start(keyframe.frame, keyframe.T_w_c.inverse(), tracks_of_keyframe(map, candidate.keyframe));
     TrackReport report = tracker.track(frame);
     if (!report.ok || report.inliers <= best.inliers) continue;
-    best = {std::move(report), std::move(tracker.tracks())};
+    best = {std::move(report), FoundBy::images, std::move(tracker.tracks())};
   }
   // From so far away many tracks go wrong together; a search from the pose alone does not inherit that.
-  if (best.ok) best = observe_from(map, parameters, frame, best.T_c_w);
-  return holds(map, parameters, best) ? best : Relocalisation();
+  if (best.ok) best = recognise_from(map, parameters, frame, best.T_c_w);
+  best.by = FoundBy::images;
+  return best;
 }
 
 }  // namespace
+
+// A wrong pose would spoil the map, and another lost frame costs little.
+bool holds(const Map& map, const Parameters& parameters, const TrackReport& found, const std::vector<Track>& tracks) {
+  const int expected = std::min(static_cast<int>(found.visible.size()), parameters.max_reobserved);
+  if (!found.ok || found.inliers < parameters.relocalise_min_share * expected) return false;
+  return found.texts >= parameters.enough_texts ||
+         (found.inliers >= parameters.relocalise_inlier_factor * parameters.min_inliers &&
+          points_off_texts(map, found.T_c_w, tracks) >= parameters.min_inliers);
+}
 
 Relocalisation observe_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w) {
   Relocalisation best;
@@ -76,14 +77,14 @@ Relocalisation observe_from(const Map& map, const Parameters& parameters, const 
     TrackReport report = tracker.track(frame);
     if (!report.ok || report.inliers + report.texts <= best.inliers + best.texts) break;
     guess = report.T_c_w;
-    best = {std::move(report), std::move(tracker.tracks())};
+    best = {std::move(report), FoundBy::nothing, std::move(tracker.tracks())};
   }
   return best;
 }
 
 Relocalisation recognise_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w) {
   Relocalisation found = observe_from(map, parameters, frame, T_c_w);
-  return holds(map, parameters, found) ? found : Relocalisation();
+  return holds(map, parameters, found, found.tracks) ? found : Relocalisation();
 }
 
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
@@ -91,6 +92,7 @@ Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters,
   for (const WordMatch words : ways) {
     for (const TextHypothesis& hypothesis : text_hypotheses(map, parameters, frame, words)) {
       Relocalisation found = recognise_from(map, parameters, frame, hypothesis.T_c_w);
+      found.by = FoundBy::texts;
       if (found.ok) return found;
     }
   }
@@ -111,6 +113,7 @@ Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters
     const MatchedPose pose = pose_by_places(map, parameters, looks, keyframes);
     if (pose.inliers == 0) continue;
     Relocalisation found = recognise_from(map, parameters, frame, pose.T_c_w);
+    found.by = FoundBy::points;
     if (found.ok) return found;
   }
   return {};

@@ -11,8 +11,18 @@
 
 namespace textslam {
 
+/// What gave a frame its pose.
+enum class FoundBy {
+  nothing,
+  tracking,  ///< The frames before it.
+  texts,     ///< Signs that it shows.
+  images,    ///< A key frame that looks like it.
+  points,    ///< Points that look like those of key frames.
+};
+
 /// How the frame was tracked from there. Unless ok, nothing else counts.
 struct Relocalisation : TrackReport {
+  FoundBy by = FoundBy::nothing;
   std::vector<Track> tracks;  ///< Map points found in the frame: what a tracker that starts there follows.
 };
 
@@ -20,8 +30,11 @@ struct Relocalisation : TrackReport {
 /// is fitted to them.
 Relocalisation observe_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
 
-/// The same, refused where the pose does not hold. It holds where the image shows enough of the points that it should
-/// see, and two texts agree with it or enough points lie off the signs: the same sign may hang in several places.
+/// Whether a pose holds: the image shows enough of the points that it should see, and two texts agree with it or enough
+/// points lie off the signs. The same sign may hang in several places.
+bool holds(const Map& map, const Parameters& parameters, const TrackReport& found, const std::vector<Track>& tracks);
+
+/// The same as observe_from(), refused where the pose does not hold.
 Relocalisation recognise_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
 
 /// The first pose that holds of those that the frame's detections suggest, compared with the texts in one way after

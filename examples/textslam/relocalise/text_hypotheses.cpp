@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sign_index/planar_pose.hpp"
 #include "textplane/geometry/quad.hpp"
 #include "textplane/geometry/quad_projection.hpp"
 #include "textplane/landmarks/text_noise.hpp"
@@ -9,7 +10,6 @@
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/search.hpp"
 #include "textslam/map/text_views.hpp"
-#include "textslam/relocalise/planar_pose.hpp"
 
 namespace textslam {
 namespace {

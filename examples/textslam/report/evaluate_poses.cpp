@@ -72,7 +72,8 @@ std::vector<StatedPose> stated_poses(const System& system, bool live) {
 
 std::vector<StampedPose> keyframe_trajectory(const Map& map) {
   std::vector<StampedPose> poses;
-  for (const int id : map.keyframe_ids()) poses.push_back({map.keyframe(id).frame.timestamp, map.keyframe(id).T_w_c});
+  for (const int id : map.keyframe_ids())
+    if (map.keyframe(id).frame.index >= 0) poses.push_back({map.keyframe(id).frame.timestamp, map.keyframe(id).T_w_c});
   std::sort(poses.begin(), poses.end(),
             [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
   return poses;

@@ -34,7 +34,7 @@ PoseErrors compare_poses(const std::vector<StatedPose>& poses, const std::vector
 /// The tracked frames that were live ones, or those that were not.
 std::vector<StatedPose> stated_poses(const System& system, bool live);
 
-/// The key frames' poses, in order of time.
+/// The key frames' poses, in order of time, without those of earlier sessions.
 std::vector<StampedPose> keyframe_trajectory(const Map& map);
 
 }  // namespace textslam

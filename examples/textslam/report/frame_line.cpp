@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "textslam/report/localisation.hpp"
 #include "textslam/report/timing.hpp"
 
 namespace textslam {
@@ -15,6 +16,7 @@ std::string frame_line(int index, const FrameRecord& record, const Map& map) {
   return Json{{"frame", index},
               {"timestamp", record.timestamp},
               {"state", to_string(record.state)},
+              {"found_by", to_string(record.by)},
               {"points", record.points},
               {"texts", record.texts},
               {"keyframe", is_keyframe},

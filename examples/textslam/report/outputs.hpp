@@ -9,6 +9,7 @@
 //   text_index.json      the texts by their words, for textslam-map, see text_index.hpp
 //   timing.json          milliseconds by stage; differs between two equal runs
 //   metrics.json         counts; errors where ground truth exists
+//   localisation.csv     of --localise: how each frame was found, see localisation.hpp
 //   report.html          all of it to look at, see report.hpp; its block `run` differs between two equal runs
 //
 // If parts of a sequence were mapped separately and never joined, the outputs are those of the map with most frames,

@@ -68,6 +68,11 @@ void add_counts(Fields& fields, const RunSummary& s) {
   fields.add("maps", nullptr, s.map_frames.size());
   fields.add("map_frames", "map_frames", s.map_frames);
   add_loops(fields, s.loops);
+  if (s.metric) {
+    fields.add("metric", nullptr, Json{{"sigma_share", s.metric->sigma}, {"texts", s.metric->texts}});
+    fields.row("scale", "metres to %.2f %%, by %d %s", 100 * s.metric->sigma, s.metric->texts,
+               s.metric->texts == 1 ? "text" : "texts");
+  }
   if (s.readout != 0) fields.add("readout_s", nullptr, s.readout);
   if (s.approximate_fov > 0) fields.add("approximate_camera", nullptr, Json{{"fov_deg", s.approximate_fov}});
   if (s.calibration) add_calibration(fields, *s.calibration, s.true_camera);

@@ -14,6 +14,7 @@
 #include "textslam/report/evaluate_text.hpp"
 #include "textslam/report/fields.hpp"
 #include "textslam/system/system.hpp"
+#include "textslam/text/metric_scale.hpp"
 
 namespace textslam {
 
@@ -36,10 +37,11 @@ struct RunSummary {
   TrajectoryEvaluation trajectory, live;
   PoseErrors final_live, filled_in;  ///< Of the final poses of frames that were live ones, and of the others.
   TextEvaluation text;
-  double reprojection_px = 0;      ///< See reprojection_error(), of the map.
-  double median_ms = 0;            ///< A frame, detection aside.
-  double median_detect_ms = 0;     ///< A frame that the detector saw.
-  std::vector<double> latency_ms;  ///< Real time: of each frame, from its arrival to its pose.
+  std::optional<MetricScale> metric;  ///< Where the widths of signs were known.
+  double reprojection_px = 0;         ///< See reprojection_error(), of the map.
+  double median_ms = 0;               ///< A frame, detection aside.
+  double median_detect_ms = 0;        ///< A frame that the detector saw.
+  std::vector<double> latency_ms;     ///< Real time: of each frame, from its arrival to its pose.
 };
 
 /// Whether the trajectory was aligned with ground truth.

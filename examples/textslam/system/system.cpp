@@ -16,13 +16,14 @@ namespace textslam {
 System::System(const CameraView& camera, int width, int height, const Parameters& parameters,
                const textplane::RollingShutter& shutter)
     : parameters_(at_view(at_size(parameters, width, height), camera, width, height)),
+      stamp_row_(shutter.rows > 1 ? shutter.row0 : all_at_once(height).row0),
       initialiser_(parameters_),
       text_mapper_(map_, local_, parameters_),
       adjuster_(parameters_) {
   map_.camera = camera;
   map_.width = width;
   map_.height = height;
-  map_.shutter = shutter.rows > 1 ? shutter : all_at_once(height);
+  map_.shutter = at_middle(shutter, height);
 }
 
 const FrameRecord& System::process(const Frame& frame, double detect_ms) {
@@ -30,6 +31,7 @@ const FrameRecord& System::process(const Frame& frame, double detect_ms) {
   record.timestamp = frame.timestamp;
   record.detect_ms = detect_ms;
   const double start = now_ms();
+  if (only_localises_) return localise(frame, record);
   take_over(adjuster_.collect(map_));
   const bool found = (tracker_ && lost_frames_ == 0 && track(frame, record)) || recover(frame, record);
   record.track_ms = now_ms() - start;
@@ -67,11 +69,13 @@ void System::set_pose(FrameRecord& record, const SE3d& T_c_w) {
   record.map = map_.number;
   record.keyframe = last_keyframe_;
   const SE3d T_w_c = T_c_w.inverse();
-  record.T_w_c_live = live_world_ * T_w_c;
   record.T_k_c = map_.keyframe(last_keyframe_).T_w_c.inverse() * T_w_c;
+  record.T_w_m_live = live_world_ * T_w_c;
+  record.T_w_c_live = live_world_ * at_stamp(record, T_w_c);
 }
 
-// Without the newest frame, whose live pose is yet to be given.
+// Without the newest frame, whose live pose is yet to be given. By poses of the middle row: near the start the camera
+// has moved no farther than the others differ by chance.
 void System::align_live_world() {
   std::vector<const FrameRecord*> live;
   for (const FrameRecord& record : records_)
@@ -79,8 +83,8 @@ void System::align_live_world() {
   const std::size_t step = std::max<std::size_t>(1, live.size() / static_cast<std::size_t>(parameters_.live_frames));
   std::vector<SE3d> now, given;
   for (std::size_t i = 0; i < live.size(); i += step) {
-    now.push_back(final_pose(*live[i]));
-    given.push_back(live[i]->T_w_c_live);
+    now.push_back(middle_pose(*live[i]));
+    given.push_back(live[i]->T_w_m_live);
   }
   align_poses(now, given, &live_world_);  // or it stays as it was
 }
@@ -123,6 +127,7 @@ bool System::track(const Frame& frame, FrameRecord& record) {
   record.points = report.inliers;
   record.texts = report.texts;
   if (!report.ok) return false;
+  record.by = FoundBy::tracking;
   record.information = report.information;
   record.position_sigma = report.position_sigma;
   for (const int id : report.visible) ++map_.point(id).visible;
@@ -132,8 +137,8 @@ bool System::track(const Frame& frame, FrameRecord& record) {
 
 void System::follow(const Frame& frame, FrameRecord& record) {
   lost_frames_ = 0;
-  set_pose(record, tracker_->pose());
   record.rows = tracker_->frame().rows;
+  set_pose(record, tracker_->pose());
   if (records_.size() > 1) roll(records_.size() - 2);
   const double start = now_ms();
   if (parameters_.mode != Mode::points) text_mapper_.associate(frame, tracker_->pose(), tracker_->tracks());
@@ -218,9 +223,9 @@ void System::cull_keyframes() {
     const KeyFrame& keyframe = map_.keyframe(id);
     const int before = keyframe_before(map_, id);
     const SE3d T_before_id = map_.keyframe(before).T_w_c.inverse() * keyframe.T_w_c;
-    const auto frame = static_cast<std::size_t>(keyframe.frame.index);
-    if (records_.size() - frame <= static_cast<std::size_t>(parameters_.refit_frames))
-      records_[frame].seen =
+    const int frame = keyframe.frame.index;  // negative where it is of an earlier session
+    if (frame >= 0 && static_cast<int>(records_.size()) - frame <= parameters_.refit_frames)
+      records_[static_cast<std::size_t>(frame)].seen =
           seen_points(tracks_of_keyframe(map_, id), static_cast<std::size_t>(parameters_.refit_max_points));
     for (FrameRecord& record : records_) {
       if (record.map != map_.number || record.keyframe != id) continue;

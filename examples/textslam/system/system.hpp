@@ -6,6 +6,9 @@
 //
 // One map is worked on at a time. After a long loss it is stored, and another begins. Lost frames are searched for in
 // the stored maps, and a key frame that shows one joins the two. In the end the map with most frames is the result.
+//
+// A map of earlier sessions begins as such a stored map; where a frame was found in it, it is the result. Or frames are
+// only localised in it: then nothing changes.
 #ifndef TEXTSLAM_SYSTEM_SYSTEM_HPP
 #define TEXTSLAM_SYSTEM_SYSTEM_HPP
 
@@ -48,9 +51,11 @@ struct FrameRecord {
   int keyframe = -1;  ///< The key frame that the pose is relative to.
   SE3d T_k_c;         ///< Camera to that key frame.
   Matrix6 information = Matrix6::Zero();  ///< Of that, see PoseEstimate; zero where the pose is a key frame's.
-  SE3d T_w_c_live;            ///< Camera to the live world as known when the frame was processed; tracked frames alone.
-  bool live = false;          ///< Tracked in the map when it came, not filled in or joined afterwards.
-  double position_sigma = 0;  ///< Of the camera, as a share of the scene's depth, as tracked.
+  SE3d T_w_c_live;  ///< Camera to the live world as known when the frame was processed; tracked frames alone.
+  SE3d T_w_m_live;  ///< The same at the time of the middle row, see System::at_stamp().
+  FoundBy by = FoundBy::nothing;  ///< What gave it its live pose.
+  bool live = false;              ///< Tracked in the map when it came, not filled in or joined afterwards.
+  double position_sigma = 0;      ///< Of the camera, as a share of the scene's depth, as tracked.
   int points = 0, texts = 0;
   std::vector<SeenPoint> seen;                            ///< Between key frames: what the pose rests on.
   std::shared_ptr<const textplane::RowMotion> rows = {};  ///< See Frame.
@@ -59,9 +64,15 @@ struct FrameRecord {
 
 class System {
  public:
-  /// The lens of the camera, if it has one, must outlive the system.
+  /// The lens of the camera, if it has one, must outlive the system. Time stamps belong to the row0 of `shutter`.
   System(const CameraView& camera, int width, int height, const Parameters& parameters,
          const textplane::RollingShutter& shutter = {});
+
+  /// Before the first frame: goes on in a map of earlier sessions (earlier_frame_index() of map_file.hpp), of the same
+  /// camera. The live world is the map's.
+  void go_on_in(Map earlier);
+  /// Likewise, but frames are only localised in it. A pose is given where it holds (relocalisation.hpp), else none.
+  void localise_in(Map earlier);
 
   /// Takes the next frame; indices count up from 0. `detect_ms` is what the detector took, for the record.
   const FrameRecord& process(const Frame& frame, double detect_ms = 0);
@@ -76,6 +87,9 @@ class System {
   /// The map with most frames becomes the result; the adjustment over all its key frames.
   void finish();
 
+  /// After finish(): multiplies all lengths, those of the live world too.
+  void scale_by(double factor);
+
   /// After finish(): reads the mapped texts, see text_reading.hpp.
   void read_texts(TextReader& reader);
 
@@ -88,8 +102,10 @@ class System {
   /// Map to the live world, in which live poses are given. Adjustments move all of a monocular map. This similarity
   /// fits the poses of all frames, as the map has them now, to their live poses, so that the live world stays in place.
   const Similarity& live_world() const { return live_world_; }
-  /// Final pose of a tracked frame.
-  SE3d final_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
+  /// Whether a frame was found in the map of earlier sessions, which then is map() once finish() was called.
+  bool is_in_earlier() const;
+  /// Final pose of a tracked frame, at its time stamp.
+  SE3d final_pose(const FrameRecord& record) const { return at_stamp(record, middle_pose(record)); }
 
  private:
   bool track(const Frame& frame, FrameRecord& record);
@@ -103,6 +119,8 @@ class System {
   void cull_keyframes();
   void take_over(const Adjuster::Collected& adjusted);
   void map_changed(const SE3d& T_c_w, FrameRecord* newest, double scale = 1);
+  SE3d middle_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
+  SE3d at_stamp(const FrameRecord& record, const SE3d& T_w_c) const;
   bool is_rolling() const;
   bool is_readout_due() const;
   void set_readout(double seconds);
@@ -113,6 +131,10 @@ class System {
   void set_pose(FrameRecord& record, const SE3d& T_c_w);
   void align_live_world();
   void refit(FrameRecord& record) const;
+
+  // system_localise.cpp
+  const FrameRecord& localise(const Frame& frame, FrameRecord& record);
+  bool track_or_find(const Frame& frame, FrameRecord& record);
 
   // system_detections.cpp
   void host_late(int id);
@@ -131,10 +153,13 @@ class System {
   std::map<int, std::size_t> frames_by_map() const;
 
   Parameters parameters_;
+  double stamp_row_;  // that time stamps belong to; see at_stamp()
   Map map_;
   LocalMap local_;           // around the newest key frame
   std::vector<Map> stored_;  // in the order in which they were left
   int maps_ = 0;             // begun so far
+  int earlier_ = -1;         // number of the map of earlier sessions
+  bool only_localises_ = false;
   Initialiser initialiser_;
   TextMapper text_mapper_;
   Adjuster adjuster_;

@@ -20,7 +20,7 @@ void System::add_detections(int frame, std::vector<Detection> detections, double
     seen.index = frame;
     seen.timestamp = record.timestamp;
     seen.detections = std::move(detections);
-    text_mapper_.associate(seen, final_pose(record).inverse(), {});
+    text_mapper_.associate(seen, middle_pose(record).inverse(), {});
     return;
   }
   if (newest_first->culled) return;

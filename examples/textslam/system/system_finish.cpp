@@ -1,6 +1,7 @@
 // System, the part that comes after the last frame.
 #include "textplane/landmarks/text_merge.hpp"
 #include "textslam/adjust/adjustment.hpp"
+#include "textslam/map/scale_map.hpp"
 #include "textslam/relocalise/relocalisation.hpp"
 #include "textslam/system/system.hpp"
 #include "textslam/text/loose_planes.hpp"
@@ -12,7 +13,7 @@ namespace textslam {
 
 void System::refit(FrameRecord& record) const {
   if (record.state != FrameState::tracked || record.map != map_.number || record.seen.empty()) return;
-  PoseEstimate pose{final_pose(record).inverse(), parameters_.refit_live_weight * record.information};
+  PoseEstimate pose{middle_pose(record).inverse(), parameters_.refit_live_weight * record.information};
   const CameraView camera(map_.camera.pinhole, map_.camera.lens, record.rows.get());
   if (!refit_pose(map_, parameters_, camera, record.seen, &pose)) return;
   record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * pose.T_c_w.inverse();
@@ -20,7 +21,7 @@ void System::refit(FrameRecord& record) const {
 }
 
 void System::fill_in(const std::function<Frame(int)>& load) {
-  if (map_.keyframes.size() < 2) return;
+  if (map_.keyframes.size() < 2 || only_localises_) return;
   Tracker backwards(map_, parameters_);
   bool going = false;  // the frame after this one was tracked backwards
   for (int index = static_cast<int>(records_.size()) - 2; index >= 0; --index) {
@@ -32,7 +33,7 @@ void System::fill_in(const std::function<Frame(int)>& load) {
     }
     if (!going) {
       const Frame start = load(index + 1);
-      const SE3d T_c_w = final_pose(next).inverse();
+      const SE3d T_c_w = middle_pose(next).inverse();
       backwards.start(start, T_c_w, observe_from(map_, parameters_, start, T_c_w).tracks);
     }
     const TrackReport report = backwards.track(load(index));
@@ -50,6 +51,7 @@ void System::fill_in(const std::function<Frame(int)>& load) {
 }
 
 void System::finish() {
+  if (only_localises_) return;
   take_over(adjuster_.settle(map_));
   keep_largest();
   if (map_.keyframes.size() < 2) return;
@@ -73,6 +75,22 @@ void System::finish() {
   }
   for (FrameRecord& record : records_) refit(record);
   align_live_world();
+}
+
+void System::scale_by(double factor) {
+  scale_map(factor, &map_);
+  for (FrameRecord& record : records_) {
+    record.T_w_c_live.t *= factor;
+    record.T_w_m_live.t *= factor;
+    if (record.map != map_.number) continue;
+    record.T_k_c.t *= factor;
+    record.information = rescaled(record.information, factor);
+    if (!record.rows) continue;
+    textplane::RowMotion rows = *record.rows;
+    rows.velocity.head<3>() *= factor;
+    record.rows = std::make_shared<const textplane::RowMotion>(rows);
+  }
+  live_world_.t *= factor;
 }
 
 void System::read_texts(TextReader& reader) { textslam::read_texts(map_, parameters_, reader); }

@@ -39,6 +39,7 @@ bool System::recover(const Frame& frame, FrameRecord& record) {
     if (found.ok) take_map(i - 1);
   }
   if (!found.ok) return false;
+  record.by = found.by;
   record.points = found.inliers;
   record.texts = found.texts;
   record.information = found.information;
@@ -50,8 +51,10 @@ bool System::recover(const Frame& frame, FrameRecord& record) {
   return true;
 }
 
-// The key frame just added may show a stored map. Then the map that is worked on moves into it.
+// The key frame just added may show a stored map. Then the map that is worked on moves into it; the map of earlier
+// sessions never does, so that its world and its ids stay.
 void System::join_stored(const Frame& frame, FrameRecord& record) {
+  if (map_.number == earlier_) return;
   FrameLooks looks(frame, parameters_);
   for (std::size_t i = stored_.size(); i > 0; --i) {
     const Relocalisation seen = relocalise(stored_[i - 1], parameters_, frame, looks, false);
@@ -115,9 +118,10 @@ std::vector<std::size_t> System::map_frames() const {
 void System::keep_largest() {
   std::map<int, std::size_t> counts = frames_by_map();
   std::size_t largest = stored_.size();
+  if (counts.count(earlier_) > 0) counts[earlier_] = records_.size();  // whatever else was begun
   std::size_t most = map_.keyframes.empty() ? 0 : counts[map_.number];
   for (std::size_t i = 0; i < stored_.size(); ++i)
-    if (counts[stored_[i].number] > most) {
+    if (counts[stored_[i].number] > most || (stored_[i].number == earlier_ && most == 0)) {
       most = counts[stored_[i].number];
       largest = i;
     }

@@ -14,6 +14,18 @@ constexpr double kLongest = 0.1;  // s, readout either way
 
 }  // namespace
 
+// Within the system a pose is that of the middle row: rows before and after it hold it in place. A pose of the first
+// row would be the middle's less half a readout of motion. That motion is told by the poses before, so errors of poses
+// would feed themselves, and grow where the readout takes nearly a frame's time.
+SE3d System::at_stamp(const FrameRecord& record, const SE3d& T_w_c) const {
+  const KeyFrame& keyframe = map_.keyframe(record.keyframe);
+  const int index = keyframe.frame.index;  // negative where it is of an earlier session
+  const bool is_keyframe = index >= 0 && &records_[static_cast<std::size_t>(index)] == &record;
+  const auto& rows = is_keyframe ? keyframe.frame.rows : record.rows;
+  if (!rows || stamp_row_ == map_.shutter.row0) return T_w_c;
+  return T_w_c * rows->at(stamp_row_).inverse();
+}
+
 bool System::is_rolling() const { return map_.shutter.active() || parameters_.estimate_readout; }
 
 // The first key frame of a new map has no frame before it: the one after it tells.
@@ -48,7 +60,7 @@ void System::roll(std::size_t index) {
   if ((!has_before && !has_after) || (known && !(has_before && has_after))) return;
   const FrameRecord &before = has_before ? records_[index - 1] : record,
                     &after = has_after ? records_[index + 1] : record;
-  const Vector6 velocity = textplane::velocity_between(final_pose(before).inverse(), final_pose(after).inverse(),
+  const Vector6 velocity = textplane::velocity_between(middle_pose(before).inverse(), middle_pose(after).inverse(),
                                                        after.timestamp - before.timestamp);
   record.rows = std::make_shared<const textplane::RowMotion>(textplane::RowMotion{velocity, map_.shutter});
   if (is_keyframe) map_.set_rows(id, record.rows);

@@ -1,19 +1,31 @@
-// linearise() by a policy: gradients of the target (forward), the host (template Jacobian), or both (ESM).
+// linearise() by a policy: gradients of the target (forward), the host (template Jacobian), both (ESM), or b by the
+// target's and H by the host's (hybrid).
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 
 #include "textplane/photometry/residual.hpp"
 #include "textplane/photometry/template_patch.hpp"
 #include "textplane/simd/esm.hpp"
+#include "textplane/simd/hybrid.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
+// Of the sums by (v, omega, theta) those by the unknowns.
+template <int P>
+void take_parameters(const double* H, const double* b, NormalEquations<P>* out) noexcept {
+  constexpr int at = P == 3 ? 6 : 0;
+  for (int c = 0; c < P; ++c) {
+    out->b[c] = b[at + c];
+    for (int r = 0; r < P; ++r) out->H(r, c) = H[9 * (at + r) + at + c];
+  }
+}
+
 // The policies with the host's gradients, by the kernels; false where they do not take the request or declined.
 template <Parameters Unknowns>
 bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricWorkspace& workspace,
                               NormalEquations<dof(Unknowns)>* out) noexcept {
-  constexpr int P = dof(Unknowns), at = P == 3 ? 6 : 0;
+  constexpr int P = dof(Unknowns);
   const bool esm = q.policy == LinearisePolicy::esm;
   const PatchView& patch = q.input.patch;
   if ((!esm && q.policy != LinearisePolicy::template_jacobian) || !patch.gx || !patch.gy || !kernels_take(q, workspace))
@@ -33,11 +45,29 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
   // Not all of the patch is visible: the sums of what is.
   if (info.status == Status::unsupported) info = simd::linearise_esm(args, H, b);
   if (!take_info(info, q.options.min_visible, out)) return false;
-  if (P != 9 && is_ok(out->status))
-    for (int c = 0; c < P; ++c) {
-      out->b[c] = b[at + c];
-      for (int r = 0; r < P; ++r) out->H(r, c) = H[9 * (at + r) + at + c];
-    }
+  if (P != 9 && is_ok(out->status)) take_parameters<P>(H, b, out);
+  return true;
+}
+
+// The policy hybrid likewise; forward where that is what it means.
+template <Parameters Unknowns>
+bool kernel_linearise_hybrid(const PolicyRequest<std::uint8_t>& q, PhotometricWorkspace& workspace,
+                             NormalEquations<dof(Unknowns)>* out) noexcept {
+  constexpr int P = dof(Unknowns);
+  const PatchView& patch = q.input.patch;
+  if (!takes_hybrid(q, patch.n)) return kernel_linearise<Unknowns>(q, workspace, out);
+  if (!kernels_take(q, workspace) || !patch.gx || !patch.gy || q.prepared->size() != patch.n) return false;
+  simd::ResidualArgs args = kernel_args(q, workspace, workspace.visible_flags(), nullptr);
+  simd::LensFit fit;
+  if (q.input.lens && !fit_request(q, &args, &fit)) return false;
+  double all_H[81], all_b[9];
+  double *H = P == 9 ? out->H.data() : all_H, *b = P == 9 ? out->b.data() : all_b;
+  simd::ResidualInfo info;
+  simd::linearise_hybrid(q.prepared->model(), args, &info, H, b);
+  if (info.status == Status::unsupported && info.visible <= kHybridPixels)
+    return kernel_linearise<Unknowns>(q, workspace, out);
+  if (!take_info(info, q.options.min_visible, out)) return false;
+  if (P != 9 && is_ok(out->status)) take_parameters<P>(H, b, out);
   return true;
 }
 }  // namespace detail
@@ -47,7 +77,7 @@ bool kernel_linearise_by_host(const PolicyRequest<std::uint8_t>& q, PhotometricW
 /// rounded to 1/64 grey level and target intensities within 0.025 of the interpolant (simd/template.hpp): E and the
 /// entries of b, in units of sqrt(H_ii), are within 0.08 / sigma of the reference's, sigma being the lesser standard
 /// deviation of the two sides, and H within 3e-4 of sqrt(H_ii H_jj) without weights. Otherwise the bounds are those of
-/// simd/residual.hpp.
+/// simd/residual.hpp, of hybrid's H with that of the template's besides.
 template <Parameters Unknowns, class T>
 NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, PhotometricWorkspace& workspace) noexcept {
   NormalEquations<dof(Unknowns)> out{detail::Unset()};
@@ -62,8 +92,9 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
     }
     bool taken = false;
     if constexpr (std::is_same<T, std::uint8_t>::value)
-      taken = request.policy == LinearisePolicy::forward
-                  ? detail::kernel_linearise<Unknowns>(request, workspace, &out)
+      taken = request.policy == LinearisePolicy::forward ? detail::kernel_linearise<Unknowns>(request, workspace, &out)
+              : request.policy == LinearisePolicy::hybrid
+                  ? detail::kernel_linearise_hybrid<Unknowns>(request, workspace, &out)
                   : detail::kernel_linearise_by_host<Unknowns>(request, workspace, &out);
     if (!taken) out = reference::linearise<Unknowns>(request, workspace);
   }

@@ -6,6 +6,7 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 
+#include "textplane/photometry/residual_hybrid.hpp"
 #include "textplane/photometry/residual_passes.hpp"
 #include "textplane/photometry/residual_rows.hpp"
 #include "textplane/photometry/world_parameters.hpp"
@@ -39,8 +40,8 @@ Preamble begin(const ResidualRequest<T>& q, const std::uint8_t* on_set, std::uin
 template <class T>
 Status check_policy(const PolicyRequest<T>& q, Matrix3<double>* inverse) noexcept {
   if (q.policy == LinearisePolicy::forward) return Status::ok;
-  if (q.policy != LinearisePolicy::template_jacobian && q.policy != LinearisePolicy::esm)
-    return Status::invalid_argument;
+  if (q.policy == LinearisePolicy::hybrid && !takes_hybrid(q, q.input.patch.n)) return Status::ok;
+  if (q.policy >= LinearisePolicy::automatic) return Status::invalid_argument;
   if (q.input.patch.n > 0 && (!q.input.patch.gx || !q.input.patch.gy)) return Status::invalid_argument;
   return plane_homography_inverse(q.theta, q.T_t_h, inverse);
 }
@@ -113,10 +114,15 @@ NormalEquations<dof(Unknowns)> linearise(const PolicyRequest<T>& request, Photom
     if (!is_ok(out.status)) return out;
     const int n = start.seen.visible;
     detail::project<P>(n, start.target.s, request.options.normalisation, workspace);
-    if (request.policy != LinearisePolicy::forward)
+    const bool hybrid = request.policy == LinearisePolicy::hybrid;
+    if (request.policy != LinearisePolicy::forward && !hybrid)
       detail::add_host_rows<P>(request, inverse, start.host.s, n, workspace);
     const detail::WeightedCost sum = detail::weigh(n, request.options.robust, workspace);
     detail::accumulate<P>(n, workspace, &out.H, &out.b);
+    if (hybrid && detail::takes_hybrid(request, n)) {
+      const double energy = detail::pulled_energy(request, workspace) / (start.target.s * start.target.s);
+      out.H = detail::hybrid_matrix<P>(request, inverse, energy, workspace);
+    }
     if (!all_finite(out.H) || !all_finite(out.b) || !is_finite(sum.cost)) {
       out.clear();
       out.status = Status::non_finite;

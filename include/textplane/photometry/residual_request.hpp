@@ -57,22 +57,32 @@ struct PhotometricOptions {
 ///   template_jacobian  dI = c . dq,  c = H^-T a_h,  a_h = dI_host/dm~: where the images match, I_target(H m~) and
 ///                      I_host(m~) have the same derivatives by m~, and m~ moves by H^-1 dq. Constant but for H^-1
 ///   esm                the mean of the two normalised rows, right to second order near the match
+///   hybrid             b of forward; H = ratio H_template, H_template by the rows of template_jacobian over the whole
+///                      patch, without weights; ratio = w (sum |J^T a_t|^2 / s_t^2) / (sum |a_h|^2 / s_h^2): the mean
+///                      weight, and the energies of the gradients of target (visible pixels) and host (all pixels),
+///                      a_t by the target's rays, J = d ray / d host pixel at the patch's centre
 ///
-/// All three vanish together at a perfect match. Elsewhere only the first is a gradient of the cost, so a solver must
-/// judge the steps of the others by the cost. Ours do.
+/// All vanish together at a perfect match. Elsewhere b of forward and hybrid alone is a gradient of the cost, so a
+/// solver must judge the steps of the others by the cost. Ours do.
 enum class LinearisePolicy : std::uint8_t {
   forward,            ///< Gradients of the target: the derivative of the cost itself.
   template_jacobian,  ///< Gradients of the host, prepared once: the cheapest iteration.
   esm,                ///< The mean of both: the widest basin.
-  automatic,          ///< A coarse-to-fine solver chooses by level: see policy_at_level().
+  /// The exact gradient of the cost with the template's H: half the work of forward, and the same minimum. Needs
+  /// `prepared`; without it, with a mask, and where no more than kHybridPixels are visible it is forward.
+  hybrid,
+  automatic,  ///< A coarse-to-fine solver chooses by level: see policy_at_level().
 };
 
-/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where forward ends at the minimum of
-/// the cost. The other policies are themselves on every level.
+/// So few visible pixels are linearised by their own rows as fast as by what is prepared: hybrid is forward.
+constexpr int kHybridPixels = 256;
+
+/// What `automatic` means on a pyramid level: ESM on all levels but the finest, where hybrid (forward, where nothing is
+/// prepared) ends at the minimum of the cost. The other policies are themselves on every level.
 constexpr LinearisePolicy policy_at_level(LinearisePolicy policy, int level, int finest_level) noexcept {
   return policy != LinearisePolicy::automatic ? policy
          : level > finest_level               ? LinearisePolicy::esm
-                                              : LinearisePolicy::forward;
+                                              : LinearisePolicy::hybrid;
 }
 
 class TemplatePatch;
@@ -91,7 +101,8 @@ struct ResidualRequest {
   PerturbationSide side = PerturbationSide::right;  ///< Of both world poses; see world_request().
 
   /// The same request with derivatives by a policy, which linearise() of residual_policy.hpp takes. `prepared`, if
-  /// given, is of input.patch and speeds up LinearisePolicy::template_jacobian; it must outlive the request.
+  /// given, is of input.patch; LinearisePolicy::template_jacobian is faster by it, and hybrid is forward without. It
+  /// must outlive the request.
   PolicyRequest<T> by(LinearisePolicy policy, const TemplatePatch* prepared = nullptr) const noexcept {
     return {*this, policy, prepared};
   }

@@ -65,7 +65,8 @@ inline bool cpu_has(const char* features) noexcept {
 
 #else
 
-/// Scalar code runs everywhere, NEON on every AArch64; no other feature is known here.
+/// Scalar code runs everywhere, NEON on every AArch64, and an engine without simd128 loads no module that has it; no
+/// other feature is known here.
 inline bool cpu_has(const char* features) noexcept { return *features == '\0'; }
 
 #endif

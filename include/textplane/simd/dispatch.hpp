@@ -1,11 +1,11 @@
 // Run-time dispatch: which target the kernels run on.
 //
 // On first use the best target that both CPU and operating system support is chosen, or the one that the environment
-// variable TEXTPLANE_FORCE_TARGET names (scalar, sse41, avx2, avx512, neon). A name that is unknown, or that this
-// machine cannot run, leaves the best target in charge, and forced_target_status() tells. set_target changes it later,
-// for the whole process. Defining the macro TEXTPLANE_TARGET as such a name (-DTEXTPLANE_TARGET=avx2) fixes the target
-// of a translation unit at compile time: its calls go straight to that kernel, the others are not compiled, neither
-// environment nor set_target change it, and the caller promises a CPU that has it.
+// variable TEXTPLANE_FORCE_TARGET names (scalar, sse41, avx2, avx512, neon, simd128). A name that is unknown, or that
+// this machine cannot run, leaves the best target in charge, and forced_target_status() tells. set_target changes it
+// later, for the whole process. Defining the macro TEXTPLANE_TARGET as such a name (-DTEXTPLANE_TARGET=avx2) fixes the
+// target of a translation unit at compile time: its calls go straight to that kernel, the others are not compiled,
+// neither environment nor set_target change it, and the caller promises a CPU that has it.
 //
 // State: one constant-initialised atomic, shared by all translation units of a program whatever their flags.
 #ifndef TEXTPLANE_SIMD_DISPATCH_HPP
@@ -47,8 +47,8 @@ inline Target best_target() noexcept {
 #endif
 }
 
-/// Finds the target called `name` ("scalar", "sse41", "avx2", "avx512", "neon"). False, and `target` unchanged, for a
-/// null pointer and any other name.
+/// Finds the target called `name` ("scalar", "sse41", "avx2", "avx512", "neon", "simd128"). False, and `target`
+/// unchanged, for a null pointer and any other name.
 inline bool target_from_string(const char* name, Target& target) noexcept {
   if (name == nullptr) return false;
   for (int i = 0; i < kTargetCount; ++i) {

@@ -129,8 +129,8 @@ inline PointBounds point_bounds(const float* x, const float* y, int n) noexcept 
   return out;
 }
 
-/// Target pixels of scattered points. Same bits on avx2, avx512 and neon, and on scalar and sse41; between the groups,
-/// and to the exact value, about 1e-5 px as said above.
+/// Target pixels of scattered points. Same bits on avx2, avx512 and neon, and on scalar, sse41 and simd128; between the
+/// groups, and to the exact value, about 1e-5 px as said above.
 inline PointResult warp_points(const PointArgs& args) noexcept {
   PointResult result;
   detail::warp_points(args, &result);

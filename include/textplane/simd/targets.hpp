@@ -5,7 +5,8 @@
 // build holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
 //
 // GCC and Clang build the x86-64 targets (MinGW: SSE4.1 alone, its stack is not aligned for more) and NEON on
-// little-endian AArch64. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where
+// little-endian AArch64. WebAssembly has no CPU to ask: its vectors (simd128) are for a whole translation unit, with
+// Clang's -msimd128. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where
 // TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only what that one needs.
 //
 // Compiled kernels, an option: every file that calls a kernel compiles all its targets, which takes time. Where
@@ -33,6 +34,7 @@
 #define TEXTPLANE_SIMD_ON_x86 0
 #define TEXTPLANE_SIMD_ON_x86_wide 0
 #define TEXTPLANE_SIMD_ON_arm 0
+#define TEXTPLANE_SIMD_ON_wasm 0
 #if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
 #if defined(__x86_64__)
 #if TEXTPLANE_HAS_KERNELS
@@ -50,6 +52,12 @@
 #endif
 #undef TEXTPLANE_SIMD_ON_arm
 #define TEXTPLANE_SIMD_ON_arm 1
+#elif defined(__wasm_simd128__)
+#if TEXTPLANE_HAS_KERNELS
+#include <wasm_simd128.h>
+#endif
+#undef TEXTPLANE_SIMD_ON_wasm
+#define TEXTPLANE_SIMD_ON_wasm 1
 #endif
 #endif
 
@@ -72,12 +80,13 @@
 //   few       the target whose kernels take patches of few pixels, sooner than its own would
 //   features  what the compiler is asked for and the CPU must have, by the compiler's names (cpu.hpp knows them)
 // clang-format off
-//                                    number  name    lanes  fused  needs     few     features
-#define TEXTPLANE_SIMD_scalar(X, a) X(a, 0,   scalar, 1,     false, any,      scalar, "")
-#define TEXTPLANE_SIMD_sse41(X, a)  X(a, 1,   sse41,  4,     false, x86,      sse41,  "sse4.1")
-#define TEXTPLANE_SIMD_avx2(X, a)   X(a, 2,   avx2,   8,     true,  x86_wide, avx2,   TEXTPLANE_SIMD_HASWELL)
-#define TEXTPLANE_SIMD_avx512(X, a) X(a, 3,   avx512, 16,    true,  x86_wide, avx2,   TEXTPLANE_SIMD_ICELAKE)
-#define TEXTPLANE_SIMD_neon(X, a)   X(a, 4,   neon,   4,     true,  arm,      neon,   "")
+//                                     number  name     lanes  fused  needs     few      features
+#define TEXTPLANE_SIMD_scalar(X, a)  X(a, 0,   scalar,  1,     false, any,      scalar,  "")
+#define TEXTPLANE_SIMD_sse41(X, a)   X(a, 1,   sse41,   4,     false, x86,      sse41,   "sse4.1")
+#define TEXTPLANE_SIMD_avx2(X, a)    X(a, 2,   avx2,    8,     true,  x86_wide, avx2,    TEXTPLANE_SIMD_HASWELL)
+#define TEXTPLANE_SIMD_avx512(X, a)  X(a, 3,   avx512,  16,    true,  x86_wide, avx2,    TEXTPLANE_SIMD_ICELAKE)
+#define TEXTPLANE_SIMD_neon(X, a)    X(a, 4,   neon,    4,     true,  arm,      neon,    "")
+#define TEXTPLANE_SIMD_simd128(X, a) X(a, 5,   simd128, 4,     false, wasm,     simd128, "")
 #define TEXTPLANE_SIMD_none(X, a)
 // clang-format on
 
@@ -87,7 +96,7 @@
 #define TEXTPLANE_SIMD_NAME_2 avx2
 #define TEXTPLANE_SIMD_NAME_3 avx512
 #define TEXTPLANE_SIMD_NAME_4 neon
-#define TEXTPLANE_SIMD_NAME_5 none
+#define TEXTPLANE_SIMD_NAME_5 simd128
 #define TEXTPLANE_SIMD_NAME_6 none
 #define TEXTPLANE_SIMD_NAME_7 none
 
@@ -134,10 +143,12 @@
 #define TEXTPLANE_SIMD_BEGIN_x86(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
 #define TEXTPLANE_SIMD_BEGIN_x86_wide(features) TEXTPLANE_SIMD_FEATURES_BEGIN(features)
 #define TEXTPLANE_SIMD_BEGIN_arm(features)
+#define TEXTPLANE_SIMD_BEGIN_wasm(features)
 #define TEXTPLANE_SIMD_END_any
 #define TEXTPLANE_SIMD_END_x86 TEXTPLANE_SIMD_FEATURES_END
 #define TEXTPLANE_SIMD_END_x86_wide TEXTPLANE_SIMD_FEATURES_END
 #define TEXTPLANE_SIMD_END_arm
+#define TEXTPLANE_SIMD_END_wasm
 #define TEXTPLANE_SIMD_BEGIN(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_BEGIN_##needs(features)
 #define TEXTPLANE_SIMD_END(a, number, name, lanes, fused, needs, few, features) TEXTPLANE_SIMD_END_##needs
 
@@ -181,7 +192,7 @@ namespace simd {
 
 /// The instruction sets that kernels are built for: scalar = 0 (plain C++), sse41 = 1 (SSE4.1), avx2 = 2 (AVX2, FMA and
 /// POPCNT: Haswell, Zen and later), avx512 = 3 (AVX-512 F, BW, DQ, VL and VNNI besides: Ice Lake, Zen 4 and later),
-/// neon = 4 (AArch64).
+/// neon = 4 (AArch64), simd128 = 5 (WebAssembly).
 enum class Target : int {
 #define TEXTPLANE_SIMD_X(a, number, name, ...) name = number,
   TEXTPLANE_SIMD_TARGETS(TEXTPLANE_SIMD_X, 0)

@@ -203,7 +203,7 @@ class PoseProblem {
     path_ = (std::max)(path_, n.path);
     if (!is_ok(n.status)) return n.status;
     // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
-    if (q.prepared && q.policy != LinearisePolicy::forward) {
+    if (q.prepared && q.policy != LinearisePolicy::forward && q.policy != LinearisePolicy::hybrid) {
       const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
       if (is_ok(c.status)) n.cost = c.cost;
     }

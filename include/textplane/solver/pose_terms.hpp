@@ -22,7 +22,7 @@ struct PoseTextTerm {
   SE3d T_w_h;                                       ///< Host camera to world.
   double weight = 1;                                ///< Multiplies lambda_w.
   int scale_shift = 0;  ///< Of photometric_input(), for targets that see it at another size.
-  /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian, or null.
+  /// One prepared form a level of the patch, for LinearisePolicy::template_jacobian and hybrid, or null.
   const TemplatePatch* prepared = nullptr;
   int camera = 0;  ///< Which camera of a rig sees it; 0 where there is one.
 };

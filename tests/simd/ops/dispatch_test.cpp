@@ -1,14 +1,19 @@
 #include "textplane/simd/dispatch.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <functional>
-#include <thread>
+#include <string>
 #include <vector>
+
+#if !defined(__wasm__)
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <thread>
+#endif
 
 #include "simd/ops/dispatch_support.hpp"
 #include "support/targets.hpp"
@@ -26,23 +31,40 @@ namespace simd = textplane::simd;
 using simd::Target;
 using textplane::Status;
 
-constexpr Target kTargets[] = {Target::scalar, Target::sse41, Target::avx2, Target::avx512, Target::neon};
+constexpr Target kTargets[] = {Target::scalar, Target::sse41, Target::avx2,
+                               Target::avx512, Target::neon,  Target::simd128};
 
-/// The value of `body` in a child process that has not chosen its target yet and has TEXTPLANE_FORCE_TARGET = `force`.
-int in_fresh_process(const char* force, const std::function<int()>& body) {
+void force(const char* target) {
+  if (target == nullptr) {
+    unsetenv("TEXTPLANE_FORCE_TARGET");
+  } else {
+    setenv("TEXTPLANE_FORCE_TARGET", target, 1);
+  }
+  textplane::process::simd_target.store(-1);
+}
+
+/// The value of `body` in a child process that has not chosen its target yet and has TEXTPLANE_FORCE_TARGET = `target`.
+/// WebAssembly has no processes: there the program forgets its choice, and gets it back.
+int in_fresh_process(const char* target, const std::function<int()>& body) {
+#if defined(__wasm__)
+  const char* const set = std::getenv("TEXTPLANE_FORCE_TARGET");
+  const std::string former = set == nullptr ? "" : set;
+  const int chosen = textplane::process::simd_target.load();
+  force(target);
+  const int value = body();
+  force(set == nullptr ? nullptr : former.c_str());
+  textplane::process::simd_target.store(chosen);
+  return value;
+#else
   const pid_t child = fork();
   if (child == 0) {
-    if (force == nullptr) {
-      unsetenv("TEXTPLANE_FORCE_TARGET");
-    } else {
-      setenv("TEXTPLANE_FORCE_TARGET", force, 1);
-    }
-    textplane::process::simd_target.store(-1);
+    force(target);
     _exit(body());
   }
   int status = 0;
   if (child < 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
   return WEXITSTATUS(status);
+#endif
 }
 
 int active() { return static_cast<int>(simd::active_target()); }
@@ -86,6 +108,7 @@ TEST(Dispatch, DetectionAgreesWithTheCompilersRuntime) {
                                                  __builtin_cpu_supports("avx512vnni") && simd::supported(Target::avx2));
 #else
   EXPECT_EQ(simd::supported(Target::neon), TEXTPLANE_SIMD_ON_arm != 0);
+  EXPECT_EQ(simd::supported(Target::simd128), TEXTPLANE_SIMD_ON_wasm != 0);
 #endif
 }
 
@@ -156,6 +179,7 @@ TEST(Dispatch, AFixedTranslationUnitStaysOnItsTarget) {
   EXPECT_FALSE(textplane_test::fixed_set_target(static_cast<int>(Target::neon)));
 }
 
+#if !defined(__wasm__)  // which has threads only where the engine is told so
 TEST(Dispatch, ThreadsThatArriveTogetherAgree) {
   const auto body = [] {
     int targets[8] = {};
@@ -170,5 +194,6 @@ TEST(Dispatch, ThreadsThatArriveTogetherAgree) {
   EXPECT_EQ(in_fresh_process(nullptr, body), static_cast<int>(simd::best_target()));
   EXPECT_EQ(in_fresh_process("scalar", body), static_cast<int>(Target::scalar));
 }
+#endif
 
 }  // namespace dispatch_test

@@ -1,6 +1,9 @@
 // The rendered room through a rolling shutter: with its readout, known or estimated, poses and planes are as without.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "textslam/system/room_run_support.hpp"
 
 namespace textslam {
@@ -33,6 +36,52 @@ TEST(RollingRoom, PosesAndPlanesKnowTheRows) {
   // What is asked above is no matter of course.
   const RunSummary without = run_on(room, ignored);
   EXPECT_TRUE(!is_aligned(without) || without.trajectory.ate.rmse > 5e-3);
+}
+
+double rmse(const Similarity& alignment, const std::vector<StampedPose>& poses, const std::vector<Vec3>& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) sum += (alignment * poses[i].T_w_c.t - truth[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(poses.size()));
+}
+
+// Time stamps may belong to any row. The truth is that of the middle row, at the frames' times; between two frames it
+// is nearly straight. The alignment is that of poses of the middle row: one of other rows would hide most of the time
+// between.
+TEST(RollingRoom, TimeStampsBelongToAnyRow) {
+  constexpr int kFrames = 80;
+  const ShortRoom room(kFrames, "shutter");
+  const Sequence& sequence = room.sequence();
+  const CameraModel& camera = sequence.camera;
+  System middle(camera.pinhole(), camera.width, camera.height, {}, camera.shutter);
+  const RunSummary aligned = run_on(room, middle);
+  ASSERT_TRUE(is_aligned(aligned));
+  for (const double row : {0., camera.height - 1.}) {
+    textplane::RollingShutter shutter = camera.shutter;
+    shutter.row0 = row;
+    System system(camera.pinhole(), camera.width, camera.height, {}, shutter);
+    const RunSummary summary = run_on(room, system);
+    EXPECT_EQ(summary.tracked, static_cast<std::size_t>(kFrames));
+    const double frames_from_middle = camera.shutter.time(row) * camera.fps;
+    ASSERT_NEAR(std::abs(frames_from_middle), 0.45, 1e-9);
+    for (const bool live : {false, true}) {
+      std::vector<StampedPose> poses = live ? live_trajectory(system) : final_trajectory(system);
+      std::vector<Vec3> at_row, at_middle;
+      // The first poses have no motion yet: a map begins with two frames that are far apart.
+      poses.erase(poses.begin(), poses.begin() + 20);
+      poses.pop_back();
+      for (const StampedPose& pose : poses) {
+        const auto here =
+            std::lower_bound(sequence.groundtruth.begin(), sequence.groundtruth.end(), pose,
+                             [](const auto& a, const auto& b) { return a.timestamp < b.timestamp - 1e-6; });
+        const auto beside = row == 0 ? here - 1 : here + 1;
+        at_middle.push_back(here->T_w_c.t);
+        at_row.push_back(here->T_w_c.t + std::abs(frames_from_middle) * (beside->T_w_c.t - here->T_w_c.t));
+      }
+      const Similarity& alignment = (live ? aligned.live : aligned.trajectory).alignment;
+      EXPECT_LT(rmse(alignment, poses, at_row), 2.5e-3) << "m, row " << row << ", live " << live;
+      EXPECT_GT(rmse(alignment, poses, at_middle), 5e-3) << "a wrong row would pass";
+    }
+  }
 }
 
 }  // namespace rolling_room_test

@@ -15,6 +15,7 @@ void bind_enums(py::module_& m) {
       .value("forward", tp::LinearisePolicy::forward)
       .value("template_jacobian", tp::LinearisePolicy::template_jacobian)
       .value("esm", tp::LinearisePolicy::esm)
+      .value("hybrid", tp::LinearisePolicy::hybrid)
       .value("automatic", tp::LinearisePolicy::automatic);
   py::enum_<tp::RobustKind>(m, "RobustKind", "A robust cost.")
       .value("l2", tp::RobustKind::l2)

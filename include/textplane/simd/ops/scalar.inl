@@ -29,7 +29,7 @@ TEXTPLANE_SIMD_INLINE void store_n(float* p, vf v, int n) noexcept {
 TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept { return p[*at]; }  // p[at[i]]
 
 // --- float arithmetic ---
-// a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on scalar and sse41.
+// a b + c and c - a b: one rounding on the fused targets (avx2, avx512, neon), two on the others.
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
 // The second operand where either is NaN, and where both are zero.

@@ -1,5 +1,5 @@
 // The pose of one quad: exact and noisy corners, both solutions, and what is no quad.
-#include "textslam/relocalise/planar_pose.hpp"
+#include "sign_index/planar_pose.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 // Two poses explain four corners of a plane, or nearly: when small, a sign turned to the left looks much like one
 // turned to the right. Both poses come in closed form from the homography's derivative at the quad's centre (Collins
 // and Bartoli, Infinitesimal Plane-based Pose Estimation, IJCV 2014).
-#ifndef TEXTSLAM_RELOCALISE_PLANAR_POSE_HPP
-#define TEXTSLAM_RELOCALISE_PLANAR_POSE_HPP
+#ifndef TEXTSLAM_SIGN_INDEX_PLANAR_POSE_HPP
+#define TEXTSLAM_SIGN_INDEX_PLANAR_POSE_HPP
 
 #include <array>
 
@@ -30,4 +30,4 @@ PlanarPose planar_pose(const std::array<Vec3, 4>& corners, const Quad<double>& i
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_RELOCALISE_PLANAR_POSE_HPP
+#endif  // TEXTSLAM_SIGN_INDEX_PLANAR_POSE_HPP

@@ -1,4 +1,4 @@
-#include "textslam/relocalise/planar_pose.hpp"
+#include "sign_index/planar_pose.hpp"
 
 #include <Eigen/LU>
 #include <cmath>

@@ -1,0 +1,129 @@
+#include "textslam/map_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+
+#include "io/camera_formats/formats.hpp"
+#include "io/input_error.hpp"
+#include "io/output_file.hpp"
+#include "textplane/config.hpp"
+#include "textslam/report/localisation.hpp"
+
+namespace textslam {
+namespace {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
+  return text;
+}
+
+bool is_same_camera(const CameraModel& a, const CameraModel& b) {
+  constexpr double kTolerance = 1e-9;  // numbers that went through a text
+  const std::vector<double> of_a = parameters_of(a), of_b = parameters_of(b);
+  return a.width == b.width && a.height == b.height && std::string(a.raw.name()) == b.raw.name() &&
+         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [&](double x, double y) { return std::abs(x - y) <= kTolerance * (1 + std::abs(x)); });
+}
+
+const char* to_string(Mode mode) { return mode == Mode::text ? "text" : mode == Mode::points ? "points" : "loose"; }
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+// A saved run has at least a map of two key frames.
+bool has_map(const System& system) { return system.map().keyframe_ids().size() >= 2; }
+
+}  // namespace
+
+MapSession::MapSession(const RunOptions& options, Sequence* sequence) : options_(options), started_(utc_now()) {
+  if (!options.localise && !options.save_map.empty()) check_can_save(options.save_map);
+  if (options.map.empty()) return;
+  earlier_ = load_map(options.map, options.parameters);
+  if (!options.localise && options.save_map.empty()) check_can_save(options.map);
+  const CameraModel& camera = earlier_->record.camera;
+  if (camera.width != sequence->camera.width || camera.height != sequence->camera.height)
+    throw InputError(options.map, 0,
+                     "its images are " + std::to_string(camera.width) + " x " + std::to_string(camera.height) +
+                         ", those of the sequence are not");
+  if (sequence->camera_origin == CameraOrigin::file && !is_same_camera(camera, sequence->camera))
+    throw InputError(options.map, 0,
+                     "its camera is not that of " + sequence->camera_source +
+                         ": a map has one camera, with the same numbers in all sessions");
+  sequence->camera = camera;
+  sequence->approximate_fov = 0;
+}
+
+void MapSession::begin(System* system) {
+  if (!earlier_) return;
+  // The record stays; only the map is the system's from here on.
+  if (options_.localise)
+    system->localise_in(std::move(earlier_->map));
+  else
+    system->go_on_in(std::move(earlier_->map));
+}
+
+std::string MapSession::image(int index) const {
+  const auto& sources = earlier_->record.sources;
+  const auto source = sources.find(earlier_keyframe_id(index, static_cast<std::size_t>(sources.rbegin()->first) + 1));
+  return source == sources.end() ? "" : source->second.image;
+}
+
+MapRecord MapSession::record_of(const System& system, const CameraModel& camera, bool in_earlier,
+                                const std::function<std::string(int)>& image) const {
+  MapRecord record;
+  if (in_earlier) record = earlier_->record;
+  record.camera = camera;
+  record.camera.shutter.readout = system.map().shutter.readout;
+  SavedSession session;
+  session.id = record.sessions.empty() ? 1 : record.sessions.back().id + 1;
+  session.started = started_;
+  session.sequence = options_.sequence;
+  session.command = joined(options_.command);
+  session.mode = to_string(options_.parameters.mode);
+  session.version = TEXTPLANE_VERSION_STRING;
+  session.frames = static_cast<int>(system.records().size());
+  for (const FrameRecord& r : system.records()) session.tracked += r.state == FrameState::tracked ? 1 : 0;
+  record.sessions.push_back(session);
+  for (const int id : system.map().keyframe_ids()) {
+    const int frame = system.map().keyframe(id).frame.index;
+    if (frame >= 0) record.sources[id] = {session.id, image(frame)};
+  }
+  return record;
+}
+
+std::string MapSession::save(const System& system, const CameraModel& camera, const std::optional<MetricScale>& metric,
+                             const std::function<std::string(int)>& image) const {
+  const bool in_earlier = earlier_ && system.is_in_earlier();
+  const std::string none = options_.map + ": no frame was found in this map, which stays as it is";
+  if (options_.localise) {
+    write_file(options_.output + "/localisation.csv", localisation_table(system));
+    return in_earlier ? "" : none;
+  }
+  std::string path = options_.save_map.empty() ? options_.map : options_.save_map;
+  if (path.empty() || !has_map(system)) return "";
+  const bool apart = earlier_ && !in_earlier;
+  if (apart) path = options_.output + "/unjoined_map.db";
+  MapRecord record = record_of(system, camera, in_earlier, image);
+  if (path != options_.map) record.revision = 0;
+  if (metric) record.scale_sigma = metric->sigma;
+  try {
+    save_map(path, system.map(), record);
+  } catch (const std::exception& error) {
+    const std::string instead = options_.output + "/map.db";
+    record.revision = 0;
+    save_map(instead, system.map(), record);
+    throw std::runtime_error(std::string(error.what()) + "; the map of this run is in " + instead);
+  }
+  return apart ? none + "; what this run made is in " + path : "";
+}
+
+}  // namespace textslam

@@ -1,0 +1,22 @@
+// The camera of a run: the sequence's, with what the options say of it, or estimated from its images.
+#ifndef TEXTSLAM_RUN_CAMERA_HPP
+#define TEXTSLAM_RUN_CAMERA_HPP
+
+#include <optional>
+#include <vector>
+
+#include "textslam/run.hpp"
+
+namespace textslam {
+
+/// Gives the camera its rows and its readout.
+void know_rows(const RunOptions& options, CameraModel* camera);
+
+/// Estimates the camera from these frames where the options ask for it, or where there is no camera file. The sequence
+/// gets it where the images tell it. Empty: nothing was to be estimated.
+std::optional<SelfCalibration> know_camera(const RunOptions& options, const std::vector<std::size_t>& frames,
+                                           Sequence* sequence);
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_RUN_CAMERA_HPP

@@ -1,0 +1,244 @@
+// Sessions in one map: saved, localised in, gone on in. In this process, as textslam runs them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "io/evaluate.hpp"
+#include "io/evaluate_signs.hpp"
+#include "io/input_error.hpp"
+#include "io/io_support.hpp"
+#include "io/text_file.hpp"
+#include "renderer/render_sequence.hpp"
+#include "textslam/map_file/map_file.hpp"
+#include "textslam/run.hpp"
+
+namespace textslam {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A room, and the map of a first session in it.
+class Sessions : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    render("first", 1, 0, 110);
+    render("second", 1, 1, 50);
+    render("elsewhere", 7, 0, 24);
+    RunOptions options = options_for("first", "out_first");
+    options.save_map = path("map.db");
+    ASSERT_EQ(run(options).error, "");
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+
+  static std::string path(const std::string& name) { return folder_->path(name); }
+  static void render(const std::string& name, std::uint64_t seed, int walk, int frames, int width = 320) {
+    RenderOptions options;
+    options.output = path(name);
+    options.seed = seed;
+    options.walk = walk;
+    options.frames = frames;
+    options.width = width;
+    options.height = width * 3 / 4;
+    render_sequence(options);
+  }
+  static RunOptions options_for(const std::string& sequence, const std::string& output) {
+    RunOptions options;
+    options.sequence = path(sequence);
+    options.output = path(output);
+    options.report = false;
+    return options;
+  }
+  // Errors of the poses in the map's world, aligned as the first session is.
+  static std::vector<double> errors_of(const std::string& output, const std::string& sequence) {
+    const auto truth = read_tum(path("first/groundtruth.txt"));
+    const Similarity alignment =
+        evaluate_trajectory(read_tum(path("out_first/trajectory.txt")), truth, truth.size()).alignment;
+    const auto poses = read_tum(path(output + "/trajectory.txt")),
+               right = read_tum(path(sequence + "/groundtruth.txt"));
+    std::vector<double> errors;
+    for (const PosePair& pair : associate(poses, right, 0.01))
+      errors.push_back((alignment * poses[pair.estimate].T_w_c.t - right[pair.truth].T_w_c.t).norm());
+    return errors;
+  }
+  static std::string copy_of_map(const std::string& name) {
+    fs::copy_file(path("map.db"), path(name), fs::copy_options::overwrite_existing);
+    return path(name);
+  }
+
+  static TemporaryFolder* folder_;
+};
+
+TemporaryFolder* Sessions::folder_ = nullptr;
+
+TEST_F(Sessions, AnotherWalkIsLocalisedInTheMapsFrame) {
+  RunOptions options = options_for("second", "out_localised");
+  options.map = path("map.db");
+  options.localise = true;
+  const std::string before = read_file(options.map);
+  const RunResult result = run(options);
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(result.unmapped, "");
+  EXPECT_EQ(read_file(options.map), before) << "localising changed the map";
+  EXPECT_GE(result.summary.tracked, 45u);
+  const std::vector<double> errors = errors_of("out_localised", "second");
+  ASSERT_GE(errors.size(), 45u);
+  EXPECT_LT(error_statistics(errors).median, 0.01);
+  EXPECT_LT(error_statistics(errors).max, 0.06) << "a wrong pose";
+
+  std::istringstream table(read_file(path("out_localised/localisation.csv")));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "timestamp,found_by,points,texts,position_sigma");
+  std::size_t lines = 0, found = 0;
+  while (std::getline(table, line)) {
+    ++lines;
+    found += line.find(",nothing,") == std::string::npos ? 1u : 0u;
+  }
+  EXPECT_EQ(lines, 50u);
+  EXPECT_EQ(found, result.summary.tracked);
+  const std::string covariances = read_file(path("out_localised/covariances.csv"));
+  EXPECT_EQ(static_cast<std::size_t>(std::count(covariances.begin(), covariances.end(), '\n')), 1 + found);
+}
+
+TEST_F(Sessions, ASecondSessionGoesOnInTheMap) {
+  RunOptions options = options_for("second", "out_second");
+  options.map = copy_of_map("grown.db");
+  const LoadedMap before = load_map(options.map, options.parameters);
+  const RunResult result = run(options);
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(result.unmapped, "");
+  const LoadedMap after = load_map(options.map, options.parameters);
+  EXPECT_EQ(after.record.revision, before.record.revision + 1);
+  ASSERT_EQ(after.record.sessions.size(), 2u);
+  EXPECT_EQ(after.record.sessions[1].frames, 50);
+  std::size_t added = 0;
+  for (const auto& [id, source] : after.record.sources) added += source.session == 2 ? 1u : 0u;
+  EXPECT_GT(added, 0u);
+  EXPECT_EQ(added, read_tum(path("out_second/keyframes.txt")).size()) << "keyframes.txt has those of this session";
+  EXPECT_LT(error_statistics(errors_of("out_second", "second")).median, 0.01);
+  // The signs of the first session are still the same objects, where they were.
+  std::size_t kept = 0, mapped = 0;
+  for (std::size_t i = 0; i < before.map.texts.size(); ++i) {
+    if (before.map.texts[i].state != TextState::mapped) continue;
+    ++mapped;
+    kept += after.map.texts[i].state == TextState::mapped ? 1u : 0u;
+  }
+  EXPECT_GE(kept + 1, mapped);
+  EXPECT_LT((after.map.keyframe(0).T_w_c.t - before.map.keyframe(0).T_w_c.t).norm(), 1e-9);
+  EXPECT_LT(fs::file_size(path("grown.db")), 2 * fs::file_size(path("map.db"))) << "images are written once";
+}
+
+TEST_F(Sessions, ASessionCanBeSavedElsewhere) {
+  RunOptions options = options_for("second", "out_elsewhere");
+  options.map = path("map.db");
+  options.save_map = path("another.db");
+  const std::string before = read_file(options.map);
+  EXPECT_EQ(run(options).error, "");
+  EXPECT_EQ(read_file(options.map), before);
+  EXPECT_EQ(load_map(options.save_map, options.parameters).record.sessions.size(), 2u);
+}
+
+// Another room, with other signs: no wrong answer, and no harm to the map.
+TEST_F(Sessions, AnotherRoomIsNotFound) {
+  RunOptions options = options_for("elsewhere", "out_not_found");
+  options.map = path("map.db");
+  options.localise = true;
+  RunResult result = run(options);
+  EXPECT_EQ(result.summary.tracked, 0u);
+  EXPECT_NE(result.unmapped.find("no frame was found"), std::string::npos) << result.unmapped;
+
+  options.localise = false;
+  const std::string before = read_file(options.map);
+  result = run(options);
+  EXPECT_NE(result.unmapped.find("unjoined_map.db"), std::string::npos) << result.unmapped;
+  EXPECT_EQ(read_file(options.map), before);
+  const LoadedMap apart = load_map(path("out_not_found/unjoined_map.db"), options.parameters);
+  EXPECT_EQ(apart.record.sessions.size(), 1u);
+  EXPECT_GE(apart.map.keyframe_ids().size(), 2u);
+}
+
+TEST_F(Sessions, AnotherCameraIsRefused) {
+  render("smaller", 1, 0, 2, 160);
+  RunOptions options = options_for("smaller", "out_smaller");
+  options.map = path("map.db");
+  EXPECT_THROW(run(options), InputError);
+  const std::string camera = read_file(path("second/camera.yaml"));
+  fs::copy(path("second"), path("other_camera"), fs::copy_options::recursive);
+  folder_->write("other_camera/camera.yaml", camera.substr(0, camera.find("Camera.fx")) + "Camera.fx: 200\n" +
+                                                 camera.substr(camera.find("Camera.fy")));
+  options.sequence = path("other_camera");
+  EXPECT_THROW(run(options), InputError);
+}
+
+// A sequence without a camera file takes the map's camera, and nothing is calibrated.
+TEST_F(Sessions, AVideoWithoutACameraTakesThatOfTheMap) {
+  fs::copy(path("second"), path("no_camera"), fs::copy_options::recursive);
+  fs::remove(path("no_camera/camera.yaml"));
+  RunOptions options = options_for("no_camera", "out_no_camera");
+  options.map = path("map.db");
+  options.localise = true;
+  const RunResult result = run(options);
+  EXPECT_GE(result.summary.tracked, 45u);
+  EXPECT_FALSE(result.summary.calibration.has_value());
+  EXPECT_EQ(result.summary.approximate_fov, 0);
+}
+
+// Signs of known width make the map metric, to what is said of it, and the map remembers that.
+TEST_F(Sessions, SignsOfKnownWidthMakeTheMapMetric) {
+  const std::vector<TrueSign> signs = read_true_signs(path("first"), {}, {});
+  RunOptions options = options_for("first", "out_metric");
+  options.save_map = path("metric.db");
+  for (const TrueSign& sign : signs)
+    options.widths.push_back({sign.word, (sign.corners[1] - sign.corners[0]).norm(), 1e-3});
+  const RunResult result = run(options);
+  ASSERT_EQ(result.error, "");
+  ASSERT_TRUE(result.summary.metric.has_value());
+  EXPECT_GE(result.summary.metric->texts, 3);
+  const double error = std::abs(result.summary.trajectory.alignment.scale - 1);
+  EXPECT_LT(error, 4 * result.summary.metric->sigma);
+  EXPECT_LT(error, 0.02);
+  EXPECT_EQ(load_map(options.save_map, options.parameters).record.scale_sigma, result.summary.metric->sigma);
+
+  options.widths = {{"NO SUCH WORD", 1, 0.01}};
+  options.last = 60;
+  EXPECT_NE(run(options).error.find("NO SUCH WORD"), std::string::npos);
+}
+
+// What was computed is not lost where the map cannot be saved: another session was saved meanwhile.
+TEST_F(Sessions, AMapThatCannotBeSavedIsInTheOutputFolder) {
+  RunOptions options = options_for("second", "out_refused");
+  options.map = copy_of_map("raced.db");
+  options.last = 30;
+  options.own_detector = nullptr;
+  const LoadedMap other = load_map(options.map, options.parameters);
+  struct Race : TextDetector {
+    Race(const LoadedMap& map, std::string file) : other(map), path(std::move(file)) {}
+    std::vector<Detection> detect(const FrameRef&, ImageView8) override {
+      if (!saved) save_map(path, other.map, other.record);
+      saved = true;
+      return {};
+    }
+    const LoadedMap& other;
+    std::string path;
+    bool saved = false;
+  };
+  options.own_detector = std::make_shared<Race>(other, options.map);
+  try {
+    run(options);
+    FAIL() << "it replaced what the other session saved";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("out_refused/map.db"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(load_map(options.map, options.parameters).record.revision, 2);
+  EXPECT_EQ(load_map(path("out_refused/map.db"), options.parameters).record.sessions.size(), 2u);
+}
+
+}  // namespace
+}  // namespace textslam
