@@ -23,7 +23,7 @@ FOLDER = pathlib.Path(os.environ.get("TEXTPLANE_PYTHON", pathlib.Path(__file__).
 
 def public_names():
     for module in MODULES:
-        for name in dir(module):
+        for name in getattr(module, "__all__", dir(module)):
             item = getattr(module, name)
             if name.startswith("_") or inspect.ismodule(item):
                 continue

@@ -1,0 +1,33 @@
+"""The numbered examples print what those of C++ print, within the bounds of tests/examples.cmake."""
+import contextlib
+import io
+import os
+import pathlib
+import re
+import runpy
+import sys
+
+import pytest
+
+pytest.importorskip("textplane._slam")
+FOLDER = pathlib.Path(os.environ.get("TEXTPLANE_PYTHON", pathlib.Path(__file__).parents[2] / "bindings/python"))
+BOUNDS = re.findall(r'textplane_test_example\((0\d)_\S+ "([^"]+)" (ABOVE|BELOW)=([\d.]+)\)',
+                    (pathlib.Path(__file__).parents[1] / "examples.cmake").read_text())
+
+
+def test_there_are_eight():
+    assert [number for number, *_ in BOUNDS] == [f"{i:02}" for i in range(1, 9)]
+    assert len(list((FOLDER / "examples").glob("0?_*.py"))) == 8
+
+
+@pytest.mark.parametrize("number, text, side, bound", BOUNDS)
+def test_numbered_example(number, text, side, bound, monkeypatch):
+    program = next((FOLDER / "examples").glob(f"{number}_*.py"))
+    monkeypatch.setattr(sys, "path", [str(program.parent), *sys.path])
+    output = io.StringIO()
+    with contextlib.redirect_stdout(output):
+        runpy.run_path(str(program))
+    match = re.search(re.escape(text) + r" ([\d.]+)", output.getvalue())
+    assert match, output.getvalue()
+    number = float(match[1])
+    assert number > float(bound) if side == "ABOVE" else number < float(bound), output.getvalue()
