@@ -10,7 +10,7 @@ SelfCalibration estimate_camera(const RunOptions& options, const std::vector<std
   Progress progress("calibrating");
   Parameters parameters = options.parameters;
   // What the shutter of a fast camera does passes for a lens: where neither is known they are found together. The run
-  // does not take the readout over: with it redkitchen has twice the error, and nobody knows why (docs/cameras.md).
+  // does not take the readout over: a truth that knows nothing of rows would call it worse (docs/cameras.md).
   const bool given = options.readout && !parameters.estimate_readout;
   parameters.estimate_readout = sequence->camera_origin != CameraOrigin::file && !given;
   SelfCalibration found =
