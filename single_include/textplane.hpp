@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 7404b8baa4f895a8
+// Hash of these files: dced9ee7bb6f58d0
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 7404b8baa4f895a8"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 dced9ee7bb6f58d0"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -128,10 +128,11 @@
   }                             \
   }
 
-// Deferred functions. An inline function is compiled in every file that includes its header. A function after
-// TEXTPLANE_DEFERRED is compiled only where it is called; callers do not see the template parameter. A program with
-// compiled kernels (simd/targets.hpp) compiles it once: TEXTPLANE_INSTANCE(signature) at the end of the header defines
-// it in the one file that defines the kernels, and declares it in all others. In other programs it does nothing.
+// Deferred functions and classes. An inline function is compiled in every file that includes its header, and Eigen's
+// templates take long. A function after TEXTPLANE_DEFERRED is compiled only where it is called; callers do not see the
+// template parameter. A class after it has a using-declaration of its old name. A program with compiled kernels
+// (simd/targets.hpp) compiles a function once: TEXTPLANE_INSTANCE(signature) at the end of the header defines it in the
+// one file that defines the kernels, and declares it in all others. In other programs it does nothing.
 #define TEXTPLANE_DEFERRED template <class = void>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
 #undef TEXTPLANE_EXTERN_KERNELS
@@ -160,6 +161,7 @@
 #ifndef TEXTPLANE_CORE_CAMERAS_ANY_CAMERA_HPP
 #define TEXTPLANE_CORE_CAMERAS_ANY_CAMERA_HPP
 
+#include <cstddef>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -169,6 +171,8 @@
 // ds): a fisheye of two coefficients whose inverse is in closed form.
 #ifndef TEXTPLANE_CORE_CAMERAS_DOUBLE_SPHERE_HPP
 #define TEXTPLANE_CORE_CAMERAS_DOUBLE_SPHERE_HPP
+
+#include <cmath>
 
 // What the camera models with a lens share: the chain from the lens to the pixel, the inverse of a lens on the plane,
 // and functions of angles that are smooth on the axis, where an angle itself is not.
@@ -535,21 +539,22 @@ TEXTPLANE_BEGIN_NAMESPACE
 template <class S>
 struct Pinhole;
 
-/// Whether `Camera` has the members above.
+/// Whether `Camera` has the members above. Its name is asked for first: S of other templates need be no number.
 template <class Camera, class = void>
 struct is_camera_model : std::false_type {};
 template <template <class> class Model, class S>
 struct is_camera_model<
-    Model<S>, std::void_t<decltype(
-                  Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<FixedMatrix<S, 2, 3>*>(nullptr),
-                                                static_cast<FixedMatrix<S, 2, Model<S>::kParameters>*>(nullptr))),
-                  Status{Model<S>().unproject(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
-                  Status{Model<S>().unproject_ray(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
-                  Vector2<S>(Model<S>().distort(Vector2<S>(), static_cast<FixedMatrix<S, 2, 2>*>(nullptr))),
-                  Pinhole<S>(Model<S>().pinhole()), Model<S>(Model<S>().at_level(0)),
-                  Model<S>::from_parameters(Model<S>().parameters()), Model<S>().template cast<float>(),
-                  Model<S>().valid() && Model<S>().is_pinhole() && Model<S>().in_domain(Vector3<S>()),
-                  static_cast<const char*>(Model<S>::kName))>>
+    Model<S>,
+    std::void_t<decltype(static_cast<const char*>(Model<S>::kName)),
+                decltype(
+                    Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<FixedMatrix<S, 2, 3>*>(nullptr),
+                                                  static_cast<FixedMatrix<S, 2, Model<S>::kParameters>*>(nullptr))),
+                    Status{Model<S>().unproject(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
+                    Status{Model<S>().unproject_ray(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
+                    Vector2<S>(Model<S>().distort(Vector2<S>(), static_cast<FixedMatrix<S, 2, 2>*>(nullptr))),
+                    Pinhole<S>(Model<S>().pinhole()), Model<S>(Model<S>().at_level(0)),
+                    Model<S>::from_parameters(Model<S>().parameters()), Model<S>().template cast<float>(),
+                    Model<S>().valid() && Model<S>().is_pinhole() && Model<S>().in_domain(Vector3<S>()))>>
     : std::integral_constant<bool, (Model<S>::kParameters >= 4)> {};
 
 namespace detail {
@@ -1000,6 +1005,8 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_CORE_CAMERAS_EXTENDED_UNIFIED_HPP
 #define TEXTPLANE_CORE_CAMERAS_EXTENDED_UNIFIED_HPP
 
+#include <cmath>
+
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// pixel = pinhole pixel of m_d,   m_d = (x, y) / (alpha d + (1 - alpha) z),   d = sqrt(beta (x^2 + y^2) + z^2).
@@ -1100,6 +1107,8 @@ TEXTPLANE_END_NAMESPACE
 // fisheye of one coefficient whose inverse is in closed form.
 #ifndef TEXTPLANE_CORE_CAMERAS_FOV_HPP
 #define TEXTPLANE_CORE_CAMERAS_FOV_HPP
+
+#include <cmath>
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -1904,6 +1913,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_CORE_PARSE_NUMBER_HPP
 
 #include <charconv>
+#include <cstddef>
 #include <string_view>
 #include <system_error>
 
@@ -2258,7 +2268,8 @@ struct RollingShutter {
 };
 
 /// How one frame moves while its rows are taken.
-struct RowMotion {
+TEXTPLANE_DEFERRED
+struct BasicRowMotion {
   Vector6<double> velocity = Vector6<double>::Zero();  ///< (v, omega) a second, a left increment of T_c_w.
   RollingShutter shutter;                              ///< Of its camera.
 
@@ -2277,8 +2288,11 @@ struct RowMotion {
   bool valid() const noexcept { return shutter.valid() && all_finite(velocity); }
 };
 
+using RowMotion = BasicRowMotion<>;  ///< It is compiled only where it is used.
+
 /// d xi / d velocity of Exp(time velocity): Exp(time (velocity + d)) = Exp(M d) Exp(time velocity) to first order, with
 /// M = time (I + a / 2 + a^2 / 6), a = ad(time velocity). Its error is a^3 / 24, 1e-7 for a motion of 0.01.
+TEXTPLANE_DEFERRED
 inline FixedMatrix<double, 6, 6> velocity_jacobian(const Vector6<double>& velocity, double time) noexcept {
   const Vector6<double> xi = time * velocity;
   const Matrix3<double> V = hat<double>(xi.head<3>()), W = hat<double>(xi.tail<3>());
@@ -2294,6 +2308,7 @@ inline FixedMatrix<double, 6, 6> velocity_jacobian(const Vector6<double>& veloci
 
 /// Velocity of a camera between two poses (world to camera) `seconds` apart: T_b_w = Exp(seconds velocity) T_a_w. Poses
 /// less than pi apart in rotation; zero where `seconds` is.
+TEXTPLANE_DEFERRED
 inline Vector6<double> velocity_between(const SE3d& T_a_w, const SE3d& T_b_w, double seconds) noexcept {
   if (!(std::abs(seconds) > 0)) return Vector6<double>::Zero();
   return se3_log<double>(T_b_w * T_a_w.inverse()) / seconds;
@@ -2373,6 +2388,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_FEATURES_POINT_PATCH_HPP
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 // Bilinear interpolation with the gradient of the interpolant itself.
@@ -8003,6 +8019,7 @@ struct WarpSummary {
 };
 
 namespace detail {
+TEXTPLANE_DEFERRED
 inline Status check_warp(bool images_valid, int width, int height, const Matrix3<double>& H,
                          const ImageView<std::uint8_t>& mask) noexcept {
   if (!images_valid) return Status::invalid_argument;
@@ -8099,6 +8116,9 @@ TEXTPLANE_END_NAMESPACE
 // step is taken from the rounded one.
 #ifndef TEXTPLANE_SIMD_KLT_HPP
 #define TEXTPLANE_SIMD_KLT_HPP
+
+#include <cstddef>
+#include <cstdint>
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
@@ -9257,6 +9277,9 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_SIMD_FAST_HPP
 #define TEXTPLANE_SIMD_FAST_HPP
 
+#include <cstddef>
+#include <cstdint>
+
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
 
@@ -10129,6 +10152,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_FEATURES_KLT_HPP
 
 #include <cmath>
+#include <cstddef>
 
 // Convex quadrilaterals in an image: area, inside, hull, intersection, clipping, overlap and pyramid levels.
 //
@@ -10431,6 +10455,9 @@ TEXTPLANE_END_NAMESPACE
 // Halving of 8-bit images: the step from one pyramid level to the next.
 #ifndef TEXTPLANE_SIMD_HALVE_HPP
 #define TEXTPLANE_SIMD_HALVE_HPP
+
+#include <cstddef>
+#include <cstdint>
 
 TEXTPLANE_BEGIN_NAMESPACE
 namespace simd {
@@ -11014,6 +11041,7 @@ TEXTPLANE_END_NAMESPACE
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 // TextPatch: the pixels of a text object in its host image, on every pyramid level.
@@ -11061,11 +11089,12 @@ struct LensPiece {
 
 /// The lens of one camera, in double. To make one takes a few hundred microseconds where s is no polynomial: it is
 /// then cut into pieces that are.
-class LensMap {
+TEXTPLANE_DEFERRED
+class BasicLensMap {
  public:
-  LensMap() noexcept : LensMap(AnyCamera<double>()) {}
+  BasicLensMap() noexcept : BasicLensMap(AnyCamera<double>()) {}
   /// Of a camera model. A camera that is not valid() gives a lens that sees nothing: max_r2() is 0.
-  explicit LensMap(const AnyCamera<double>& camera) noexcept
+  explicit BasicLensMap(const AnyCamera<double>& camera) noexcept
       : camera_(camera), radial_(camera.visit([this](const auto& model) { return without_tangential(model); })) {
     if (!camera.valid()) return;
     set_end();
@@ -11238,6 +11267,7 @@ class LensMap {
   LensPiece pieces_[kMostPieces];
   int count_ = 0;
 };
+using LensMap = BasicLensMap<>;  ///< It is compiled only where it is used.
 
 TEXTPLANE_END_NAMESPACE
 
@@ -11247,7 +11277,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// A camera, of which the lens is somebody else's and must outlive the view. A pinhole becomes one by itself. Pixels
 /// are those of the image as it was taken; `pinhole` is the camera of the undistorted one.
-struct CameraView {
+TEXTPLANE_DEFERRED
+struct BasicCameraView {
   Pinhole<double> pinhole;        ///< px of level 0, or of the level that at_level() was asked for.
   const LensMap* lens = nullptr;  ///< Of normalised coordinates, on all levels the same; null: none.
   /// How the camera moves while it takes the rows of the image, in px of level 0; null: it takes all at once. Its
@@ -11255,12 +11286,13 @@ struct CameraView {
   /// this view know nothing of rows: project_rows() does.
   const RowMotion* rows = nullptr;
 
-  CameraView() = default;
+  BasicCameraView() = default;
   /// Without a lens.
-  CameraView(const Pinhole<double>& camera) noexcept : pinhole(camera) {}  // NOLINT(google-explicit-constructor)
-  CameraView(double fx, double fy, double cx, double cy) noexcept : pinhole(fx, fy, cx, cy) {}  ///< Without a lens.
+  BasicCameraView(const Pinhole<double>& camera) noexcept : pinhole(camera) {}  // NOLINT(google-explicit-constructor)
+  BasicCameraView(double fx, double fy, double cx, double cy) noexcept
+      : pinhole(fx, fy, cx, cy) {}  ///< Without a lens.
   /// `map` may be null.
-  CameraView(const Pinhole<double>& camera, const LensMap* map, const RowMotion* motion = nullptr) noexcept
+  BasicCameraView(const Pinhole<double>& camera, const LensMap* map, const RowMotion* motion = nullptr) noexcept
       : pinhole(camera), lens(map), rows(motion) {}
 
   /// Finite, with positive focal lengths, a lens that sees something, and rows that are valid().
@@ -11296,8 +11328,9 @@ struct CameraView {
   }
 
   /// The same camera for pyramid level l.
-  CameraView at_level(int level) const noexcept { return {pinhole.at_level(level), lens, rows}; }
+  BasicCameraView at_level(int level) const noexcept { return {pinhole.at_level(level), lens, rows}; }
 };
+using CameraView = BasicCameraView<>;  ///< It is compiled only where it is used.
 
 TEXTPLANE_END_NAMESPACE
 
@@ -11461,6 +11494,7 @@ struct PatchRows {
 namespace detail {
 // time . q / q_z is the time (s after the time stamp) of the row that shows the ray q. It is linear in q: behind a lens
 // about m_c = (x, y, 1), without one everywhere. The camera is of level 0.
+TEXTPLANE_DEFERRED
 inline Vector3<double> row_time(const RollingShutter& shutter, const CameraView& camera,
                                 const Vector3<double>& m_c) noexcept {
   const Pinhole<double>& c = camera.pinhole;
@@ -11477,6 +11511,7 @@ inline Vector3<double> row_time(const RollingShutter& shutter, const CameraView&
 }
 
 // omega x m + rho v.
+TEXTPLANE_DEFERRED
 inline Vector3<double> ray_motion(const Vector6<double>& velocity, const Vector3<double>& m, double rho) noexcept {
   Vector3<double> b;
   for (int i = 0; i < 3; ++i) {
@@ -11487,6 +11522,7 @@ inline Vector3<double> ray_motion(const Vector6<double>& velocity, const Vector3
 }
 
 // I + factor b l^T.
+TEXTPLANE_DEFERRED
 inline Matrix3<double> rank_one(double factor, const Vector3<double>& b, const Vector3<double>& l) noexcept {
   Matrix3<double> m;
   for (int c = 0; c < 3; ++c)
@@ -11494,12 +11530,14 @@ inline Matrix3<double> rank_one(double factor, const Vector3<double>& b, const V
   return m;
 }
 
+TEXTPLANE_DEFERRED
 inline double dot(const Vector3<double>& a, const Vector3<double>& b) noexcept {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 }  // namespace detail
 
 /// The rows of a patch about the ray `centre` (third entry 1), in an image with this motion and this camera (level 0).
+TEXTPLANE_DEFERRED
 inline PatchRows patch_rows(const RowMotion& motion, const CameraView& camera, const Vector3<double>& centre) noexcept {
   PatchRows rows;
   if (!motion.active()) return rows;
@@ -11516,6 +11554,7 @@ struct HostRows {
   Matrix3<double> by_theta = Matrix3<double>::Identity();  ///< d theta_c / d theta.
   Matrix3<double> B = Matrix3<double>::Identity();
 };
+TEXTPLANE_DEFERRED
 inline HostRows host_rows(const PatchRows& rows, const Vector3<double>& theta, const Vector3<double>& centre) noexcept {
   HostRows out;
   out.theta_c = theta;
@@ -11533,6 +11572,7 @@ inline HostRows host_rows(const PatchRows& rows, const Vector3<double>& theta, c
 /// C with C m~ the ray of the host at its time stamp, up to its length, to the place that the ray m~ of a patch about
 /// `centre` shows, through the plane `theta` (host frame at the time stamp): theta . C m~ is the inverse depth per unit
 /// of C m~. The identity where the rows are not active() or the plane passes through the camera.
+TEXTPLANE_DEFERRED
 inline Matrix3<double> host_row_warp(const PatchRows& rows, const Vector3<double>& theta,
                                      const Vector3<double>& centre) noexcept {
   if (!rows.active()) return Matrix3<double>::Identity();
@@ -11556,6 +11596,7 @@ struct RowWarp {
 /// The warp of a patch about the ray `centre` of the host through the plane `theta` (host frame at the time stamp) by
 /// T_t_h, which is between the time stamps. `host`: the patch's rows; `target`: the motion of the target, whose camera
 /// (level 0) is `camera`. Where no row of the target shows the centre, its motion counts as none.
+TEXTPLANE_DEFERRED
 inline RowWarp row_warp(const Vector3<double>& theta, const SE3d& T_t_h, const Vector3<double>& centre,
                         const PatchRows& host, const RowMotion& target, const CameraView& camera) noexcept {
   const detail::HostRows from = detail::host_rows(host, theta, centre);
@@ -14188,6 +14229,7 @@ struct TextPatch {
 
 namespace detail {
 // Position and gradient of a pixel of one level behind a lens, in the undistorted image. False where it has no ray.
+TEXTPLANE_DEFERRED
 inline bool straighten(const CameraView& camera, float* x, float* y, float* gx, float* gy) noexcept {
   const Vector2<double> px(static_cast<double>(*x), static_cast<double>(*y));
   Vector3<double> ray;
@@ -14660,6 +14702,7 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -15066,6 +15109,7 @@ Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S
 }
 
 /// The same in a target that may have a lens; out_of_view where it has no pixel for a corner.
+TEXTPLANE_DEFERRED
 inline Status project_quad(const Quad<double>& quad, const Pinhole<double>& host, const Vector3<double>& theta,
                            const SE3d& T_t_h, const CameraView& target, Quad<double>* out) noexcept {
   Quad<double> rays;
@@ -28639,12 +28683,16 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 
+#include <cstdint>
+
 // The typed side of simd/residual.hpp: which requests the float kernels take, what they are given, and what comes back.
 //
 // They take 8-bit targets of at least 2 x 2 pixels. The double reference takes all others, and the few cases that float
 // does not carry (numbers far out of proportion, a plane through the target's camera centre).
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
+
+#include <cstdint>
 
 // fit_lens(): a lens near one patch, as the kernels take it (simd/lens.hpp).
 #ifndef TEXTPLANE_PHOTOMETRY_LENS_LENS_FIT_HPP
@@ -28824,6 +28872,7 @@ struct RayBox {
 
 /// Of the box of a patch, and a pixel more on each side, seen through H. False where a corner is behind, or the box is
 /// not known.
+TEXTPLANE_DEFERRED
 inline bool ray_box(const simd::PointBounds& bounds, const Pinhole<double>& host, const FixedMatrix<double, 3, 3>& H,
                     RayBox* out) noexcept {
   if (bounds.n < 1) return false;
@@ -28886,6 +28935,8 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_PASSES_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_PASSES_HPP
 
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 // ResidualRequest: what the photometric residual is to be evaluated for. linearise(), evaluate() and residuals() take
@@ -29185,6 +29236,7 @@ inline Status check_camera(const Pinhole<double>& camera) noexcept {
   return camera.valid() ? Status::ok : Status::invalid_argument;
 }
 
+TEXTPLANE_DEFERRED
 inline Status check_camera(const CameraView& camera) noexcept {
   const Status status = check_camera(camera.pinhole);
   return is_ok(status) && !camera.valid() ? Status::invalid_argument : status;
@@ -29535,9 +29587,15 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 
+#include <cstddef>
+#include <cstdint>
+
 // The double reference of LinearisePolicy::hybrid: its H. residual_request.hpp has the formula.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
+
+#include <cstddef>
+#include <cstdint>
 
 // Photometric residuals through rolling shutters: a request whose images take their rows one after the other becomes
 // one of still images by the warp of geometry/row_warp.hpp, and what comes back is seen through it.
@@ -29726,6 +29784,8 @@ TEXTPLANE_END_NAMESPACE
 // The normal equations of pose and plane, seen through the world poses of host and target.
 #ifndef TEXTPLANE_PHOTOMETRY_WORLD_PARAMETERS_HPP
 #define TEXTPLANE_PHOTOMETRY_WORLD_PARAMETERS_HPP
+
+#include <cstdint>
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -30099,6 +30159,8 @@ TEXTPLANE_END_NAMESPACE
 // in plane_problem.hpp.
 #ifndef TEXTPLANE_SOLVER_PLANE_HPP
 #define TEXTPLANE_SOLVER_PLANE_HPP
+
+#include <algorithm>
 
 // The cost of theta over targets with known poses, as a problem for minimise(); its targets, options and memory.
 //
@@ -30682,6 +30744,7 @@ struct TextAxes {
   Vector2<double> slope;  // turn of the normal from end to end (tangent), for a relative inverse depth of u^2 or v^2
 };
 
+TEXTPLANE_DEFERRED
 inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, const Pinhole<double>& camera,
                     TextAxes* axes) {
   const auto& c = quad.corner;
@@ -30702,6 +30765,7 @@ inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, cons
 }
 
 // Planes of inverse depth 1, du, dv times that of the text's centre become planes theta.
+TEXTPLANE_DEFERRED
 inline Vector3<double> plane_of(const TextAxes& axes, const Pinhole<double>& camera, double rho, double at_centre,
                                 const Vector2<double>& by_uv) {
   const Vector2<double> by_px = axes.to_uv.transpose() * by_uv;
@@ -30711,6 +30775,7 @@ inline Vector3<double> plane_of(const TextAxes& axes, const Pinhole<double>& cam
 }
 
 // d theta of a part / d (theta, bends): in each part the quadratic form is its tangent plane.
+TEXTPLANE_DEFERRED
 inline FixedMatrix<double, 3, 6> part_jacobian(const TextAxes& axes, const Pinhole<double>& camera, double rho,
                                                const Vector2<double>& at) {
   FixedMatrix<double, 3, 6> J;
@@ -30730,6 +30795,7 @@ inline void append(const PatchLevel& from, std::size_t i, PatchLevel* to) {
   to->gy.push_back(from.gy[i]);
 }
 
+TEXTPLANE_DEFERRED
 inline std::array<TextPatch, kBendParts> parts_of(const TextPatch& patch, const TextAxes& axes) {
   std::array<TextPatch, kBendParts> parts;
   for (TextPatch& part : parts) {
@@ -31046,12 +31112,14 @@ constexpr double kHalfTurn = 3.141592653589793;  // pi
 inline double radians(double degrees) noexcept { return degrees * kHalfTurn / 180; }
 
 // Between two directions of any length, degrees.
+TEXTPLANE_DEFERRED
 inline double degrees_between(const Vector3<double>& a, const Vector3<double>& b) noexcept {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kHalfTurn;
 }
 }  // namespace detail
 
 /// A text that has its patch's quad and camera and this plane, and no more: what the functions below look at.
+TEXTPLANE_DEFERRED
 inline TextObject outline_of(const TextPatch& patch, const Vector3<double>& theta) {
   TextObject text;
   text.patch.quad = patch.quad;
@@ -31063,12 +31131,14 @@ inline TextObject outline_of(const TextPatch& patch, const Vector3<double>& thet
 }
 
 /// px^2 that the text covers in its host's image.
+TEXTPLANE_DEFERRED
 inline double area_in_host(const TextPatch& patch) noexcept {
   return patch.area > 0 ? patch.area : std::abs(area(patch.quad));
 }
 
 /// The corners of the text in its host's frame (at the time stamp, where its rows were not taken at once). Status and
 /// untouched output as quad_points().
+TEXTPLANE_DEFERRED
 inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4>* out) noexcept {
   const TextPatch& patch = text.patch;
   if (!patch.rows.active()) return quad_points(patch.quad, patch.camera, text.theta, out);
@@ -31084,6 +31154,7 @@ inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4
 
 /// The text's quad as seen by the camera, by its rows and those of the host; false where a corner is behind it, or
 /// beyond what its lens sees.
+TEXTPLANE_DEFERRED
 inline bool project_text(const TextObject& text, const SE3d& T_t_h, const CameraView& camera,
                          Quad<double>* quad) noexcept {
   const Matrix3<double> H = plane_homography(text.theta, T_t_h);
@@ -31107,6 +31178,7 @@ inline bool project_text(const TextObject& text, const SE3d& T_t_h, const Camera
 }
 
 /// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
+TEXTPLANE_DEFERRED
 inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
   const Vector3<double> m = text.patch.camera.unproject(centroid(text.patch.quad));
   const Vector3<double> centre = T_t_h * plane_point(text.theta, m);
@@ -31121,6 +31193,7 @@ inline bool is_too_slanted(const TextOptions& options, double facing) noexcept {
 
 /// As project_text(), and whether the camera sees enough of the text's front to compare it with the host: not too
 /// slanted, at least `min_area` px^2, and `min_share` of it inside the image (1: the whole quad, off the border).
+TEXTPLANE_DEFERRED
 inline bool is_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
                        double min_area, double min_share, Quad<double>* quad) noexcept {
   if (!project_text(text, T_t_h, image.camera, quad) || is_too_slanted(options, facing(text, T_t_h))) return false;
@@ -31131,12 +31204,14 @@ inline bool is_in_view(const TextOptions& options, const TextObject& text, const
 }
 
 /// The same as tracking asks for it: by TextOptions::min_area and min_share.
+TEXTPLANE_DEFERRED
 inline bool text_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
                          Quad<double>* quad) noexcept {
   return is_in_view(options, text, T_t_h, image, options.min_area, options.min_share, quad);
 }
 
 /// Does the plane lie in front of its host, not too slanted, over the whole quad?
+TEXTPLANE_DEFERRED
 inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>& camera, const Quad<double>& quad,
                                const Vector3<double>& theta) noexcept {
   const Vector3<double> ray = camera.unproject(centroid(quad)).normalized();
@@ -31147,11 +31222,13 @@ inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>
 }
 
 /// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
+TEXTPLANE_DEFERRED
 inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcept {
   return scale_shift(area_in_host(text.patch), std::abs(area(quad)));
 }
 
 /// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.
+TEXTPLANE_DEFERRED
 inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& covariance) noexcept {
   const Vector3<double> n = plane_normal(theta);
   const Matrix3<double> J = (Matrix3<double>::Identity() - n * n.transpose()) / theta.norm();
@@ -31159,6 +31236,7 @@ inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& 
   return std::sqrt((std::max)(0.0, symmetric_eigen<double, 3>(of_normal).values[2]));
 }
 /// The same of a text.
+TEXTPLANE_DEFERRED
 inline double normal_sigma(const TextObject& text) noexcept { return normal_sigma(text.theta, text.covariance); }
 
 TEXTPLANE_END_NAMESPACE
@@ -31169,6 +31247,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// May a text begin with this quad in an image: convex, of at least min_area, off the border, and on no more than
 /// `overlap` of one of the `known` ones?
+TEXTPLANE_DEFERRED
 inline bool may_begin(const TextOptions& options, const Quad<double>& quad, int width, int height,
                       const std::vector<Quad<double>>& known) noexcept {
   return is_convex(quad) && std::abs(area(quad)) >= options.min_area &&
@@ -31192,32 +31271,38 @@ void count_view(const TextOptions& options, int keyframe, double zncc, double le
 }
 
 /// Did the detector see it often enough: min_detections, and detected_share of the frames that could have shown it?
+TEXTPLANE_DEFERRED
 inline bool is_detected(const TextObject& text, const TextOptions& options) noexcept {
   return text.detections >= options.min_detections && text.detections >= options.detected_share * text.shown;
 }
 
 /// Ready to be mapped: min_observations key frames show it, and it is_detected().
+TEXTPLANE_DEFERRED
 inline bool is_proven(const TextObject& text, const TextOptions& options) noexcept {
   return static_cast<int>(text.views.size()) + 1 >= options.min_observations && is_detected(text, options);
 }
 
 /// Has it waited too long for its plane, or to be mapped, after `age` key frames?
+TEXTPLANE_DEFERRED
 inline bool is_overdue(const TextObject& text, const TextOptions& options, int age) noexcept {
   return (text.state == TextState::candidate && age > options.patience) ||
          (text.state == TextState::tentative && age > options.tentative_patience);
 }
 
 /// Have max_failures key frames in a row, and more than ever showed it, failed to?
+TEXTPLANE_DEFERRED
 inline bool is_contradicted(const TextObject& text, const TextOptions& options) noexcept {
   return text.failures >= options.max_failures && text.failures > static_cast<int>(text.views.size());
 }
 
 /// Is its normal less certain than refine_max_sigma?
+TEXTPLANE_DEFERRED
 inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
   return !(normal_sigma(text) <= detail::radians(options.refine_max_sigma));
 }
 
 /// Takes it out of use and frees its memory; its id stays.
+TEXTPLANE_DEFERRED
 inline void drop(TextObject& text) noexcept {
   text.state = TextState::dropped;
   text.patch = TextPatch();
@@ -31513,6 +31598,7 @@ bool refine_text_plane(const TextOptions& options, const KeyframeLookup& keyfram
 }
 
 /// One level of the text's patch against an image; `shift` as scale_shift() says.
+TEXTPLANE_DEFERRED
 inline PhotometricCost compare_text(const TextObject& text, int level, const TextImage& image, const SE3d& T_t_h,
                                     int shift, PhotometricWorkspace& workspace) {
   const auto input = photometric_input(text.patch, level, image.pyramid, image.camera, shift);
@@ -31521,6 +31607,7 @@ inline PhotometricCost compare_text(const TextObject& text, int level, const Tex
 }
 
 /// Moves a plane with its covariance to another frame. False, and both as they were, where that sees its back.
+TEXTPLANE_DEFERRED
 inline bool transport_plane(const SE3d& T_to_from, Vector3<double>* theta, Matrix3<double>* covariance) noexcept {
   Vector3<double> moved;
   Matrix3<double> J;
@@ -31620,6 +31707,7 @@ namespace detail {
 constexpr double kMinPivot = 1e-12;  // a plane known much better in one direction than in another is still known
 
 // Covariance of theta where the plane goes through a point and its normal is known to sigma, radians.
+TEXTPLANE_DEFERRED
 inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<double>& point, double sigma) {
   const Vector3<double> n = plane_normal(theta), side = n.unitOrthogonal(), other = n.cross(side);
   const double distance = n.dot(point);
@@ -31632,6 +31720,7 @@ inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<
 }
 
 // Where a plane is known by a guess alone: its slant in radians, its distance as a share.
+TEXTPLANE_DEFERRED
 inline Matrix3<double> guessed(const Vector3<double>& theta, const Vector3<double>& centre, double turn,
                                double distance) {
   return turned_about(theta, centre, turn) + distance * distance * theta * theta.transpose();
@@ -35620,7 +35709,9 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_LENS_TEXT_BATCH_LENS_HPP
 #define TEXTPLANE_PHOTOMETRY_LENS_TEXT_BATCH_LENS_HPP
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -35707,11 +35798,13 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// A plane across the ray of `centre` (m~), at a depth.
+TEXTPLANE_DEFERRED
 inline Vector3<double> frontal_plane(const Vector3<double>& centre, double depth) noexcept {
   return centre / (depth * centre.squaredNorm());
 }
 
 /// Depth of a point in a camera's frame; 0 where it is not known or not in front.
+TEXTPLANE_DEFERRED
 inline double depth_of(const TextPoint& point, const SE3d& T_c_w) noexcept {
   const double depth = point.has_position ? (T_c_w * point.p_w).z() : point.depth;
   return depth > 0 && is_finite(depth) ? depth : 0;
@@ -35977,6 +36070,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 // Its whole quad in a key frame that shows clearly more of it than the host; false where that does not.
+TEXTPLANE_DEFERRED
 inline bool shown_better(const TextOptions& options, const TextKeyframe& host, const TextKeyframe& keyframe,
                          const TextObject& text, Quad<double>* quad) noexcept {
   const SE3d T_k_h = keyframe.from(host);
@@ -36102,6 +36196,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 // b's plane beside a's, in a's host.
+TEXTPLANE_DEFERRED
 inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
                          const TextObject& b) noexcept {
   Vector3<double> theta = b.theta;
@@ -36118,6 +36213,7 @@ inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const Te
   return std::abs(rho_a - rho_b) <= options.merge_depth * std::abs(rho_a) + options.merge_sigmas * rho_sigma;
 }
 
+TEXTPLANE_DEFERRED
 inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
                              const TextObject& b) noexcept {
   Quad<double> quad;
@@ -36128,6 +36224,7 @@ inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, cons
 }  // namespace detail
 
 /// What `other` saw counts for `kept`; its key-frame ids are `first_keyframe` higher in kept's map.
+TEXTPLANE_DEFERRED
 inline void add_observations_of(const TextObject& other, int first_keyframe, const TextOptions& options,
                                 TextObject& kept) {
   kept.views.push_back(first_keyframe + other.host);
@@ -36139,6 +36236,7 @@ inline void add_observations_of(const TextObject& other, int first_keyframe, con
 
 /// Do two texts with planes stand for one sign? Words, planes (angle and inverse depth at the centres, within a
 /// tolerance beside merge_sigmas standard deviations) and quads, in the host of either, must agree.
+TEXTPLANE_DEFERRED
 inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframes, const TextObject& a,
                       const TextObject& b) {
   if (!words_agree(consensus(a.votes), consensus(b.votes), options)) return false;
@@ -36149,6 +36247,7 @@ inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframe
 }
 
 /// Merges two texts into the one with more views, `a` among equals. Its plane stays; the other text is dropped.
+TEXTPLANE_DEFERRED
 inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b) {
   TextObject &to = b.views.size() > a.views.size() ? b : a, &from = &to == &a ? b : a;
   add_observations_of(from, 0, options, to);
@@ -36420,6 +36519,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 // Moves the sides of a quad outwards by `margin` px.
+TEXTPLANE_DEFERRED
 inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
   const auto& c = quad.corner;
   const Vector2<double> right = (c[1] - c[0] + c[2] - c[3]).normalized(),
@@ -36431,6 +36531,7 @@ inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
 }
 
 // d px / d m of a camera at the ray m.
+TEXTPLANE_DEFERRED
 inline Matrix2d pixel_jacobian(const CameraView& camera, const Vector2<double>& m) noexcept {
   Matrix2d D = Matrix2d::Identity();
   if (camera.lens) camera.lens->distort(m, &D);
@@ -36438,6 +36539,7 @@ inline Matrix2d pixel_jacobian(const CameraView& camera, const Vector2<double>& 
 }
 
 // d target px / d host px of the plane, at a ray of the host.
+TEXTPLANE_DEFERRED
 inline bool affine_at(const CameraView& host, const CameraView& target, const Vector3<double>& theta, const SE3d& T_t_h,
                       const Vector3<double>& ray, Matrix2d* A) noexcept {
   const Matrix3<double> H = plane_homography(theta, T_t_h);
@@ -36956,6 +37058,8 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 
+#include <cstdint>
+
 // TemplatePatch: what the template-Jacobian kernels keep of a host patch.
 //
 // Preparing costs about as much as ten iterations and is done once per object and level. A patch of n pixels takes 42
@@ -37003,6 +37107,8 @@ TEXTPLANE_END_NAMESPACE
 // simd/residual.hpp.
 #ifndef TEXTPLANE_SIMD_ESM_HPP
 #define TEXTPLANE_SIMD_ESM_HPP
+
+#include <cstddef>
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -43808,6 +43914,7 @@ struct PoseSystem {
 };
 
 /// A rolling shutter's left increment of T_t_w at the row that shows the point; the identity without one.
+TEXTPLANE_DEFERRED
 inline SE3d row_increment(const PosePointTerm& term, const CameraView& camera) noexcept {
   return camera.rows && is_finite(term.px[1]) ? camera.rows->at(term.px[1]) : SE3d();
 }
@@ -43832,6 +43939,7 @@ bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const CameraView&
 }
 
 /// Adds a point's part to the lower triangle of H, to b and to the cost. False where reproject() is.
+TEXTPLANE_DEFERRED
 inline bool add_point(const PosePointTerm& term, const SE3d& T_t_w, const CameraView& camera, const SE3d* row,
                       const Robust& robust, PoseSystem& system) noexcept {
   Vector3<double> p;
@@ -44155,6 +44263,7 @@ struct PoseResult {
 
 /// Standard deviation of the camera's position by PoseResult::information: the square root of the covariance's trace.
 /// Infinite where the information leaves a direction open.
+TEXTPLANE_DEFERRED
 inline double position_sigma(const FixedMatrix<double, 6, 6>& information) noexcept {
   const Ldlt<double, 6> ldlt(information);
   if (!ldlt.ok()) return std::numeric_limits<double>::infinity();
@@ -44177,6 +44286,7 @@ struct PoseAlignment : PoseResult {
 namespace detail {
 constexpr double kChiSquare95TwoDof = 5.991464547107979;
 
+TEXTPLANE_DEFERRED
 inline bool valid(const PoseOptions& o) noexcept {
   return o.photometric.valid() && o.point_robust.valid() && valid_sigma(o.sigma_photo) && valid_sigma(o.sigma_rep) &&
          o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
@@ -44185,6 +44295,7 @@ inline bool valid(const PoseOptions& o) noexcept {
 }
 
 // The levels that the target and any text have. Without any, one pass on the finest level, for the points.
+TEXTPLANE_DEFERRED
 inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int target_levels,
                               const PoseOptions& options) noexcept {
   int patch_levels = 0;
@@ -44422,6 +44533,7 @@ struct FrameText {
 
 /// The standard deviation of a residual of a text that an image shows with this ZNCC, in units of 1/sqrt(N). Views err
 /// as wholes, by resampling too: no ZNCC counts for more than .985.
+TEXTPLANE_DEFERRED
 inline double text_sigma(const TextObject& text, double zncc) noexcept {
   return std::sqrt(text.variance_factor * (std::max)(2 * (1 - zncc), 0.03));
 }
@@ -44871,6 +44983,7 @@ TEXTPLANE_END_NAMESPACE
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -45339,6 +45452,8 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 #define TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 
+#include <cstdint>
+
 // Correlation of one prepared host patch with one image under many candidate poses: raw pointers in, one number a
 // candidate out.
 //
@@ -45703,6 +45818,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_PHOTOMETRY_LENS_WARP_LENS_HPP
 
 #include <algorithm>
+#include <cstdint>
 #include <type_traits>
 
 // Warp onto a regular output grid out of an image behind a lens: raw pointers in, raw pointers out.
@@ -46276,6 +46392,7 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
+TEXTPLANE_DEFERRED
 inline Status check_warp(bool images_valid, int width, int height, const CameraView& camera, const Matrix3<double>& H,
                          const ImageView<std::uint8_t>& mask) noexcept {
   return camera.valid() ? check_warp(images_valid, width, height, H, mask) : Status::invalid_argument;
@@ -46515,6 +46632,9 @@ TEXTPLANE_END_NAMESPACE
 // out.
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
+
+#include <cmath>
+#include <cstdint>
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -46918,6 +47038,9 @@ TEXTPLANE_END_NAMESPACE
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 // What a Window and its options must be, before anything is computed of them.
 #ifndef TEXTPLANE_SOLVER_WINDOW_CHECK_HPP
@@ -46947,15 +47070,18 @@ int count(const Vector& v) noexcept {
 }
 
 /// The frame whose pose is the unknown: itself, or what it is fixed to.
+TEXTPLANE_DEFERRED
 inline int base_of(const Window& w, int frame) noexcept {
   const int base = at(w.frames, frame).base;
   return base >= 0 ? base : frame;
 }
+TEXTPLANE_DEFERRED
 inline const CameraView& camera_of(const Window& w, int frame) noexcept {
   const CameraView* own = at(w.frames, frame).camera;
   return own ? *own : w.camera;
 }
 /// d xi of a camera / d xi of its base, for T_w_c <- T_w_c Exp(xi): T_w_b Exp(xi) T_b_c = T_w_c Exp(Ad(T_b_c^-1) xi).
+TEXTPLANE_DEFERRED
 inline FixedMatrix<double, 6, 6> base_jacobian(const WindowFrame& frame) noexcept {
   return adjoint(frame.T_b_c.inverse());
 }
@@ -47001,6 +47127,7 @@ struct WindowState {
 };
 
 /// Whether the velocity of the frame is an unknown, where its pose is.
+TEXTPLANE_DEFERRED
 inline bool has_unknown_velocity(const WindowFrame& f) noexcept {
   bool unknown = f.rows && f.rows->shutter.active();
   for (int i = 0; i < 6; ++i) unknown = unknown && f.velocity_sigma[i] > 0;
@@ -47031,6 +47158,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 /// ok, or the status for an index or option outside its domain, or a non-finite camera or pose.
+TEXTPLANE_DEFERRED
 inline Status check_window(const Window& w, const WindowOptions& o) noexcept {
   const auto inside = [](int i, std::size_t n) { return i >= 0 && static_cast<std::size_t>(i) < n; };
   for (const WindowPointObservation& k : w.point_observations)

@@ -7,6 +7,7 @@
 #define TEXTPLANE_ADAPTERS_OPENCV_LENS_HPP
 
 #include <cmath>
+#include <cstddef>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <vector>

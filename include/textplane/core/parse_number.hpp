@@ -3,6 +3,7 @@
 #define TEXTPLANE_CORE_PARSE_NUMBER_HPP
 
 #include <charconv>
+#include <cstddef>
 #include <string_view>
 #include <system_error>
 

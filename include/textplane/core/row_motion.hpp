@@ -33,7 +33,8 @@ struct RollingShutter {
 };
 
 /// How one frame moves while its rows are taken.
-struct RowMotion {
+TEXTPLANE_DEFERRED
+struct BasicRowMotion {
   Vector6<double> velocity = Vector6<double>::Zero();  ///< (v, omega) a second, a left increment of T_c_w.
   RollingShutter shutter;                              ///< Of its camera.
 
@@ -52,8 +53,11 @@ struct RowMotion {
   bool valid() const noexcept { return shutter.valid() && all_finite(velocity); }
 };
 
+using RowMotion = BasicRowMotion<>;  ///< It is compiled only where it is used.
+
 /// d xi / d velocity of Exp(time velocity): Exp(time (velocity + d)) = Exp(M d) Exp(time velocity) to first order, with
 /// M = time (I + a / 2 + a^2 / 6), a = ad(time velocity). Its error is a^3 / 24, 1e-7 for a motion of 0.01.
+TEXTPLANE_DEFERRED
 inline FixedMatrix<double, 6, 6> velocity_jacobian(const Vector6<double>& velocity, double time) noexcept {
   const Vector6<double> xi = time * velocity;
   const Matrix3<double> V = hat<double>(xi.head<3>()), W = hat<double>(xi.tail<3>());
@@ -69,6 +73,7 @@ inline FixedMatrix<double, 6, 6> velocity_jacobian(const Vector6<double>& veloci
 
 /// Velocity of a camera between two poses (world to camera) `seconds` apart: T_b_w = Exp(seconds velocity) T_a_w. Poses
 /// less than pi apart in rotation; zero where `seconds` is.
+TEXTPLANE_DEFERRED
 inline Vector6<double> velocity_between(const SE3d& T_a_w, const SE3d& T_b_w, double seconds) noexcept {
   if (!(std::abs(seconds) > 0)) return Vector6<double>::Zero();
   return se3_log<double>(T_b_w * T_a_w.inverse()) / seconds;

@@ -7,6 +7,7 @@
 #define TEXTPLANE_FEATURES_KLT_HPP
 
 #include <cmath>
+#include <cstddef>
 
 #include "textplane/features/align.hpp"
 #include "textplane/geometry/quad.hpp"

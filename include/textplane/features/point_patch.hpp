@@ -10,6 +10,7 @@
 #define TEXTPLANE_FEATURES_POINT_PATCH_HPP
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "textplane/core/image_view.hpp"

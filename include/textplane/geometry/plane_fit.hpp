@@ -5,6 +5,7 @@
 #ifndef TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 #define TEXTPLANE_GEOMETRY_PLANE_FIT_HPP
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>

@@ -47,6 +47,7 @@ Status project_quad(const Quad<S>& quad, const Pinhole<S>& host, const Vector3<S
 }
 
 /// The same in a target that may have a lens; out_of_view where it has no pixel for a corner.
+TEXTPLANE_DEFERRED
 inline Status project_quad(const Quad<double>& quad, const Pinhole<double>& host, const Vector3<double>& theta,
                            const SE3d& T_t_h, const CameraView& target, Quad<double>* out) noexcept {
   Quad<double> rays;

@@ -36,6 +36,7 @@ struct PatchRows {
 namespace detail {
 // time . q / q_z is the time (s after the time stamp) of the row that shows the ray q. It is linear in q: behind a lens
 // about m_c = (x, y, 1), without one everywhere. The camera is of level 0.
+TEXTPLANE_DEFERRED
 inline Vector3<double> row_time(const RollingShutter& shutter, const CameraView& camera,
                                 const Vector3<double>& m_c) noexcept {
   const Pinhole<double>& c = camera.pinhole;
@@ -52,6 +53,7 @@ inline Vector3<double> row_time(const RollingShutter& shutter, const CameraView&
 }
 
 // omega x m + rho v.
+TEXTPLANE_DEFERRED
 inline Vector3<double> ray_motion(const Vector6<double>& velocity, const Vector3<double>& m, double rho) noexcept {
   Vector3<double> b;
   for (int i = 0; i < 3; ++i) {
@@ -62,6 +64,7 @@ inline Vector3<double> ray_motion(const Vector6<double>& velocity, const Vector3
 }
 
 // I + factor b l^T.
+TEXTPLANE_DEFERRED
 inline Matrix3<double> rank_one(double factor, const Vector3<double>& b, const Vector3<double>& l) noexcept {
   Matrix3<double> m;
   for (int c = 0; c < 3; ++c)
@@ -69,12 +72,14 @@ inline Matrix3<double> rank_one(double factor, const Vector3<double>& b, const V
   return m;
 }
 
+TEXTPLANE_DEFERRED
 inline double dot(const Vector3<double>& a, const Vector3<double>& b) noexcept {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 }  // namespace detail
 
 /// The rows of a patch about the ray `centre` (third entry 1), in an image with this motion and this camera (level 0).
+TEXTPLANE_DEFERRED
 inline PatchRows patch_rows(const RowMotion& motion, const CameraView& camera, const Vector3<double>& centre) noexcept {
   PatchRows rows;
   if (!motion.active()) return rows;
@@ -91,6 +96,7 @@ struct HostRows {
   Matrix3<double> by_theta = Matrix3<double>::Identity();  ///< d theta_c / d theta.
   Matrix3<double> B = Matrix3<double>::Identity();
 };
+TEXTPLANE_DEFERRED
 inline HostRows host_rows(const PatchRows& rows, const Vector3<double>& theta, const Vector3<double>& centre) noexcept {
   HostRows out;
   out.theta_c = theta;
@@ -108,6 +114,7 @@ inline HostRows host_rows(const PatchRows& rows, const Vector3<double>& theta, c
 /// C with C m~ the ray of the host at its time stamp, up to its length, to the place that the ray m~ of a patch about
 /// `centre` shows, through the plane `theta` (host frame at the time stamp): theta . C m~ is the inverse depth per unit
 /// of C m~. The identity where the rows are not active() or the plane passes through the camera.
+TEXTPLANE_DEFERRED
 inline Matrix3<double> host_row_warp(const PatchRows& rows, const Vector3<double>& theta,
                                      const Vector3<double>& centre) noexcept {
   if (!rows.active()) return Matrix3<double>::Identity();
@@ -131,6 +138,7 @@ struct RowWarp {
 /// The warp of a patch about the ray `centre` of the host through the plane `theta` (host frame at the time stamp) by
 /// T_t_h, which is between the time stamps. `host`: the patch's rows; `target`: the motion of the target, whose camera
 /// (level 0) is `camera`. Where no row of the target shows the centre, its motion counts as none.
+TEXTPLANE_DEFERRED
 inline RowWarp row_warp(const Vector3<double>& theta, const SE3d& T_t_h, const Vector3<double>& centre,
                         const PatchRows& host, const RowMotion& target, const CameraView& camera) noexcept {
   const detail::HostRows from = detail::host_rows(host, theta, centre);

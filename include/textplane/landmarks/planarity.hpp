@@ -46,6 +46,7 @@ struct TextAxes {
   Vector2<double> slope;  // turn of the normal from end to end (tangent), for a relative inverse depth of u^2 or v^2
 };
 
+TEXTPLANE_DEFERRED
 inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, const Pinhole<double>& camera,
                     TextAxes* axes) {
   const auto& c = quad.corner;
@@ -66,6 +67,7 @@ inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, cons
 }
 
 // Planes of inverse depth 1, du, dv times that of the text's centre become planes theta.
+TEXTPLANE_DEFERRED
 inline Vector3<double> plane_of(const TextAxes& axes, const Pinhole<double>& camera, double rho, double at_centre,
                                 const Vector2<double>& by_uv) {
   const Vector2<double> by_px = axes.to_uv.transpose() * by_uv;
@@ -75,6 +77,7 @@ inline Vector3<double> plane_of(const TextAxes& axes, const Pinhole<double>& cam
 }
 
 // d theta of a part / d (theta, bends): in each part the quadratic form is its tangent plane.
+TEXTPLANE_DEFERRED
 inline FixedMatrix<double, 3, 6> part_jacobian(const TextAxes& axes, const Pinhole<double>& camera, double rho,
                                                const Vector2<double>& at) {
   FixedMatrix<double, 3, 6> J;
@@ -94,6 +97,7 @@ inline void append(const PatchLevel& from, std::size_t i, PatchLevel* to) {
   to->gy.push_back(from.gy[i]);
 }
 
+TEXTPLANE_DEFERRED
 inline std::array<TextPatch, kBendParts> parts_of(const TextPatch& patch, const TextAxes& axes) {
   std::array<TextPatch, kBendParts> parts;
   for (TextPatch& part : parts) {

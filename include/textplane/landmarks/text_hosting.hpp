@@ -19,6 +19,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 // Its whole quad in a key frame that shows clearly more of it than the host; false where that does not.
+TEXTPLANE_DEFERRED
 inline bool shown_better(const TextOptions& options, const TextKeyframe& host, const TextKeyframe& keyframe,
                          const TextObject& text, Quad<double>* quad) noexcept {
   const SE3d T_k_h = keyframe.from(host);

@@ -12,6 +12,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// May a text begin with this quad in an image: convex, of at least min_area, off the border, and on no more than
 /// `overlap` of one of the `known` ones?
+TEXTPLANE_DEFERRED
 inline bool may_begin(const TextOptions& options, const Quad<double>& quad, int width, int height,
                       const std::vector<Quad<double>>& known) noexcept {
   return is_convex(quad) && std::abs(area(quad)) >= options.min_area &&
@@ -35,32 +36,38 @@ void count_view(const TextOptions& options, int keyframe, double zncc, double le
 }
 
 /// Did the detector see it often enough: min_detections, and detected_share of the frames that could have shown it?
+TEXTPLANE_DEFERRED
 inline bool is_detected(const TextObject& text, const TextOptions& options) noexcept {
   return text.detections >= options.min_detections && text.detections >= options.detected_share * text.shown;
 }
 
 /// Ready to be mapped: min_observations key frames show it, and it is_detected().
+TEXTPLANE_DEFERRED
 inline bool is_proven(const TextObject& text, const TextOptions& options) noexcept {
   return static_cast<int>(text.views.size()) + 1 >= options.min_observations && is_detected(text, options);
 }
 
 /// Has it waited too long for its plane, or to be mapped, after `age` key frames?
+TEXTPLANE_DEFERRED
 inline bool is_overdue(const TextObject& text, const TextOptions& options, int age) noexcept {
   return (text.state == TextState::candidate && age > options.patience) ||
          (text.state == TextState::tentative && age > options.tentative_patience);
 }
 
 /// Have max_failures key frames in a row, and more than ever showed it, failed to?
+TEXTPLANE_DEFERRED
 inline bool is_contradicted(const TextObject& text, const TextOptions& options) noexcept {
   return text.failures >= options.max_failures && text.failures > static_cast<int>(text.views.size());
 }
 
 /// Is its normal less certain than refine_max_sigma?
+TEXTPLANE_DEFERRED
 inline bool is_uncertain(const TextObject& text, const TextOptions& options) noexcept {
   return !(normal_sigma(text) <= detail::radians(options.refine_max_sigma));
 }
 
 /// Takes it out of use and frees its memory; its id stays.
+TEXTPLANE_DEFERRED
 inline void drop(TextObject& text) noexcept {
   text.state = TextState::dropped;
   text.patch = TextPatch();

@@ -19,6 +19,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 // b's plane beside a's, in a's host.
+TEXTPLANE_DEFERRED
 inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
                          const TextObject& b) noexcept {
   Vector3<double> theta = b.theta;
@@ -35,6 +36,7 @@ inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const Te
   return std::abs(rho_a - rho_b) <= options.merge_depth * std::abs(rho_a) + options.merge_sigmas * rho_sigma;
 }
 
+TEXTPLANE_DEFERRED
 inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
                              const TextObject& b) noexcept {
   Quad<double> quad;
@@ -45,6 +47,7 @@ inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, cons
 }  // namespace detail
 
 /// What `other` saw counts for `kept`; its key-frame ids are `first_keyframe` higher in kept's map.
+TEXTPLANE_DEFERRED
 inline void add_observations_of(const TextObject& other, int first_keyframe, const TextOptions& options,
                                 TextObject& kept) {
   kept.views.push_back(first_keyframe + other.host);
@@ -56,6 +59,7 @@ inline void add_observations_of(const TextObject& other, int first_keyframe, con
 
 /// Do two texts with planes stand for one sign? Words, planes (angle and inverse depth at the centres, within a
 /// tolerance beside merge_sigmas standard deviations) and quads, in the host of either, must agree.
+TEXTPLANE_DEFERRED
 inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframes, const TextObject& a,
                       const TextObject& b) {
   if (!words_agree(consensus(a.votes), consensus(b.votes), options)) return false;
@@ -66,6 +70,7 @@ inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframe
 }
 
 /// Merges two texts into the one with more views, `a` among equals. Its plane stays; the other text is dropped.
+TEXTPLANE_DEFERRED
 inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b) {
   TextObject &to = b.views.size() > a.views.size() ? b : a, &from = &to == &a ? b : a;
   add_observations_of(from, 0, options, to);

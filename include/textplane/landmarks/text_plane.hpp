@@ -102,6 +102,7 @@ bool refine_text_plane(const TextOptions& options, const KeyframeLookup& keyfram
 }
 
 /// One level of the text's patch against an image; `shift` as scale_shift() says.
+TEXTPLANE_DEFERRED
 inline PhotometricCost compare_text(const TextObject& text, int level, const TextImage& image, const SE3d& T_t_h,
                                     int shift, PhotometricWorkspace& workspace) {
   const auto input = photometric_input(text.patch, level, image.pyramid, image.camera, shift);
@@ -110,6 +111,7 @@ inline PhotometricCost compare_text(const TextObject& text, int level, const Tex
 }
 
 /// Moves a plane with its covariance to another frame. False, and both as they were, where that sees its back.
+TEXTPLANE_DEFERRED
 inline bool transport_plane(const SE3d& T_to_from, Vector3<double>* theta, Matrix3<double>* covariance) noexcept {
   Vector3<double> moved;
   Matrix3<double> J;

@@ -36,6 +36,7 @@ struct FrameText {
 
 /// The standard deviation of a residual of a text that an image shows with this ZNCC, in units of 1/sqrt(N). Views err
 /// as wholes, by resampling too: no ZNCC counts for more than .985.
+TEXTPLANE_DEFERRED
 inline double text_sigma(const TextObject& text, double zncc) noexcept {
   return std::sqrt(text.variance_factor * (std::max)(2 * (1 - zncc), 0.03));
 }

@@ -15,11 +15,13 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// A plane across the ray of `centre` (m~), at a depth.
+TEXTPLANE_DEFERRED
 inline Vector3<double> frontal_plane(const Vector3<double>& centre, double depth) noexcept {
   return centre / (depth * centre.squaredNorm());
 }
 
 /// Depth of a point in a camera's frame; 0 where it is not known or not in front.
+TEXTPLANE_DEFERRED
 inline double depth_of(const TextPoint& point, const SE3d& T_c_w) noexcept {
   const double depth = point.has_position ? (T_c_w * point.p_w).z() : point.depth;
   return depth > 0 && is_finite(depth) ? depth : 0;

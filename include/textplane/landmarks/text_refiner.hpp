@@ -25,6 +25,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 // Moves the sides of a quad outwards by `margin` px.
+TEXTPLANE_DEFERRED
 inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
   const auto& c = quad.corner;
   const Vector2<double> right = (c[1] - c[0] + c[2] - c[3]).normalized(),
@@ -36,6 +37,7 @@ inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
 }
 
 // d px / d m of a camera at the ray m.
+TEXTPLANE_DEFERRED
 inline Matrix2d pixel_jacobian(const CameraView& camera, const Vector2<double>& m) noexcept {
   Matrix2d D = Matrix2d::Identity();
   if (camera.lens) camera.lens->distort(m, &D);
@@ -43,6 +45,7 @@ inline Matrix2d pixel_jacobian(const CameraView& camera, const Vector2<double>& 
 }
 
 // d target px / d host px of the plane, at a ray of the host.
+TEXTPLANE_DEFERRED
 inline bool affine_at(const CameraView& host, const CameraView& target, const Vector3<double>& theta, const SE3d& T_t_h,
                       const Vector3<double>& ray, Matrix2d* A) noexcept {
   const Matrix3<double> H = plane_homography(theta, T_t_h);

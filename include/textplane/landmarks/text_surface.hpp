@@ -80,6 +80,7 @@ namespace detail {
 constexpr double kMinPivot = 1e-12;  // a plane known much better in one direction than in another is still known
 
 // Covariance of theta where the plane goes through a point and its normal is known to sigma, radians.
+TEXTPLANE_DEFERRED
 inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<double>& point, double sigma) {
   const Vector3<double> n = plane_normal(theta), side = n.unitOrthogonal(), other = n.cross(side);
   const double distance = n.dot(point);
@@ -92,6 +93,7 @@ inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<
 }
 
 // Where a plane is known by a guess alone: its slant in radians, its distance as a share.
+TEXTPLANE_DEFERRED
 inline Matrix3<double> guessed(const Vector3<double>& theta, const Vector3<double>& centre, double turn,
                                double distance) {
   return turned_about(theta, centre, turn) + distance * distance * theta * theta.transpose();

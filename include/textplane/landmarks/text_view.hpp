@@ -23,12 +23,14 @@ constexpr double kHalfTurn = 3.141592653589793;  // pi
 inline double radians(double degrees) noexcept { return degrees * kHalfTurn / 180; }
 
 // Between two directions of any length, degrees.
+TEXTPLANE_DEFERRED
 inline double degrees_between(const Vector3<double>& a, const Vector3<double>& b) noexcept {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / kHalfTurn;
 }
 }  // namespace detail
 
 /// A text that has its patch's quad and camera and this plane, and no more: what the functions below look at.
+TEXTPLANE_DEFERRED
 inline TextObject outline_of(const TextPatch& patch, const Vector3<double>& theta) {
   TextObject text;
   text.patch.quad = patch.quad;
@@ -40,12 +42,14 @@ inline TextObject outline_of(const TextPatch& patch, const Vector3<double>& thet
 }
 
 /// px^2 that the text covers in its host's image.
+TEXTPLANE_DEFERRED
 inline double area_in_host(const TextPatch& patch) noexcept {
   return patch.area > 0 ? patch.area : std::abs(area(patch.quad));
 }
 
 /// The corners of the text in its host's frame (at the time stamp, where its rows were not taken at once). Status and
 /// untouched output as quad_points().
+TEXTPLANE_DEFERRED
 inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4>* out) noexcept {
   const TextPatch& patch = text.patch;
   if (!patch.rows.active()) return quad_points(patch.quad, patch.camera, text.theta, out);
@@ -61,6 +65,7 @@ inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4
 
 /// The text's quad as seen by the camera, by its rows and those of the host; false where a corner is behind it, or
 /// beyond what its lens sees.
+TEXTPLANE_DEFERRED
 inline bool project_text(const TextObject& text, const SE3d& T_t_h, const CameraView& camera,
                          Quad<double>* quad) noexcept {
   const Matrix3<double> H = plane_homography(text.theta, T_t_h);
@@ -84,6 +89,7 @@ inline bool project_text(const TextObject& text, const SE3d& T_t_h, const Camera
 }
 
 /// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
+TEXTPLANE_DEFERRED
 inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
   const Vector3<double> m = text.patch.camera.unproject(centroid(text.patch.quad));
   const Vector3<double> centre = T_t_h * plane_point(text.theta, m);
@@ -98,6 +104,7 @@ inline bool is_too_slanted(const TextOptions& options, double facing) noexcept {
 
 /// As project_text(), and whether the camera sees enough of the text's front to compare it with the host: not too
 /// slanted, at least `min_area` px^2, and `min_share` of it inside the image (1: the whole quad, off the border).
+TEXTPLANE_DEFERRED
 inline bool is_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
                        double min_area, double min_share, Quad<double>* quad) noexcept {
   if (!project_text(text, T_t_h, image.camera, quad) || is_too_slanted(options, facing(text, T_t_h))) return false;
@@ -108,12 +115,14 @@ inline bool is_in_view(const TextOptions& options, const TextObject& text, const
 }
 
 /// The same as tracking asks for it: by TextOptions::min_area and min_share.
+TEXTPLANE_DEFERRED
 inline bool text_in_view(const TextOptions& options, const TextObject& text, const SE3d& T_t_h, const TextImage& image,
                          Quad<double>* quad) noexcept {
   return is_in_view(options, text, T_t_h, image, options.min_area, options.min_share, quad);
 }
 
 /// Does the plane lie in front of its host, not too slanted, over the whole quad?
+TEXTPLANE_DEFERRED
 inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>& camera, const Quad<double>& quad,
                                const Vector3<double>& theta) noexcept {
   const Vector3<double> ray = camera.unproject(centroid(quad)).normalized();
@@ -124,11 +133,13 @@ inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>
 }
 
 /// Which pyramid levels of host and view show the text at one scale, for its quad in the view: see photometric_input().
+TEXTPLANE_DEFERRED
 inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcept {
   return scale_shift(area_in_host(text.patch), std::abs(area(quad)));
 }
 
 /// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.
+TEXTPLANE_DEFERRED
 inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& covariance) noexcept {
   const Vector3<double> n = plane_normal(theta);
   const Matrix3<double> J = (Matrix3<double>::Identity() - n * n.transpose()) / theta.norm();
@@ -136,6 +147,7 @@ inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& 
   return std::sqrt((std::max)(0.0, symmetric_eigen<double, 3>(of_normal).values[2]));
 }
 /// The same of a text.
+TEXTPLANE_DEFERRED
 inline double normal_sigma(const TextObject& text) noexcept { return normal_sigma(text.theta, text.covariance); }
 
 TEXTPLANE_END_NAMESPACE

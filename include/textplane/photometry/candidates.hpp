@@ -2,6 +2,8 @@
 #ifndef TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 #define TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 
+#include <cstdint>
+
 #include "textplane/photometry/residual.hpp"
 #include "textplane/photometry/template_patch.hpp"
 #include "textplane/simd/zncc.hpp"

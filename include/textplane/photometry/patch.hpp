@@ -101,6 +101,7 @@ struct TextPatch {
 
 namespace detail {
 // Position and gradient of a pixel of one level behind a lens, in the undistorted image. False where it has no ray.
+TEXTPLANE_DEFERRED
 inline bool straighten(const CameraView& camera, float* x, float* y, float* gx, float* gy) noexcept {
   const Vector2<double> px(static_cast<double>(*x), static_cast<double>(*y));
   Vector3<double> ray;

@@ -22,6 +22,8 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_HPP
 
+#include <cstdint>
+
 #include "textplane/photometry/residual_kernels.hpp"
 #include "textplane/photometry/residual_reference.hpp"
 #include "textplane/photometry/residual_rows.hpp"

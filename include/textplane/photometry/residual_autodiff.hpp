@@ -3,6 +3,9 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_AUTODIFF_HPP
 
+#include <cmath>
+#include <cstdint>
+
 #include "textplane/core/se3.hpp"
 #include "textplane/photometry/photometric_input.hpp"
 #include "textplane/photometry/sample.hpp"

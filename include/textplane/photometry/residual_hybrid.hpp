@@ -2,6 +2,9 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_HYBRID_HPP
 
+#include <cstddef>
+#include <cstdint>
+
 #include "textplane/photometry/residual_passes.hpp"
 #include "textplane/photometry/residual_rows.hpp"
 

@@ -5,6 +5,8 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_KERNELS_HPP
 
+#include <cstdint>
+
 #include "textplane/photometry/lens/lens_fit.hpp"
 #include "textplane/photometry/residual_passes.hpp"
 #include "textplane/simd/residual.hpp"

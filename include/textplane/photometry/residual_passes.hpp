@@ -9,6 +9,8 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_PASSES_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_PASSES_HPP
 
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "textplane/core/se3.hpp"
@@ -30,6 +32,7 @@ inline Status check_camera(const Pinhole<double>& camera) noexcept {
   return camera.valid() ? Status::ok : Status::invalid_argument;
 }
 
+TEXTPLANE_DEFERRED
 inline Status check_camera(const CameraView& camera) noexcept {
   const Status status = check_camera(camera.pinhole);
   return is_ok(status) && !camera.valid() ? Status::invalid_argument : status;

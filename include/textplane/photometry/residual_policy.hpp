@@ -3,6 +3,8 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_POLICY_HPP
 
+#include <cstdint>
+
 #include "textplane/photometry/residual.hpp"
 #include "textplane/photometry/template_patch.hpp"
 #include "textplane/simd/esm.hpp"

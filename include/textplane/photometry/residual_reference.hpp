@@ -6,6 +6,9 @@
 #ifndef TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 #define TEXTPLANE_PHOTOMETRY_RESIDUAL_REFERENCE_HPP
 
+#include <cstddef>
+#include <cstdint>
+
 #include "textplane/photometry/residual_hybrid.hpp"
 #include "textplane/photometry/residual_passes.hpp"
 #include "textplane/photometry/residual_rows.hpp"

@@ -33,6 +33,7 @@ struct WarpSummary {
 };
 
 namespace detail {
+TEXTPLANE_DEFERRED
 inline Status check_warp(bool images_valid, int width, int height, const Matrix3<double>& H,
                          const ImageView<std::uint8_t>& mask) noexcept {
   if (!images_valid) return Status::invalid_argument;

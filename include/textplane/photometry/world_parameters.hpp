@@ -2,6 +2,8 @@
 #ifndef TEXTPLANE_PHOTOMETRY_WORLD_PARAMETERS_HPP
 #define TEXTPLANE_PHOTOMETRY_WORLD_PARAMETERS_HPP
 
+#include <cstdint>
+
 #include "textplane/photometry/residual_request.hpp"
 #include "textplane/photometry/residual_result.hpp"
 

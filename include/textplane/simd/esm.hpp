@@ -10,6 +10,8 @@
 #ifndef TEXTPLANE_SIMD_ESM_HPP
 #define TEXTPLANE_SIMD_ESM_HPP
 
+#include <cstddef>
+
 #include "textplane/simd/residual.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

@@ -3,6 +3,9 @@
 #ifndef TEXTPLANE_SIMD_FAST_HPP
 #define TEXTPLANE_SIMD_FAST_HPP
 
+#include <cstddef>
+#include <cstdint>
+
 #include "textplane/simd/ops.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

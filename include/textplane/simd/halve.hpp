@@ -2,6 +2,9 @@
 #ifndef TEXTPLANE_SIMD_HALVE_HPP
 #define TEXTPLANE_SIMD_HALVE_HPP
 
+#include <cstddef>
+#include <cstdint>
+
 #include "textplane/simd/ops.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

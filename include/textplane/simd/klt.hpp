@@ -6,6 +6,9 @@
 #ifndef TEXTPLANE_SIMD_KLT_HPP
 #define TEXTPLANE_SIMD_KLT_HPP
 
+#include <cstddef>
+#include <cstdint>
+
 #include "textplane/simd/ops.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

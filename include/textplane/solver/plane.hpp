@@ -3,6 +3,8 @@
 #ifndef TEXTPLANE_SOLVER_PLANE_HPP
 #define TEXTPLANE_SOLVER_PLANE_HPP
 
+#include <algorithm>
+
 #include "textplane/solver/plane_problem.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

@@ -37,6 +37,7 @@ struct PoseResult {
 
 /// Standard deviation of the camera's position by PoseResult::information: the square root of the covariance's trace.
 /// Infinite where the information leaves a direction open.
+TEXTPLANE_DEFERRED
 inline double position_sigma(const FixedMatrix<double, 6, 6>& information) noexcept {
   const Ldlt<double, 6> ldlt(information);
   if (!ldlt.ok()) return std::numeric_limits<double>::infinity();
@@ -59,6 +60,7 @@ struct PoseAlignment : PoseResult {
 namespace detail {
 constexpr double kChiSquare95TwoDof = 5.991464547107979;
 
+TEXTPLANE_DEFERRED
 inline bool valid(const PoseOptions& o) noexcept {
   return o.photometric.valid() && o.point_robust.valid() && valid_sigma(o.sigma_photo) && valid_sigma(o.sigma_rep) &&
          o.coarsest_level >= o.finest_level && o.finest_level >= 0 &&
@@ -67,6 +69,7 @@ inline bool valid(const PoseOptions& o) noexcept {
 }
 
 // The levels that the target and any text have. Without any, one pass on the finest level, for the points.
+TEXTPLANE_DEFERRED
 inline LevelRange pose_levels(const PoseTextTerm* texts, int text_count, int target_levels,
                               const PoseOptions& options) noexcept {
   int patch_levels = 0;

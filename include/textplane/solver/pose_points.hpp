@@ -15,6 +15,7 @@ struct PoseSystem {
 };
 
 /// A rolling shutter's left increment of T_t_w at the row that shows the point; the identity without one.
+TEXTPLANE_DEFERRED
 inline SE3d row_increment(const PosePointTerm& term, const CameraView& camera) noexcept {
   return camera.rows && is_finite(term.px[1]) ? camera.rows->at(term.px[1]) : SE3d();
 }
@@ -39,6 +40,7 @@ bool reproject(const PosePointTerm& term, const SE3<S>& T_t_w, const CameraView&
 }
 
 /// Adds a point's part to the lower triangle of H, to b and to the cost. False where reproject() is.
+TEXTPLANE_DEFERRED
 inline bool add_point(const PosePointTerm& term, const SE3d& T_t_w, const CameraView& camera, const SE3d* row,
                       const Robust& robust, PoseSystem& system) noexcept {
   Vector3<double> p;

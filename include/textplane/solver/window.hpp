@@ -18,6 +18,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "textplane/solver/window_check.hpp"
 #include "textplane/solver/window_problem.hpp"

@@ -11,6 +11,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
 /// ok, or the status for an index or option outside its domain, or a non-finite camera or pose.
+TEXTPLANE_DEFERRED
 inline Status check_window(const Window& w, const WindowOptions& o) noexcept {
   const auto inside = [](int i, std::size_t n) { return i >= 0 && static_cast<std::size_t>(i) < n; };
   for (const WindowPointObservation& k : w.point_observations)

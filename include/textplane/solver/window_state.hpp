@@ -22,15 +22,18 @@ int count(const Vector& v) noexcept {
 }
 
 /// The frame whose pose is the unknown: itself, or what it is fixed to.
+TEXTPLANE_DEFERRED
 inline int base_of(const Window& w, int frame) noexcept {
   const int base = at(w.frames, frame).base;
   return base >= 0 ? base : frame;
 }
+TEXTPLANE_DEFERRED
 inline const CameraView& camera_of(const Window& w, int frame) noexcept {
   const CameraView* own = at(w.frames, frame).camera;
   return own ? *own : w.camera;
 }
 /// d xi of a camera / d xi of its base, for T_w_c <- T_w_c Exp(xi): T_w_b Exp(xi) T_b_c = T_w_c Exp(Ad(T_b_c^-1) xi).
+TEXTPLANE_DEFERRED
 inline FixedMatrix<double, 6, 6> base_jacobian(const WindowFrame& frame) noexcept {
   return adjoint(frame.T_b_c.inverse());
 }
@@ -76,6 +79,7 @@ struct WindowState {
 };
 
 /// Whether the velocity of the frame is an unknown, where its pose is.
+TEXTPLANE_DEFERRED
 inline bool has_unknown_velocity(const WindowFrame& f) noexcept {
   bool unknown = f.rows && f.rows->shutter.active();
   for (int i = 0; i < 6; ++i) unknown = unknown && f.velocity_sigma[i] > 0;

@@ -7,6 +7,7 @@
 #ifndef TEXTPLANE_CORE_CAMERAS_ANY_CAMERA_HPP
 #define TEXTPLANE_CORE_CAMERAS_ANY_CAMERA_HPP
 
+#include <cstddef>
 #include <string_view>
 #include <type_traits>
 #include <utility>

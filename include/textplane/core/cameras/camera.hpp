@@ -36,21 +36,22 @@ TEXTPLANE_BEGIN_NAMESPACE
 template <class S>
 struct Pinhole;
 
-/// Whether `Camera` has the members above.
+/// Whether `Camera` has the members above. Its name is asked for first: S of other templates need be no number.
 template <class Camera, class = void>
 struct is_camera_model : std::false_type {};
 template <template <class> class Model, class S>
 struct is_camera_model<
-    Model<S>, std::void_t<decltype(
-                  Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<FixedMatrix<S, 2, 3>*>(nullptr),
-                                                static_cast<FixedMatrix<S, 2, Model<S>::kParameters>*>(nullptr))),
-                  Status{Model<S>().unproject(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
-                  Status{Model<S>().unproject_ray(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
-                  Vector2<S>(Model<S>().distort(Vector2<S>(), static_cast<FixedMatrix<S, 2, 2>*>(nullptr))),
-                  Pinhole<S>(Model<S>().pinhole()), Model<S>(Model<S>().at_level(0)),
-                  Model<S>::from_parameters(Model<S>().parameters()), Model<S>().template cast<float>(),
-                  Model<S>().valid() && Model<S>().is_pinhole() && Model<S>().in_domain(Vector3<S>()),
-                  static_cast<const char*>(Model<S>::kName))>>
+    Model<S>,
+    std::void_t<decltype(static_cast<const char*>(Model<S>::kName)),
+                decltype(
+                    Vector2<S>(Model<S>().project(Vector3<S>(), static_cast<FixedMatrix<S, 2, 3>*>(nullptr),
+                                                  static_cast<FixedMatrix<S, 2, Model<S>::kParameters>*>(nullptr))),
+                    Status{Model<S>().unproject(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
+                    Status{Model<S>().unproject_ray(Vector2<S>(), static_cast<Vector3<S>*>(nullptr))},
+                    Vector2<S>(Model<S>().distort(Vector2<S>(), static_cast<FixedMatrix<S, 2, 2>*>(nullptr))),
+                    Pinhole<S>(Model<S>().pinhole()), Model<S>(Model<S>().at_level(0)),
+                    Model<S>::from_parameters(Model<S>().parameters()), Model<S>().template cast<float>(),
+                    Model<S>().valid() && Model<S>().is_pinhole() && Model<S>().in_domain(Vector3<S>()))>>
     : std::integral_constant<bool, (Model<S>::kParameters >= 4)> {};
 
 namespace detail {

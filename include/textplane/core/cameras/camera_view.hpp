@@ -10,7 +10,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 /// A camera, of which the lens is somebody else's and must outlive the view. A pinhole becomes one by itself. Pixels
 /// are those of the image as it was taken; `pinhole` is the camera of the undistorted one.
-struct CameraView {
+TEXTPLANE_DEFERRED
+struct BasicCameraView {
   Pinhole<double> pinhole;        ///< px of level 0, or of the level that at_level() was asked for.
   const LensMap* lens = nullptr;  ///< Of normalised coordinates, on all levels the same; null: none.
   /// How the camera moves while it takes the rows of the image, in px of level 0; null: it takes all at once. Its
@@ -18,12 +19,13 @@ struct CameraView {
   /// this view know nothing of rows: project_rows() does.
   const RowMotion* rows = nullptr;
 
-  CameraView() = default;
+  BasicCameraView() = default;
   /// Without a lens.
-  CameraView(const Pinhole<double>& camera) noexcept : pinhole(camera) {}  // NOLINT(google-explicit-constructor)
-  CameraView(double fx, double fy, double cx, double cy) noexcept : pinhole(fx, fy, cx, cy) {}  ///< Without a lens.
+  BasicCameraView(const Pinhole<double>& camera) noexcept : pinhole(camera) {}  // NOLINT(google-explicit-constructor)
+  BasicCameraView(double fx, double fy, double cx, double cy) noexcept
+      : pinhole(fx, fy, cx, cy) {}  ///< Without a lens.
   /// `map` may be null.
-  CameraView(const Pinhole<double>& camera, const LensMap* map, const RowMotion* motion = nullptr) noexcept
+  BasicCameraView(const Pinhole<double>& camera, const LensMap* map, const RowMotion* motion = nullptr) noexcept
       : pinhole(camera), lens(map), rows(motion) {}
 
   /// Finite, with positive focal lengths, a lens that sees something, and rows that are valid().
@@ -59,8 +61,9 @@ struct CameraView {
   }
 
   /// The same camera for pyramid level l.
-  CameraView at_level(int level) const noexcept { return {pinhole.at_level(level), lens, rows}; }
+  BasicCameraView at_level(int level) const noexcept { return {pinhole.at_level(level), lens, rows}; }
 };
+using CameraView = BasicCameraView<>;  ///< It is compiled only where it is used.
 
 TEXTPLANE_END_NAMESPACE
 

@@ -3,6 +3,8 @@
 #ifndef TEXTPLANE_CORE_CAMERAS_DOUBLE_SPHERE_HPP
 #define TEXTPLANE_CORE_CAMERAS_DOUBLE_SPHERE_HPP
 
+#include <cmath>
+
 #include "textplane/core/cameras/lens.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

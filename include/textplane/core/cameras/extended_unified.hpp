@@ -5,6 +5,8 @@
 #ifndef TEXTPLANE_CORE_CAMERAS_EXTENDED_UNIFIED_HPP
 #define TEXTPLANE_CORE_CAMERAS_EXTENDED_UNIFIED_HPP
 
+#include <cmath>
+
 #include "textplane/core/cameras/lens.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE

@@ -31,11 +31,12 @@ struct LensPiece {
 
 /// The lens of one camera, in double. To make one takes a few hundred microseconds where s is no polynomial: it is
 /// then cut into pieces that are.
-class LensMap {
+TEXTPLANE_DEFERRED
+class BasicLensMap {
  public:
-  LensMap() noexcept : LensMap(AnyCamera<double>()) {}
+  BasicLensMap() noexcept : BasicLensMap(AnyCamera<double>()) {}
   /// Of a camera model. A camera that is not valid() gives a lens that sees nothing: max_r2() is 0.
-  explicit LensMap(const AnyCamera<double>& camera) noexcept
+  explicit BasicLensMap(const AnyCamera<double>& camera) noexcept
       : camera_(camera), radial_(camera.visit([this](const auto& model) { return without_tangential(model); })) {
     if (!camera.valid()) return;
     set_end();
@@ -208,6 +209,7 @@ class LensMap {
   LensPiece pieces_[kMostPieces];
   int count_ = 0;
 };
+using LensMap = BasicLensMap<>;  ///< It is compiled only where it is used.
 
 TEXTPLANE_END_NAMESPACE
 

@@ -41,6 +41,7 @@ struct RayBox {
 
 /// Of the box of a patch, and a pixel more on each side, seen through H. False where a corner is behind, or the box is
 /// not known.
+TEXTPLANE_DEFERRED
 inline bool ray_box(const simd::PointBounds& bounds, const Pinhole<double>& host, const FixedMatrix<double, 3, 3>& H,
                     RayBox* out) noexcept {
   if (bounds.n < 1) return false;

@@ -3,7 +3,9 @@
 #ifndef TEXTPLANE_PHOTOMETRY_LENS_TEXT_BATCH_LENS_HPP
 #define TEXTPLANE_PHOTOMETRY_LENS_TEXT_BATCH_LENS_HPP
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "textplane/photometry/residual.hpp"
 #include "textplane/photometry/text_batch.hpp"

@@ -7,6 +7,7 @@
 #define TEXTPLANE_PHOTOMETRY_LENS_WARP_LENS_HPP
 
 #include <algorithm>
+#include <cstdint>
 #include <type_traits>
 
 #include "textplane/core/cameras/camera_view.hpp"
@@ -17,6 +18,7 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
+TEXTPLANE_DEFERRED
 inline Status check_warp(bool images_valid, int width, int height, const CameraView& camera, const Matrix3<double>& H,
                          const ImageView<std::uint8_t>& mask) noexcept {
   return camera.valid() ? check_warp(images_valid, width, height, H, mask) : Status::invalid_argument;
