@@ -5,8 +5,7 @@
 #include "core/core.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_cameras {
 
 tp::AnyCamera<double> camera_of(const std::string& model, Handle parameters) {
   const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(parameters);
@@ -65,9 +64,7 @@ py::object unproject(const Camera& camera, Handle pixels) {
   });
 }
 
-}  // namespace
-
-void bind_cameras(py::module_& m) {
+void bind(py::module_& m) {
   py::class_<Camera> c(
       m, "Camera",
       "A camera of one of the models of docs/cameras.md, with its lens. Pixels are those of the image as "
@@ -121,4 +118,5 @@ void bind_cameras(py::module_& m) {
       "Pinhole(fx: float, fy: float, cx: float, cy: float) -> Camera\n\nA camera without a lens; all px.");
 }
 
+}  // namespace of_cameras
 }  // namespace binding

@@ -1,4 +1,4 @@
-// The rooms of textplane._core: a file each, so that they compile side by side.
+// The rooms of textplane._core: a file and a namespace each, so that they compile side by side, or as one unit.
 #ifndef TEXTPLANE_PYTHON_CORE_HPP
 #define TEXTPLANE_PYTHON_CORE_HPP
 
@@ -7,20 +7,22 @@
 
 namespace binding {
 
-void bind_types(py::module_& m);    // Status, Failure, SE3
-void bind_cameras(py::module_& m);  // Camera
-void bind_planes(py::module_& m);   // theta and its fits
-void bind_homographies(py::module_& m);
-void bind_quads(py::module_& m);
-void bind_images(py::module_& m);   // Pyramid, warps, ZNCC, noise
-void bind_patches(py::module_& m);  // TextPatch
-void bind_options(py::module_& m);  // of residuals and solvers
-void bind_pose(py::module_& m);     // align_pose, refine_pose, search_pose
-void bind_plane_solver(py::module_& m);
-void bind_residuals(py::module_& m);  // linearise_*, residuals, evaluate
-void bind_features(py::module_& m);   // FAST, KLT
-void bind_window(py::module_& m);     // solve_window
-void bind_text_map(py::module_& m);   // TextMap
+// clang-format off
+namespace of_types { void bind(py::module_& m); }    // Status, Failure, SE3
+namespace of_cameras { void bind(py::module_& m); }  // Camera
+namespace of_planes { void bind(py::module_& m); }   // theta and its fits
+namespace of_homographies { void bind(py::module_& m); }
+namespace of_quads { void bind(py::module_& m); }
+namespace of_images { void bind(py::module_& m); }   // Pyramid, warps, ZNCC, noise
+namespace of_patches { void bind(py::module_& m); }  // TextPatch
+namespace of_options { void bind(py::module_& m); }  // of residuals and solvers
+namespace of_pose { void bind(py::module_& m); }     // align_pose, refine_pose, search_pose
+namespace of_plane_solver { void bind(py::module_& m); }
+namespace of_residuals { void bind(py::module_& m); }  // linearise_*, residuals, evaluate
+namespace of_features { void bind(py::module_& m); }   // FAST, KLT
+namespace of_window { void bind(py::module_& m); }     // solve_window
+namespace of_text_map { void bind(py::module_& m); }   // TextMap
+// clang-format on
 
 }  // namespace binding
 

@@ -6,8 +6,7 @@
 #include "textplane/features/klt.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_features {
 
 // The tracks of one call, a number a point.
 struct Tracks {
@@ -61,9 +60,7 @@ py::object track(const py::object& from, const py::object& to, const py::object&
   return py::cast(std::move(out));
 }
 
-}  // namespace
-
-void bind_features(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   using O = tp::KltOptions;
   auto o = options_class<O>(m, "KltOptions", "Settings of track_klt(); px of the current level unless said otherwise.");
@@ -104,4 +101,5 @@ void bind_features(py::module_& m) {
         "in another; guess: predicted positions, float32 (n, 2).");
 }
 
+}  // namespace of_features
 }  // namespace binding

@@ -5,8 +5,7 @@
 #include "textplane/geometry/homography.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_homographies {
 
 struct Warped {
   Vec2 value = Vec2::Zero();
@@ -58,9 +57,7 @@ py::object relative_jacobians(const py::object& T_w_h, const py::object& T_w_t, 
   return py::make_tuple(to_python(J.host), to_python(J.target));
 }
 
-}  // namespace
-
-void bind_homographies(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   py::class_<Warped> warped(m, "WarpedPoint", "A normalised point m' of the target, and its derivatives.");
   field(warped, "value", &Warped::value, "Array: m', (2,); zero after a failure.");
@@ -103,4 +100,5 @@ void bind_homographies(py::module_& m) {
         "of the world poses of host and target move T_t_h: two (6, 6). right: T <- T exp(xi), else T <- exp(xi) T.");
 }
 
+}  // namespace of_homographies
 }  // namespace binding

@@ -7,8 +7,7 @@
 #include "textplane/photometry/zncc.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_images {
 
 // A level of a pyramid as an array that keeps the pyramid alive; read only.
 py::object level_of(Handle self, int level) {
@@ -120,9 +119,7 @@ py::object samples(const py::object& pixels, const py::object& points) {
   return std::move(out);
 }
 
-}  // namespace
-
-void bind_images(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   bind_pyramid(m);
   m.def("warp_patch", &warp, "source"_a, "H"_a, "out"_a, "fill"_a = 0.0, "mask"_a = py::none(),
@@ -156,4 +153,5 @@ void bind_images(py::module_& m) {
       "(height, width), where it is white.");
 }
 
+}  // namespace of_images
 }  // namespace binding

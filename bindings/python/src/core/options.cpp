@@ -4,8 +4,7 @@
 #include "textplane/solver/pose_terms.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_options {
 
 void bind_enums(py::module_& m) {
   py::enum_<tp::Normalisation>(m, "Normalisation", "How derivatives treat mean and norm of the target's intensities.")
@@ -42,9 +41,7 @@ void bind_solve_options(py::module_& m) {
   option(o, "max_lost_fraction", &O::max_lost_fraction, "float: Share of lost residuals that rejects a trial.");
 }
 
-}  // namespace
-
-void bind_options(py::module_& m) {
+void bind(py::module_& m) {
   bind_enums(m);
   auto robust = options_class<tp::Robust>(m, "Robust", "A robust cost of a residual.");
   option(robust, "kind", &tp::Robust::kind, "RobustKind: Which cost.");
@@ -59,4 +56,5 @@ void bind_options(py::module_& m) {
   bind_solve_options(m);
 }
 
+}  // namespace of_options
 }  // namespace binding

@@ -5,8 +5,7 @@
 #include "textplane/features/select.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_patches {
 
 using Patch = tp::TextPatch;
 
@@ -49,9 +48,7 @@ py::object selected(const py::object& pixels, const py::object& corners, const p
   return py::make_tuple(std::move(out), status);
 }
 
-}  // namespace
-
-void bind_patches(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   auto s = options_class<tp::SelectOptions>(m, "SelectOptions", "Settings of make_patch() and select_pixels().");
   option(s, "min_pixels", &tp::SelectOptions::min_pixels, "int: Fewer is Status.too_few.");
@@ -95,4 +92,5 @@ void bind_patches(py::module_& m) {
       "pixels that stand for a quad (4, 2) of an image of uint8: corners and strong gradients, float32 (n, 2), px.");
 }
 
+}  // namespace of_patches
 }  // namespace binding

@@ -5,8 +5,7 @@
 #include "textplane/solver/plane.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_plane_solver {
 
 // The targets, and the pyramids that they refer to.
 struct Targets {
@@ -58,9 +57,7 @@ py::object align(const py::object& patch, const py::object& theta, const py::obj
                 "align_plane");
 }
 
-}  // namespace
-
-void bind_plane_solver(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   using O = tp::PlaneOptions;
   auto o = options_class<O>(m, "PlaneOptions", "Settings of refine_plane() and align_plane().");
@@ -95,4 +92,5 @@ void bind_plane_solver(py::module_& m) {
         "PlaneOptions | None = None, raise_on_failure: bool = False) -> PlaneRefinement\n\nThe same with one target.");
 }
 
+}  // namespace of_plane_solver
 }  // namespace binding

@@ -7,8 +7,7 @@
 #include "textplane/geometry/triangulate.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_planes {
 
 using Fit = tp::PlaneFit<double>;
 
@@ -107,9 +106,7 @@ py::object reanchor(const py::object& theta, const py::object& T_t_h) {
   return to_python(tp::reanchor_plane(vector<3>(theta, "theta"), pose(T_t_h, "T_t_h")));
 }
 
-}  // namespace
-
-void bind_planes(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   bind_results(m);
   bind_fits(m);
@@ -154,4 +151,5 @@ void bind_planes(py::module_& m) {
         "target's centre is on it or behind it.");
 }
 
+}  // namespace of_planes
 }  // namespace binding

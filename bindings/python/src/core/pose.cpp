@@ -7,8 +7,7 @@
 #include "textplane/solver/search.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_pose {
 
 // A term and the patch that it refers to.
 struct Text {
@@ -189,9 +188,7 @@ py::object candidates(const py::object& patch, const py::object& theta, const py
   return py::make_tuple(std::move(out), status);
 }
 
-}  // namespace
-
-void bind_pose(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   bind_types_of_pose(m);
   py::class_<Text> text(m, "PoseText", "A text object whose host pose and plane refine_pose() holds.");
@@ -236,4 +233,5 @@ void bind_pose(py::module_& m) {
       "target under each pose, float32 (n,); -1 where it cannot be compared.");
 }
 
+}  // namespace of_pose
 }  // namespace binding

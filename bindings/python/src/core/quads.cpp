@@ -3,8 +3,7 @@
 #include "textplane/geometry/quad_projection.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_quads {
 
 const char kQuad[] = "quad";
 
@@ -29,9 +28,7 @@ py::object on_plane(const py::object& corners, const py::object& host, const py:
   return std::move(out);
 }
 
-}  // namespace
-
-void bind_quads(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   m.def(
       "quad_area", [](const py::object& q) { return tp::area(quad(q, kQuad)); }, "quad"_a,
@@ -67,4 +64,5 @@ void bind_quads(py::module_& m) {
         "frame, (4, 3); None where one is behind the camera.");
 }
 
+}  // namespace of_quads
 }  // namespace binding

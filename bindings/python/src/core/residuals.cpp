@@ -4,8 +4,7 @@
 #include "textplane/photometry/residual_policy.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_residuals {
 
 using Request = tp::ResidualRequest<std::uint8_t>;
 using P = tp::Parameters;
@@ -149,9 +148,7 @@ void bind_linearise(py::module_& m, const char* name, const char* result) {
         "raise_on_failure"_a = false, doc.c_str());
 }
 
-}  // namespace
-
-void bind_residuals(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   bind_result_types(m);
   bind_linearise<P::pose>(m, "linearise_pose", "PoseEquations");
@@ -181,4 +178,5 @@ void bind_residuals(py::module_& m) {
       "Residuals\n\nThe residuals themselves and their derivatives by (v, omega, theta), for solvers such as SciPy's.");
 }
 
+}  // namespace of_residuals
 }  // namespace binding

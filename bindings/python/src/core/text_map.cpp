@@ -9,8 +9,7 @@
 #include "textplane/landmarks/text_map.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_text_map {
 
 // The map, and the camera that it looks through.
 struct Map {
@@ -191,9 +190,7 @@ void bind_options_of_map(py::module_& m) {
   option(o, "max_images", &O::max_images, "int: Key frames whose images are kept.");
 }
 
-}  // namespace
-
-void bind_text_map(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   bind_results(m);
   bind_options_of_map(m);
@@ -243,4 +240,5 @@ void bind_text_map(py::module_& m) {
         "corners(id: int) -> Array | None\n\nCorners of a text in the world, (4, 3); None where it has no plane.");
 }
 
+}  // namespace of_text_map
 }  // namespace binding

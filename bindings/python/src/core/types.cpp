@@ -3,8 +3,7 @@
 #include "textplane/photometry/residual_result.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_types {
 
 void bind_status(py::module_& m) {
   py::enum_<tp::Status>(m, "Status",
@@ -118,11 +117,10 @@ void bind_pose_type(py::module_& m) {
                    }));
 }
 
-}  // namespace
-
-void bind_types(py::module_& m) {
+void bind(py::module_& m) {
   bind_status(m);
   bind_pose_type(m);
 }
 
+}  // namespace of_types
 }  // namespace binding

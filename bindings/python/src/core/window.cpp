@@ -5,8 +5,7 @@
 #include "textplane/solver/window.hpp"
 
 namespace binding {
-
-namespace {
+namespace of_window {
 
 // A window, and the objects that it refers to.
 struct Window {
@@ -154,9 +153,7 @@ void bind_answers(py::class_<Window>& c) {
       "Array: |e|^2 / sigma^2 of each observation of a point, (n,).");
 }
 
-}  // namespace
-
-void bind_window(py::module_& m) {
+void bind(py::module_& m) {
   using namespace py::literals;
   bind_window_options(m);
   py::class_<Window> c(
@@ -189,4 +186,5 @@ void bind_window(py::module_& m) {
         "WindowSummary\n\nAdjusts what is not fixed, in place. Coarse to fine: once a level, with options.text_level.");
 }
 
+}  // namespace of_window
 }  // namespace binding
