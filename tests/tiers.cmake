@@ -22,12 +22,32 @@ function(textplane_label test)
   set_property(TEST ${test} APPEND PROPERTY LABELS ${room} ${ARGN})
 endfunction()
 
-# textplane_discover_tests(PROGRAM ROOM [LABELS LABEL...] [TIERS TIER...] [EXCEPT TIER REGEX...]): the tests of a
-# program of GoogleTest. Those whose names match a REGEX of EXCEPT are not of that TIER. ctest sets the labels:
-# GoogleTest's module takes no lists as properties.
+# textplane_discover_tests(PROGRAM ROOM [LABELS LABEL...] [TIERS TIER...] [EXCEPT TIER REGEX...] [WHOLE SUITE...]): the
+# tests of a program of GoogleTest. Those whose names match a REGEX of EXCEPT are not of that TIER. ctest sets the labels:
+# GoogleTest's module takes no lists as properties. The tests of a SUITE share what takes long to make, so they are one
+# test for ctest.
 function(textplane_discover_tests program room)
-  cmake_parse_arguments(tests "" "" "LABELS;TIERS;EXCEPT" ${ARGN})
-  gtest_discover_tests(${program} TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  cmake_parse_arguments(tests "" "" "LABELS;TIERS;EXCEPT;WHOLE" ${ARGN})
+  set(filter)
+  if(tests_WHOLE AND CMAKE_VERSION VERSION_GREATER_EQUAL 3.22)
+    list(TRANSFORM tests_WHOLE REPLACE "(.+)" "*\\1.*" OUTPUT_VARIABLE patterns)
+    list(JOIN patterns ":" patterns)
+    set(filter TEST_FILTER "-${patterns}")
+    foreach(suite IN LISTS tests_WHOLE)
+      add_test(NAME ${room}.${suite} COMMAND ${program} --gtest_filter=*${suite}.*)
+      set_tests_properties(${room}.${suite} PROPERTIES TIMEOUT 600 COST 20)  # ctest begins with what costs most
+      set(tiers_of_suite ${tests_TIERS})
+      set(exceptions ${tests_EXCEPT})
+      while(exceptions)
+        list(POP_FRONT exceptions tier regex)
+        if("${suite}." MATCHES "${regex}")
+          list(REMOVE_ITEM tiers_of_suite ${tier})
+        endif()
+      endwhile()
+      textplane_label(${room}.${suite} ${tests_LABELS} ${tiers_of_suite})
+    endforeach()
+  endif()
+  gtest_discover_tests(${program} TEST_PREFIX ${room}. ${filter} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
   list(JOIN tests_TIERS " " tiers)
   list(JOIN tests_LABELS " " labels)
   set(labels "${room} ${labels} ${tiers}")
