@@ -12,5 +12,6 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/textplane-config-ve
   COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/textplane-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/textplane-config-version.cmake
   DESTINATION ${package_dir})
+install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/textplane)  # for ROS: REP 136
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 include(cmake/package.cmake)

@@ -18,5 +18,10 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev (>= 3.3)")
+  set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "A text patch that a camera sees is one plane. Poses and planes are found by
+minimising the normalised intensity difference with other frames.
+The headers depend on Eigen alone.")
+  set(CPACK_TEXTPLANE_SOURCE ${PROJECT_SOURCE_DIR})
+  set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian_files.cmake)
   include(CPack)
 endif()

@@ -20,7 +20,8 @@ packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang l
   pandoc libjs-katex fonts-katex clang-format pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel
   python3-pip python3-pytest mypy"
 packages_all="$packages_ci python3-sympy libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
-  g++-11-s390x-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32 nodejs"
+  g++-11-s390x-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32 nodejs
+  lintian colcon python3-colcon-ros python3-colcon-recursive-crawl"
 
 say() { printf '\n== %s\n' "$*"; }
 warn() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }

@@ -24,8 +24,6 @@ OBJECTS_ALLOWED = {"simd_target"}
 VERSIONS = [("include/textplane/config.hpp", r'VERSION_STRING "([\d.]+)"'),
             ("CMakeLists.txt", r"project\(textplane VERSION ([\d.]+)"),
             ("package.xml", r"<version>([\d.]+)<"),
-            ("conanfile.py", r'version = "([\d.]+)"'),
-            ("packaging/vcpkg/textplane/vcpkg.json", r'"version": "([\d.]+)"'),
             ("CITATION.cff", r"^version: ([\d.]+)$")]
 
 

@@ -1,5 +1,6 @@
-# Makes the Debian package of the build tree BUILD with CPack, unpacks it into TO, and compares with the installation in PREFIX.
-# cmake -DCPACK= -DBUILD= -DTO= -DPREFIX= -P debian_package.cmake
+# Makes the Debian package of the build tree BUILD with CPack, asks LINTIAN, if given, about it, unpacks it into TO, and
+# compares with the installation in PREFIX: it has a copyright in place of LICENSE, and a changelog.
+# cmake -DCPACK= -DBUILD= -DTO= -DPREFIX= -DLINTIAN= -P debian_package.cmake
 cmake_minimum_required(VERSION 3.21)
 file(REMOVE_RECURSE ${TO})
 execute_process(COMMAND ${CPACK} -G DEB --config ${BUILD}/CPackConfig.cmake -B ${TO}/package RESULT_VARIABLE failed)
@@ -11,10 +12,24 @@ execute_process(COMMAND dpkg-deb --field ${package} Depends OUTPUT_VARIABLE depe
 if(NOT depends MATCHES "libeigen3-dev")
   message(FATAL_ERROR "the package does not depend on Eigen: ${depends}")
 endif()
+if(LINTIAN)
+  execute_process(COMMAND ${LINTIAN} --allow-root --fail-on error,warning ${package} RESULT_VARIABLE faults)
+  if(faults)
+    message(FATAL_ERROR "lintian finds faults")
+  endif()
+endif()
 execute_process(COMMAND dpkg-deb --extract ${package} ${TO} COMMAND_ERROR_IS_FATAL ANY)
 
 file(GLOB_RECURSE installed RELATIVE ${PREFIX} ${PREFIX}/*)
+list(REMOVE_ITEM installed share/doc/textplane/LICENSE)
 file(GLOB_RECURSE packed RELATIVE ${TO}/usr ${TO}/usr/*)
+set(own share/doc/libtextplane-dev/changelog.gz share/doc/libtextplane-dev/copyright)
+foreach(file IN LISTS own)
+  if(NOT file IN_LIST packed)
+    message(FATAL_ERROR "the package has no ${file}")
+  endif()
+endforeach()
+list(REMOVE_ITEM packed ${own})
 if(NOT installed STREQUAL packed OR NOT "share/pkgconfig/textplane.pc" IN_LIST packed)
   message(FATAL_ERROR "installed: ${installed}\npacked: ${packed}")
 endif()

@@ -1,0 +1,21 @@
+# A ROS workspace with this checkout, by its package.xml, and a package that depends on it: colcon builds both.
+# cmake -DCOLCON= -DSOURCE= -DCONSUMER= -DTO= -P colcon.cmake; says SKIPPED where colcon has no extension for ROS.
+cmake_minimum_required(VERSION 3.21)
+file(REMOVE_RECURSE ${TO})
+file(MAKE_DIRECTORY ${TO}/src)
+file(CREATE_LINK ${SOURCE} ${TO}/src/textplane SYMBOLIC)
+file(COPY ${CONSUMER}/ DESTINATION ${TO}/src/consumer)
+file(READ ${SOURCE}/package.xml package)
+string(REPLACE "<name>textplane</name>" "<name>consumer</name>" package "${package}")
+string(REPLACE "<build_depend>eigen" "<depend>textplane</depend>\n  <build_depend>eigen" package "${package}")
+file(WRITE ${TO}/src/consumer/package.xml "${package}")
+execute_process(COMMAND ${COLCON} build --cmake-args -DTEXTPLANE_BUILD_TESTS=OFF -DTEXTPLANE_BUILD_EXAMPLES=OFF
+  -DTEXTPLANE_BUILD_PYTHON=OFF WORKING_DIRECTORY ${TO} RESULT_VARIABLE failed)
+if(NOT failed AND NOT EXISTS ${TO}/build/textplane)
+  message("SKIPPED: colcon has no extension for ROS")
+  return()
+endif()
+if(failed OR NOT EXISTS ${TO}/install/textplane/share/textplane/package.xml)
+  message(FATAL_ERROR "colcon did not install textplane as a ROS package")
+endif()
+execute_process(COMMAND ${TO}/build/consumer/consumer COMMAND_ERROR_IS_FATAL ANY)
