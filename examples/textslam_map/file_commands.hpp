@@ -1,0 +1,105 @@
+// The commands of textslam-map for map files alone. Needs CLI11.
+#ifndef TEXTSLAM_MAP_FILE_COMMANDS_HPP
+#define TEXTSLAM_MAP_FILE_COMMANDS_HPP
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/command_line.hpp"
+#include "io/input_error.hpp"
+#include "textslam_map/export_geojson.hpp"
+#include "textslam_map/export_map.hpp"
+#include "textslam_map/map_queries.hpp"
+
+namespace textslam {
+
+/// Writes a map file as other programs read it.
+class ExportCommand {
+ public:
+  explicit ExportCommand(CLI::App& app) {
+    command_ = app.add_subcommand("export", "Write a map file as other programs read it");
+    command_->add_option("--colmap", colmap_, "Folder for COLMAP's text model, with the key frames' images");
+    command_->add_option("--ply", ply_, "File for texts, points and key frames as PLY");
+    command_->add_option("--tum", tum_, "File for the key frames' poses in TUM's format");
+    command_->add_option("--session", session_, "Of --tum; by default the last")->check(CLI::PositiveNumber);
+    command_->add_option("--geojson", geojson_, "File for signs and paths of a metric map as GeoJSON");
+    command_->add_option("--origin", origin_,
+                         "LAT,LON[,ALT] of the map's origin for --geojson: WGS84, degrees, metres");
+    command_
+        ->add_option("--north", reference_.north,
+                     "For --geojson: where the map's z axis points, degrees clockwise from true north")
+        ->check(within(-360, 360));
+    command_->add_option("FILE", file_, "Map file")->required();
+  }
+  bool parsed() const { return command_->parsed(); }
+  int run() {
+    if (colmap_.empty() && ply_.empty() && tum_.empty() && geojson_.empty())
+      throw InputError("export", 0, "give --colmap, --ply, --tum or --geojson");
+    if (!geojson_.empty()) check_reference();
+    const LoadedMap map = load_map(file_, {});
+    if (!geojson_.empty()) export_geojson(map, file_, reference_, geojson_);
+    if (!colmap_.empty()) export_colmap(map, colmap_);
+    if (!ply_.empty()) export_ply(map, ply_);
+    if (!tum_.empty()) export_tum(map, session_, tum_);
+    return 0;
+  }
+
+ private:
+  void check_reference() {
+    if (origin_.empty() || command_->count("--north") == 0)
+      throw InputError("--geojson", 0, "give --origin LAT,LON and --north DEG too");
+    if (!parse_geo_position(origin_, &reference_.origin))
+      throw InputError("--origin", 0,
+                       "should be LAT,LON or LAT,LON,ALT in degrees and metres, not '" + shown(origin_) + "'");
+  }
+
+  CLI::App* command_ = nullptr;
+  std::string file_, colmap_, ply_, tum_, geojson_, origin_;
+  GeoReference reference_;
+  int session_ = 0;
+};
+
+/// All of them.
+class FileCommands {
+ public:
+  explicit FileCommands(CLI::App& app) : export_(app) {
+    info_ = app.add_subcommand("info", "What is in a map file? Its camera, its sessions, and how much of what");
+    info_->add_flag("--json", json_, "Print it as JSON");
+    check_ = app.add_subcommand(
+        "check", "Is a map file whole? Integrity, references, finite numbers; exit code 2 and a line each where not");
+    for (CLI::App* command : {info_, check_}) command->add_option("FILE", file_, "Map file")->required();
+  }
+  /// Runs the one that was given; empty: none of them was.
+  std::optional<int> run() {
+    if (info_->parsed()) return info();
+    if (check_->parsed()) return check();
+    if (export_.parsed()) return export_.run();
+    return std::nullopt;
+  }
+
+ private:
+  int info() const {
+    const MapInfo info = read_map_info(file_);
+    std::printf("%s", (json_ ? info_json(info) : info_text(info)).c_str());
+    return 0;
+  }
+  int check() const {
+    const std::vector<std::string> problems = problems_of(file_);
+    for (const std::string& problem : problems)
+      std::fprintf(stderr, "textslam-map: %s: %s\n", file_.c_str(), problem.c_str());
+    if (problems.empty()) std::printf("%s: ok\n", file_.c_str());
+    return problems.empty() ? 0 : kInputError;
+  }
+
+  ExportCommand export_;
+  CLI::App *info_ = nullptr, *check_ = nullptr;
+  std::string file_;
+  bool json_ = false;
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_MAP_FILE_COMMANDS_HPP
