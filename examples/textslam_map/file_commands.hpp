@@ -21,7 +21,8 @@ class ExportCommand {
  public:
   explicit ExportCommand(CLI::App& app) {
     command_ = app.add_subcommand("export", "Write a map file as other programs read it");
-    command_->add_option("--colmap", colmap_, "Folder for COLMAP's text model, with the key frames' images");
+    command_->add_option("--colmap", colmap_,
+                         "Folder for COLMAP's model, as text and binary, and the key frames' images");
     command_->add_option("--ply", ply_, "File for texts, points and key frames as PLY");
     command_->add_option("--tum", tum_, "File for the key frames' poses in TUM's format");
     command_->add_option("--session", session_, "Of --tum; by default the last")->check(CLI::PositiveNumber);
