@@ -31,7 +31,7 @@ textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS 
 textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map TIERS first_look sanitizers EXCEPT
   sanitizers "LateDetections\\." first_look "LateDetections\\.")
 textplane_add_tests(map_file LIBRARIES textplane_textslam_map LABELS textslam TIERS first_look sanitizers EXCEPT
-  sanitizers "MapFileTest\\.AKill")
+  sanitizers "AKill")
 
 textplane_add_tests(city LIBRARIES textplane_city TIERS first_look sanitizers EXCEPT sanitizers "CitySearch\\.")
 

@@ -13,6 +13,7 @@
 #include "textslam_map/export_geojson.hpp"
 #include "textslam_map/export_map.hpp"
 #include "textslam_map/map_queries.hpp"
+#include "textslam_map/prune_map.hpp"
 
 namespace textslam {
 
@@ -63,10 +64,46 @@ class ExportCommand {
   int session_ = 0;
 };
 
+/// Takes away what is not wanted any more.
+class PruneCommand {
+ public:
+  explicit PruneCommand(CLI::App& app) {
+    command_ = app.add_subcommand("prune", "Take texts or a session out of a map file, and what nothing else needs");
+    observations_ = command_->add_option("--min-observations", least_, "Texts that fewer key frames observe go")
+                        ->check(CLI::PositiveNumber);
+    sigma_ = command_->add_option("--max-sigma", most_, "Texts whose normals are less certain go: degrees")
+                 ->check(within(0, 180));
+    session_ =
+        command_->add_option("--session", number_, "The key frames of this session go, but those that others need")
+            ->check(CLI::PositiveNumber);
+    command_->add_flag("--dry-run", dry_run_, "Only say what would go");
+    command_->add_option("FILE", file_, "Map file")->required();
+  }
+  bool parsed() const { return command_->parsed(); }
+  int run() const {
+    PruneRules rules;
+    if (observations_->count() > 0) rules.min_observations = least_;
+    if (sigma_->count() > 0) rules.max_sigma = most_;
+    if (session_->count() > 0) rules.session = number_;
+    if (!rules.min_observations && !rules.max_sigma && !rules.session)
+      throw InputError("prune", 0, "give --min-observations, --max-sigma or --session");
+    std::printf("%s", pruned_text(prune_map(file_, rules, dry_run_), dry_run_).c_str());
+    return 0;
+  }
+
+ private:
+  CLI::App* command_ = nullptr;
+  CLI::Option *observations_ = nullptr, *sigma_ = nullptr, *session_ = nullptr;
+  std::string file_;
+  int least_ = 0, number_ = 0;
+  double most_ = 0;
+  bool dry_run_ = false;
+};
+
 /// All of them.
 class FileCommands {
  public:
-  explicit FileCommands(CLI::App& app) : export_(app) {
+  explicit FileCommands(CLI::App& app) : export_(app), prune_(app) {
     info_ = app.add_subcommand("info", "What is in a map file? Its camera, its sessions, and how much of what");
     info_->add_flag("--json", json_, "Print it as JSON");
     check_ = app.add_subcommand(
@@ -78,6 +115,7 @@ class FileCommands {
     if (info_->parsed()) return info();
     if (check_->parsed()) return check();
     if (export_.parsed()) return export_.run();
+    if (prune_.parsed()) return prune_.run();
     return std::nullopt;
   }
 
@@ -96,6 +134,7 @@ class FileCommands {
   }
 
   ExportCommand export_;
+  PruneCommand prune_;
   CLI::App *info_ = nullptr, *check_ = nullptr;
   std::string file_;
   bool json_ = false;
