@@ -13,6 +13,7 @@
 #include "textslam_map/export_geojson.hpp"
 #include "textslam_map/export_map.hpp"
 #include "textslam_map/map_queries.hpp"
+#include "textslam_map/merge_maps.hpp"
 #include "textslam_map/prune_map.hpp"
 
 namespace textslam {
@@ -100,10 +101,34 @@ class PruneCommand {
   bool dry_run_ = false;
 };
 
+/// Joins two maps of one place.
+class MergeCommand {
+ public:
+  explicit MergeCommand(CLI::App& app) {
+    command_ = app.add_subcommand(
+        "merge", "Join two map files of one place by the signs in both; exit code 1 where they have no common place");
+    command_->add_option("A", a_, "Map file whose world and ids stay")->required();
+    command_->add_option("B", b_, "Map file that is joined to it")->required();
+    command_->add_option("--output", output_, "Map file to write; one that is there is replaced")->required();
+  }
+  bool parsed() const { return command_->parsed(); }
+  int run() const {
+    const std::string joined = merge_map_files(a_, b_, output_);
+    if (joined.empty())
+      std::fprintf(stderr, "textslam-map: %s and %s: no common place found\n", a_.c_str(), b_.c_str());
+    std::printf("%s", joined.c_str());
+    return joined.empty() ? 1 : 0;
+  }
+
+ private:
+  CLI::App* command_ = nullptr;
+  std::string a_, b_, output_;
+};
+
 /// All of them.
 class FileCommands {
  public:
-  explicit FileCommands(CLI::App& app) : export_(app), prune_(app) {
+  explicit FileCommands(CLI::App& app) : export_(app), prune_(app), merge_(app) {
     info_ = app.add_subcommand("info", "What is in a map file? Its camera, its sessions, and how much of what");
     info_->add_flag("--json", json_, "Print it as JSON");
     check_ = app.add_subcommand(
@@ -116,6 +141,7 @@ class FileCommands {
     if (check_->parsed()) return check();
     if (export_.parsed()) return export_.run();
     if (prune_.parsed()) return prune_.run();
+    if (merge_.parsed()) return merge_.run();
     return std::nullopt;
   }
 
@@ -135,6 +161,7 @@ class FileCommands {
 
   ExportCommand export_;
   PruneCommand prune_;
+  MergeCommand merge_;
   CLI::App *info_ = nullptr, *check_ = nullptr;
   std::string file_;
   bool json_ = false;
