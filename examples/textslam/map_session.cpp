@@ -23,14 +23,6 @@ std::string utc_now() {
   return text;
 }
 
-bool is_same_camera(const CameraModel& a, const CameraModel& b) {
-  constexpr double kTolerance = 1e-9;  // numbers that went through a text
-  const std::vector<double> of_a = parameters_of(a), of_b = parameters_of(b);
-  return a.width == b.width && a.height == b.height && std::string(a.raw.name()) == b.raw.name() &&
-         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
-                    [&](double x, double y) { return std::abs(x - y) <= kTolerance * (1 + std::abs(x)); });
-}
-
 const char* to_string(Mode mode) { return mode == Mode::text ? "text" : mode == Mode::points ? "points" : "loose"; }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -43,6 +35,14 @@ std::string joined(const std::vector<std::string>& words) {
 bool has_map(const System& system) { return system.map().keyframe_ids().size() >= 2; }
 
 }  // namespace
+
+bool is_same_camera(const CameraModel& a, const CameraModel& b) {
+  constexpr double kTolerance = 1e-9;  // numbers that went through a text
+  const std::vector<double> of_a = parameters_of(a), of_b = parameters_of(b);
+  return a.width == b.width && a.height == b.height && std::string(a.raw.name()) == b.raw.name() &&
+         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [&](double x, double y) { return std::abs(x - y) <= kTolerance * (1 + std::abs(x)); });
+}
 
 MapSession::MapSession(const RunOptions& options, Sequence* sequence) : options_(options), started_(utc_now()) {
   if (!options.localise && !options.save_map.empty()) check_can_save(options.save_map);

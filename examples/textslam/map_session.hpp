@@ -11,6 +11,9 @@
 
 namespace textslam {
 
+/// Whether the numbers of two cameras are the same, but for what a text may round.
+bool is_same_camera(const CameraModel& a, const CameraModel& b);
+
 class MapSession {
  public:
   /// Loads the map that the options name, and gives the sequence its camera. Throws InputError where a file is no map,

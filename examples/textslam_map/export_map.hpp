@@ -8,9 +8,10 @@
 
 namespace textslam {
 
-/// COLMAP's text model in `folder`: cameras.txt, images.txt, points3D.txt, and the key frames in images/. Its ids are
-/// ours and one. The images are as they were taken, and so are the pixels; COLMAP's pixel (0.5, 0.5) is our (0, 0).
-/// Throws InputError where COLMAP has no word for the camera, std::runtime_error where a file cannot be written.
+/// COLMAP's model in `folder`, as text and as binary: cameras, images and points3D as .txt and .bin, and the key frames
+/// in images/. Its ids are ours and one. The images are as they were taken, and so are the pixels; COLMAP's pixel
+/// (0.5, 0.5) is our (0, 0). Throws InputError where COLMAP has no word for the camera, std::runtime_error where a file
+/// cannot be written.
 void export_colmap(const LoadedMap& map, const std::string& folder);
 
 /// Text quads as faces, points and key frames as coloured vertices.

@@ -9,7 +9,7 @@
 
 #include "cli/command_line.hpp"
 #include "io/input_error.hpp"
-#include "textslam_map/export_map.hpp"
+#include "textslam_map/file_commands.hpp"
 #include "textslam_map/map_queries.hpp"
 #include "textslam_map/text_query.hpp"
 
@@ -62,58 +62,6 @@ std::vector<textslam::IndexedText> read_texts(const std::string& map) {
                                                : textslam::read_text_index(map + "/text_index.json");
 }
 
-// The commands for map files alone.
-class FileCommands {
- public:
-  explicit FileCommands(CLI::App& app) {
-    info_ = app.add_subcommand("info", "What is in a map file? Its camera, its sessions, and how much of what");
-    info_->add_flag("--json", json_, "Print it as JSON");
-    check_ = app.add_subcommand(
-        "check", "Is a map file whole? Integrity, references, finite numbers; exit code 2 and a line each where not");
-    export_ = app.add_subcommand("export", "Write a map file as other programs read it");
-    export_->add_option("--colmap", colmap_, "Folder for COLMAP's text model, with the key frames' images");
-    export_->add_option("--ply", ply_, "File for texts, points and key frames as PLY");
-    export_->add_option("--tum", tum_, "File for the key frames' poses in TUM's format");
-    export_->add_option("--session", session_, "Of --tum; by default the last")->check(CLI::PositiveNumber);
-    for (CLI::App* command : {info_, check_, export_}) command->add_option("FILE", file_, "Map file")->required();
-  }
-  /// Runs the one that was given; empty: none of them was.
-  std::optional<int> run() const {
-    if (info_->parsed()) return info();
-    if (check_->parsed()) return check();
-    if (export_->parsed()) return write();
-    return std::nullopt;
-  }
-
- private:
-  int info() const {
-    const textslam::MapInfo info = textslam::read_map_info(file_);
-    std::printf("%s", (json_ ? textslam::info_json(info) : textslam::info_text(info)).c_str());
-    return 0;
-  }
-  int check() const {
-    const std::vector<std::string> problems = textslam::problems_of(file_);
-    for (const std::string& problem : problems)
-      std::fprintf(stderr, "textslam-map: %s: %s\n", file_.c_str(), problem.c_str());
-    if (problems.empty()) std::printf("%s: ok\n", file_.c_str());
-    return problems.empty() ? 0 : kInputError;
-  }
-  int write() const {
-    if (colmap_.empty() && ply_.empty() && tum_.empty())
-      throw textslam::InputError("export", 0, "give --colmap, --ply or --tum");
-    const textslam::LoadedMap map = textslam::load_map(file_, {});
-    if (!colmap_.empty()) textslam::export_colmap(map, colmap_);
-    if (!ply_.empty()) textslam::export_ply(map, ply_);
-    if (!tum_.empty()) textslam::export_tum(map, session_, tum_);
-    return 0;
-  }
-
-  std::string file_, colmap_, ply_, tum_;
-  int session_ = 0;
-  bool json_ = false;
-  CLI::App *info_ = nullptr, *check_ = nullptr, *export_ = nullptr;
-};
-
 int execute(int argc, char** argv) {
   std::string folder, word;
   std::vector<std::string> words;
@@ -133,7 +81,7 @@ int execute(int argc, char** argv) {
   angles->add_flag("--json", json, "Print texts, the angles between them and the largest as JSON");
   angles->add_option("--within", within, "Degrees: exit code 1 where two normals are farther apart")
       ->check(textslam::within(0, 180));
-  FileCommands file(app);
+  textslam::FileCommands file(app);
   if (const auto code = textslam::parse_command_line(app, "textslam-map", argc, argv)) return *code;
   if (const auto code = file.run()) return *code;
   const std::vector<textslam::IndexedText> texts = read_texts(folder);

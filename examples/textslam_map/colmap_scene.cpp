@@ -1,0 +1,89 @@
+#include "textslam_map/colmap_scene.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "io/input_error.hpp"
+#include "io/text_file.hpp"
+
+namespace textslam {
+namespace {
+
+constexpr double kHalfPixel = 0.5;
+
+std::string image_name(int id) {
+  char name[32];
+  std::snprintf(name, sizeof name, "keyframe_%06d.png", id);
+  return name;
+}
+
+// The one line of cameras.txt: which model COLMAP has for a camera is said in one place.
+ColmapScene::Camera camera_of(const std::string& text, const std::string& folder) {
+  const std::size_t line = text.find('\n') + 1;  // the first is a comment
+  const std::string row = text.substr(line, text.find('\n', line) - line);
+  const std::vector<std::string_view> words = split_blanks(row);
+  const auto number = [&](std::size_t i) { return require_number(words.at(i), folder, 0, "a number of the camera"); };
+  ColmapScene::Camera camera;
+  camera.id = static_cast<int>(number(0));
+  camera.model = std::string(words.at(1));
+  camera.width = static_cast<int>(number(2));
+  camera.height = static_cast<int>(number(3));
+  for (std::size_t i = 4; i < words.size(); ++i) camera.parameters.push_back(number(i));
+  return camera;
+}
+
+double error_of(const Map& map, const MapPoint& point) {
+  double sum = 0;
+  int count = 0;
+  for (const PointObservation& o : point.observations) {
+    Vec2 px;
+    if (!show(map.view_of(o.keyframe), map.keyframe(o.keyframe).T_w_c.inverse() * point.p_w, &px)) continue;
+    sum += (px - o.px).norm();
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+int grey_of(const Map& map, const MapPoint& point) {
+  const PointObservation& host = point.observations.front();
+  const ImageView8 image = map.keyframe(host.keyframe).frame.image->level(0);
+  const int x = std::clamp(static_cast<int>(host.px.x() + 0.5), 0, image.width() - 1);
+  const int y = std::clamp(static_cast<int>(host.px.y() + 0.5), 0, image.height() - 1);
+  return image(x, y);
+}
+
+}  // namespace
+
+ColmapScene colmap_scene(const LoadedMap& loaded, const std::string& folder) {
+  const Map& map = loaded.map;
+  ColmapScene scene;
+  scene.camera_text = format_camera(loaded.record.camera, CameraFormat::colmap);
+  if (scene.camera_text.empty())
+    throw InputError(folder, 0, std::string("COLMAP has no camera like the map's, ") + loaded.record.camera.raw.name());
+  scene.camera = camera_of(scene.camera_text, folder);
+  std::map<int, std::size_t> place;  // of a key frame's image
+  for (const int id : map.keyframe_ids()) {
+    place[id] = scene.images.size();
+    scene.images.push_back({id + 1, id, map.keyframe(id).T_w_c.inverse(), image_name(id), {}});
+  }
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const MapPoint& point = map.points[i];
+    if (point.bad) continue;
+    const int id = static_cast<int>(i) + 1;
+    ColmapScene::Point out{id, point.p_w, grey_of(map, point), error_of(map, point), {}};
+    std::vector<int> seen;
+    for (const PointObservation& o : point.observations) {
+      if (std::find(seen.begin(), seen.end(), o.keyframe) != seen.end()) continue;
+      seen.push_back(o.keyframe);
+      ColmapScene::Image& image = scene.images[place.at(o.keyframe)];
+      out.track.emplace_back(image.id, image.pixels.size());
+      image.pixels.push_back({o.px + Vec2(kHalfPixel, kHalfPixel), id});
+    }
+    std::sort(out.track.begin(), out.track.end());
+    scene.points.push_back(std::move(out));
+  }
+  return scene;
+}
+
+}  // namespace textslam
