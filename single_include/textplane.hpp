@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: dced9ee7bb6f58d0
+// Hash of these files: d675af27f62f86d8
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 dced9ee7bb6f58d0"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 d675af27f62f86d8"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -11095,7 +11095,7 @@ class BasicLensMap {
   BasicLensMap() noexcept : BasicLensMap(AnyCamera<double>()) {}
   /// Of a camera model. A camera that is not valid() gives a lens that sees nothing: max_r2() is 0.
   explicit BasicLensMap(const AnyCamera<double>& camera) noexcept
-      : camera_(camera), radial_(camera.visit([this](const auto& model) { return without_tangential(model); })) {
+      : camera_(camera), radial_(camera.visit([this](const auto& model) { return this->without_tangential(model); })) {
     if (!camera.valid()) return;
     set_end();
     set_pieces();

@@ -31,7 +31,7 @@ textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS 
 textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map TIERS first_look sanitizers EXCEPT
   sanitizers "LateDetections\\." first_look "LateDetections\\." WHOLE LateDetections FrameRate)
 textplane_add_tests(map_file LIBRARIES textplane_textslam_map LABELS textslam TIERS first_look sanitizers EXCEPT
-  sanitizers "AKill|MergeRooms\\.")
+  sanitizers "AKill|MergeRooms\\." first_look "MergeRooms\\.")
 if(TARGET test_map_file)
   add_dependencies(test_map_file textslam-map)
   set_source_files_properties(map_file/program_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON

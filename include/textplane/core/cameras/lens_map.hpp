@@ -37,7 +37,7 @@ class BasicLensMap {
   BasicLensMap() noexcept : BasicLensMap(AnyCamera<double>()) {}
   /// Of a camera model. A camera that is not valid() gives a lens that sees nothing: max_r2() is 0.
   explicit BasicLensMap(const AnyCamera<double>& camera) noexcept
-      : camera_(camera), radial_(camera.visit([this](const auto& model) { return without_tangential(model); })) {
+      : camera_(camera), radial_(camera.visit([this](const auto& model) { return this->without_tangential(model); })) {
     if (!camera.valid()) return;
     set_end();
     set_pieces();
