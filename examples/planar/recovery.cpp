@@ -16,16 +16,16 @@ namespace {
 using textslam::Random;
 
 constexpr int kFollowed = 5;      // frames before what happens
-constexpr double kMargin = 0.05;  // of the plane's bounds that a cover reaches beyond them
+constexpr double kBorder = 0.05;  // of the plane's bounds that a cover reaches beyond them
 
 /// Draws a rectangle of print, dark bars on light ground, over `share` of the quad's bounds from one of four sides.
 void draw_cover(const tp::Quad<double>& quad, double share, std::uint64_t seed, tp::Image<std::uint8_t>& image) {
   const auto b = tp::bounds(quad);
   const double w = b.max[0] - b.min[0], h = b.max[1] - b.min[1];
-  double x0 = b.min[0] - kMargin * w, x1 = b.max[0] + kMargin * w;
-  double y0 = b.min[1] - kMargin * h, y1 = b.max[1] + kMargin * h;
-  const double left_out_x = share < 1 ? (1 - share) * w + kMargin * w : 0;
-  const double left_out_y = share < 1 ? (1 - share) * h + kMargin * h : 0;
+  double x0 = b.min[0] - kBorder * w, x1 = b.max[0] + kBorder * w;
+  double y0 = b.min[1] - kBorder * h, y1 = b.max[1] + kBorder * h;
+  const double left_out_x = share < 1 ? (1 - share) * w + kBorder * w : 0;
+  const double left_out_y = share < 1 ? (1 - share) * h + kBorder * h : 0;
   switch (seed % 4) {
     case 0: x0 += left_out_x; break;
     case 1: x1 -= left_out_x; break;

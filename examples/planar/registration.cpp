@@ -10,9 +10,9 @@
 namespace planar {
 
 namespace {
-constexpr int kCorners = 1500, kHalf = 15, kReach = 4, kLeast = 12;      // px, but for the first and the last
-constexpr double kBlur = 4, kNoise = 4, kDistance = 12;                  // px, grey levels, px
-constexpr double kCorrelation = 0.7, kThereAndBack = 0.3, kAgree = 0.5;  // none, px, px
+constexpr int kCornersToTrack = 1500, kHalf = 15, kReach = 4, kLeast = 12;  // px, but for the first and the last
+constexpr double kBlur = 4, kNoise = 4, kDistance = 12;                     // px, grey levels, px
+constexpr double kCorrelation = 0.7, kThereAndBack = 0.3, kAgree = 0.5;     // none, px, px
 
 /// The position in the other photograph of the square round `at`, refined by parabolas. False where it leaves either
 /// photograph, correlates with nothing within reach, or best at the edge of the reach.
@@ -46,7 +46,7 @@ Registration register_still(const cv::Mat& first, const cv::Mat& other) {
   cv::Mat bytes;
   first.convertTo(bytes, CV_8U, 32, 128);
   std::vector<cv::Point2f> corners, from, to;
-  cv::goodFeaturesToTrack(bytes, corners, kCorners, 0.01, kDistance);
+  cv::goodFeaturesToTrack(bytes, corners, kCornersToTrack, 0.01, kDistance);
   for (const cv::Point2f& corner : corners) {
     const cv::Point at(cvRound(corner.x), cvRound(corner.y));
     cv::Point2d there, back;
