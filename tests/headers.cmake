@@ -18,7 +18,7 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   add_test(NAME headers.no_exceptions COMMAND ${CMAKE_COMMAND} -DMODE=variants -DVARIANTS=no_exceptions -DCOMPILER=${CMAKE_CXX_COMPILER}
     "-DFLAGS=-O0 -Wall -Wextra -Werror -DTEXTPLANE_TARGET=scalar -fno-exceptions -fno-rtti -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
     -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
-  textplane_label(headers.no_exceptions sanitizers)
+  textplane_label(headers.no_exceptions)
   add_test(NAME headers.eigen_settings COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_CXX_COMPILER}
     "-DFLAGS=-O0 -Wall -Wextra -Werror -DTEXTPLANE_TARGET=scalar -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}"
     -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/eigen_settings.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -DALL=${TEXTPLANE_TEST_LONG}
