@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
@@ -10,12 +9,11 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/landmarks/text_view.hpp"
 #include "textplane/landmarks/words.hpp"
+#include "textslam/common/report_json.hpp"
 #include "textslam/report/evaluate_text.hpp"
 
 namespace textslam {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kPerDegree = 1e10, kPerMetre = 1e5;  // a hundredth of a millimetre
 constexpr double kLevel = 89.9;                       // degrees: a normal that is steeper has no azimuth to speak of
