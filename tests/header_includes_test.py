@@ -99,18 +99,17 @@ class Headers:
             for macro in file.macros:
                 self.macro_owners.setdefault(macro, set()).add(name)
 
-    def reached(self, name, without=None, seen=None):
-        """All files that including this one includes; `without` is left out of its own includes."""
+    def reached(self, name, seen=None):
+        """All files that including this one includes."""
         seen = set() if seen is None else seen
         if name not in seen:
             seen.add(name)
             for included in self.files[name].includes if name in self.files else ():
-                if included != without:
-                    self.reached(included, None, seen)
+                self.reached(included, seen)
         return seen
 
-    def faults(self, name, without=None):
-        file, reached = self.files[name], self.reached(name, without)
+    def faults(self, name):
+        file, reached = self.files[name], self.reached(name)
         for scope, used in sorted(file.uses):
             if scope == "std":
                 if used in self.standard and self.standard[used] not in file.includes:
@@ -133,8 +132,8 @@ def removals(texts, count):
     seen = 0
     for name, included in random.sample(every, min(count, len(every))):
         pattern = r'#[ \t]*include[ \t]+[<"](?:%s)[>"]' % re.escape(included)
-        changed = {**texts, name: re.sub(pattern, "", texts[name])}
-        file, headers.files[name] = headers.files[name], Header(changed[name], name.rsplit("/", 1)[0])
+        without = re.sub(pattern, "", texts[name])
+        file, headers.files[name] = headers.files[name], Header(without, name.rsplit("/", 1)[0])
         fault = next(headers.faults(name), None)
         headers.files[name] = file
         seen += fault is not None

@@ -5,6 +5,7 @@
 
 #include "textplane/landmarks/text_view.hpp"
 #include "textplane/landmarks/words.hpp"
+#include "textslam/common/geometry.hpp"
 #include "textslam/report/evaluate_text.hpp"
 
 namespace textslam {
@@ -48,7 +49,7 @@ MapSign sign_of(const Map& map, const TextObject& text) {
   const Eigen::Matrix3d along = ray * ray.transpose();
   sign.covariance =
       R_w_h * (ahead * ahead * along + aside * aside * (Eigen::Matrix3d::Identity() - along)) * R_w_h.transpose();
-  const double cosine = std::max(-textplane::plane_normal(text.theta).dot(ray), std::cos(kSteepest * M_PI / 180));
+  const double cosine = std::max(-textplane::plane_normal(text.theta).dot(ray), std::cos(radians(kSteepest)));
   const double slant = std::sqrt(1 - std::min(1.0, cosine * cosine)) / cosine;
   sign.normal_sigma = normal_sigma(text);
   sign.turn_sigma = std::hypot(sign.normal_sigma, corner / std::max(wide, 1.0));

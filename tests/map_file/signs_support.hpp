@@ -11,6 +11,7 @@
 #include "io/evaluate.hpp"
 #include "textplane/geometry/plane.hpp"
 #include "textslam/map/map.hpp"
+#include "textslam/relocalise/boards_support.hpp"
 
 namespace textslam {
 namespace signs_support {
@@ -21,7 +22,7 @@ struct Sign {
   double width = 0.5, height = 0.2;
 };
 
-inline SE3d moved(const Vec3& t, const Vec3& w) { return {textplane::so3_exp<double>(w), t}; }
+using boards_support::moved;
 
 // A camera 1.5 to 2 units before each sign hosts it. With noise the boxes err by `px`, the planes by `plane`, as their
 // covariances say.
