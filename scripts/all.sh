@@ -27,7 +27,7 @@ checked() {
   note "$name" "$(($(date +%s) - begin))" "$outcome$(tail -n 1 "$log")"
 }
 
-library_tests='test_core test_simd test_vectors test_geometry test_photometry test_features test_solver test_landmarks'
+library_tests="$library_tests test_landmarks"
 library_only='-DTEXTPLANE_BUILD_EXAMPLES=OFF -DTEXTPLANE_TEST_TIER=library'
 
 # Memory errors under valgrind, which has AVX2. Seven groups of kernel tests, as it takes fifty times as long.

@@ -19,30 +19,34 @@ if(NOT TEXTPLANE_BUILD_EXAMPLES)
   return()
 endif()
 
-# Sanitizers see a room and a corridor: the renderer's other kinds differ in numbers. They skip whole runs and
-# statistics.
-textplane_add_tests(io LIBRARIES textplane_plugins TIERS first_look sanitizers)
-textplane_add_tests(renderer LIBRARIES textplane_renderer TIERS first_look sanitizers EXCEPT
+# Sanitizers see what reads files of others; in --all the programs, too, but neither whole runs nor statistics, and of
+# the renderer a room and a corridor: its other kinds differ in numbers.
+set(sanitizers)
+if(TEXTPLANE_TEST_LONG)
+  set(sanitizers sanitizers)
+endif()
+textplane_add_tests(io LIBRARIES textplane_io TIERS sanitizers)
+textplane_add_tests(renderer LIBRARIES textplane_renderer TIERS ${sanitizers} EXCEPT
   sanitizers "RendererGeometry\\.EveryPixelShowsTheNearestSurfaceOnItsRay|RendererTruth\\.SignsPosesAndCamera"
   sanitizers "Kinds/EveryKind\\.RendersFramesThatATrackerCanUse/(lights|night|notext|rapid|room_still|sparse)")
-textplane_add_tests(planar LIBRARIES textplane_textslam TIERS first_look sanitizers)
-textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS first_look sanitizers EXCEPT
+textplane_add_tests(planar LIBRARIES textplane_textslam TIERS ${sanitizers})
+textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS ${sanitizers} EXCEPT
   sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms")
-textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map TIERS first_look sanitizers EXCEPT
-  sanitizers "LateDetections\\." first_look "LateDetections\\." WHOLE LateDetections FrameRate)
-textplane_add_tests(map_file LIBRARIES textplane_textslam_map LABELS textslam TIERS first_look sanitizers EXCEPT
-  sanitizers "AKill|MergeRooms\\." first_look "MergeRooms\\.")
+textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map TIERS ${sanitizers} EXCEPT
+  sanitizers "LateDetections\\." WHOLE LateDetections FrameRate)
+textplane_add_tests(map_file LIBRARIES textplane_textslam_map LABELS textslam TIERS ${sanitizers} EXCEPT
+  sanitizers "AKill|MergeRooms\\.")
 if(TARGET test_map_file)
   add_dependencies(test_map_file textslam-map)
   set_source_files_properties(map_file/program_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON
     COMPILE_DEFINITIONS "TEXTSLAM_MAP_PROGRAM=\"$<TARGET_FILE:textslam-map>\"")
 endif()
 
-textplane_add_tests(city LIBRARIES textplane_city TIERS first_look)
+textplane_add_tests(city LIBRARIES textplane_city)
 
 add_test(NAME examples.rooms COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/examples/textslam
   -P ${CMAKE_CURRENT_SOURCE_DIR}/textslam/rooms.cmake)
-textplane_label(examples.rooms textslam first_look)
+textplane_label(examples.rooms textslam)
 
 # The node of docs/ros2.md compiles as it stands, against stand-ins for ROS.
 if(TEXTPLANE_WARNINGS_AS_ERRORS AND NOT TEXTPLANE_TEST_TIER)
@@ -77,17 +81,17 @@ function(textplane_add_program_test name)
   set_tests_properties(examples.${name} PROPERTIES TIMEOUT 1200 COST 20)  # ctest begins with what costs most
   textplane_label(examples.${name} programs ${ARGN})
 endfunction()
-textplane_add_program_test(textslam_eval_test first_look sanitizers)
-textplane_add_program_test(textslam_input_test first_look sanitizers)
+textplane_add_program_test(textslam_eval_test ${sanitizers})
+textplane_add_program_test(textslam_input_test ${sanitizers})
 textplane_add_program_test(textslam_loop_test)
-textplane_add_program_test(textslam_messages_test first_look sanitizers)
-textplane_add_program_test(textslam_outputs_test first_look)
+textplane_add_program_test(textslam_messages_test ${sanitizers})
+textplane_add_program_test(textslam_outputs_test)
 textplane_add_program_test(textslam_recovery_test)
 textplane_add_program_test(textslam_report_test)
-textplane_add_program_test(textslam_run_test first_look)
-textplane_add_program_test(textslam_sessions_test first_look)
-textplane_add_program_test(textslam_unusual_input_test first_look sanitizers)
-textplane_add_program_test(textslam_calibrate_test first_look)
+textplane_add_program_test(textslam_run_test)
+textplane_add_program_test(textslam_sessions_test)
+textplane_add_program_test(textslam_unusual_input_test ${sanitizers})
+textplane_add_program_test(textslam_calibrate_test)
 
 # The numbered examples: each runs, and a number that it prints is checked.
 function(textplane_test_example name text bound)
@@ -140,7 +144,7 @@ add_test(NAME examples.experiments COMMAND ${Python3_EXECUTABLE} ${programs}/exp
 textplane_label(examples.experiments programs)
 add_test(NAME examples.foreign_readers COMMAND ${Python3_EXECUTABLE} ${programs}/foreign_readers_test.py $<TARGET_FILE:textslam>)
 set_tests_properties(examples.foreign_readers PROPERTIES SKIP_RETURN_CODE 77)
-textplane_label(examples.foreign_readers programs first_look)
+textplane_label(examples.foreign_readers programs)
 if(TARGET textslam_report_test)
   set(reports ${CMAKE_CURRENT_BINARY_DIR}/reports)
   target_compile_definitions(textslam_report_test PRIVATE TEXTSLAM_REPORTS="${reports}")

@@ -14,17 +14,13 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     "-DFLAGS=-DTEXTPLANE_EXTERN_KERNELS -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cpp
     -P ${CMAKE_CURRENT_SOURCE_DIR}/compile_failures.cmake)
   textplane_label(headers.compile_failures sanitizers)
-  # Without exceptions and run-time types, as robots are built: from the image to pose and plane.
-  add_test(NAME headers.no_exceptions COMMAND ${CMAKE_COMMAND} -DMODE=variants -DVARIANTS=no_exceptions -DCOMPILER=${CMAKE_CXX_COMPILER}
-    "-DFLAGS=-O0 -Wall -Wextra -Werror -DTEXTPLANE_TARGET=scalar -fno-exceptions -fno-rtti -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
-    -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
-  textplane_label(headers.no_exceptions)
+  # Without exceptions and run-time types, as robots are built.
   add_test(NAME headers.eigen_settings COMMAND ${CMAKE_COMMAND} -DCOMPILER=${CMAKE_CXX_COMPILER}
-    "-DFLAGS=-O0 -Wall -Wextra -Werror -DTEXTPLANE_TARGET=scalar -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}"
+    "-DFLAGS=-O0 -Wall -Wextra -Werror -DTEXTPLANE_TARGET=scalar -fno-exceptions -fno-rtti -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}"
     -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/eigen_settings.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_ -DALL=${TEXTPLANE_TEST_LONG}
     -P ${CMAKE_CURRENT_SOURCE_DIR}/eigen_settings.cmake)
   textplane_label(headers.eigen_settings)
-  # A unit whose target is fixed holds the kernels of that target alone: of the widest here, as scalar is fixed above.
+  # A unit whose target is fixed holds the kernels of that target alone: of the widest here, as scalar is fixed above. A minute and a half.
   find_program(TEXTPLANE_NM nm)
   set(targets scalar)
   if(TEXTPLANE_RUNS_AVX512)
@@ -32,11 +28,11 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   elseif(TEXTPLANE_RUNS_AVX2)
     set(targets avx2)
   endif()
-  if(TEXTPLANE_NM)
+  if(TEXTPLANE_NM AND TEXTPLANE_TEST_LONG)
     add_test(NAME headers.fixed_target COMMAND ${CMAKE_COMMAND} -DMODE=fixed "-DTARGETS=${targets}" -DNM=${TEXTPLANE_NM} -DCOMPILER=${CMAKE_CXX_COMPILER}
       "-DFLAGS=-O0 -Wall -Wextra -Werror -I${PROJECT_SOURCE_DIR}/include -isystem ${eigen}" -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/mixed_unit.cpp
       -DMAIN=${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/variants_main.cpp -DOBJECTS=${CMAKE_CURRENT_BINARY_DIR}/headers_fixed_ -P ${CMAKE_CURRENT_SOURCE_DIR}/simd/isa/isa_test.cmake)
-    textplane_label(headers.fixed_target first_look)
+    textplane_label(headers.fixed_target)
   endif()
 endif()
 # Every header compiles after a using-directive and the macros of windows.h, which hide std::min and std::max. Templates need not be used

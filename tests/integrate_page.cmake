@@ -1,13 +1,13 @@
 # The programs of docs/integrate.md that tests include: the first one as pages/integrate.hpp
 # (landmarks/integrate_page_test.cpp), that of a rig as pages/rig.hpp (solver/rig/rig_page_test.cpp).
-if(NOT TARGET test_landmarks OR NOT TARGET test_solver)
-  return()
-endif()
 set(page ${PROJECT_SOURCE_DIR}/docs/integrate.md)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page})
 
-# Writes the first program after a heading, and lets a test of a room include it.
+# Writes the first program after a heading, and lets a test of a room include it, where this tier builds that room's tests.
 function(textplane_page_program heading output room test)
+  if(NOT TARGET test_${room})
+    return()
+  endif()
   file(READ ${page} text)
   string(FIND "${text}" "## ${heading}\n" begin)
   if(begin LESS 0)

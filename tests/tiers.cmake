@@ -1,8 +1,8 @@
 # Tiers: the sets of tests that scripts/test runs. A test names its tiers where it is declared; they and its room, the
 # first word of its name, are its labels for ctest: `ctest -L '^first_look$'`. A test without a tier runs where all
 # tests do.
-#   first_look  scripts/test, minutes
-#   sanitizers  AddressSanitizer and UndefinedBehaviorSanitizer
+#   first_look  scripts/test, minutes: the library
+#   sanitizers  AddressSanitizer and UndefinedBehaviorSanitizer: the library, what reads files; in --all the programs
 #   threads     ThreadSanitizer
 #   library     other standards, -O0 and coverage: the library alone
 #   fast_math   -ffast-math

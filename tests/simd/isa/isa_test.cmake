@@ -4,8 +4,8 @@
 #   MODE=shared   SOURCE, WIDE, EXPECT      compiles SOURCE for the baseline and with the flags WIDE, and checks what they share
 #   MODE=mixed    SOURCE, MAIN, EMULATOR, WIDEST   links SOURCE for three CPUs with MAIN (WIDEST: two, without AVX2), runs it here
 #                                           and, if given, in the EMULATOR
-#   MODE=variants SOURCE, MAIN, VARIANTS, OTHER   links SOURCE as the names of VARIANTS say (all, if none), and by the compiler OTHER
-#                                           if given, with MAIN, and runs it
+#   MODE=variants SOURCE, MAIN, OTHER       links SOURCE compiled in eight ways, and by the compiler OTHER if given, with MAIN, and
+#                                           runs it
 #   MODE=fixed    SOURCE, MAIN, TARGETS, NM   links SOURCE with its target fixed as each of TARGETS, and no other's kernels in it, with
 #                                           MAIN, and runs it
 #   MODE=refused  SOURCE                    does not link where the flags of its two halves differ
@@ -68,9 +68,6 @@ elseif(MODE STREQUAL "variants")
   set(objects)
   set(units)
   function(variant name)
-    if(VARIANTS AND NOT name IN_LIST VARIANTS)
-      return()
-    endif()
     compile(${SOURCE} ${name}.o -DTEXTPLANE_TEST_UNIT=${name} ${ARGN})
     set(objects ${objects} ${OBJECTS}${name}.o PARENT_SCOPE)
     set(units "${units} UNIT(${name})" PARENT_SCOPE)
