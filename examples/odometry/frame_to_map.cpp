@@ -30,7 +30,7 @@ struct KeyFrame {
 class FrameToMap {
  public:
   explicit FrameToMap(const Session& session)
-      : texts_(session.camera()),
+      : texts_(session.camera(), session.options.settings),
         camera_(session.camera()),
         K_(camera_.fx, 0, camera_.cx, 0, camera_.fy, camera_.cy, 0, 0, 1) {}
 

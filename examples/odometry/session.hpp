@@ -21,6 +21,7 @@
 #include "io/output_file.hpp"
 #include "io/sequence.hpp"
 #include "io/trajectory.hpp"
+#include "odometry/settings.hpp"
 #include "odometry/text_result.hpp"
 #include "textplane/adapters/opencv.hpp"
 #include "textplane/landmarks/text_map.hpp"
@@ -31,9 +32,10 @@ using Pose = Eigen::Isometry3d;  // camera to world
 
 struct Options {
   std::string sequence, output;
-  std::size_t start = 41;  // frames that take their poses from the truth, so that the scale is metric
-  std::size_t first = 0;   // the first frame that is used
-  bool text = false;       // --text: with text features
+  std::size_t start = 41;              // frames that take their poses from the truth, so that the scale is metric
+  std::size_t first = 0;               // the first frame that is used
+  bool text = false;                   // --text: with text features
+  textplane::TextMapOptions settings;  // --set NAME=VALUE, may be given several times
 };
 
 inline Options parse(int argc, char** argv) {
@@ -44,6 +46,8 @@ inline Options parse(int argc, char** argv) {
     std::size_t* number = word == "--start" ? &options.start : word == "--first" ? &options.first : nullptr;
     if (word == "--text") {
       options.text = true;
+    } else if (word == "--set" && i + 1 < argc) {
+      set_by_name(argv[++i], &options.settings);
     } else if (number && i + 1 < argc) {
       *number = std::stoul(argv[++i]);
     } else {
@@ -51,7 +55,7 @@ inline Options parse(int argc, char** argv) {
     }
   }
   if (names.size() != 2 || names[0][0] == '-' || names[1][0] == '-')
-    throw std::invalid_argument("usage: SEQUENCE OUTPUT [--start N] [--first F] [--text]");
+    throw std::invalid_argument("usage: SEQUENCE OUTPUT [--start N] [--first F] [--text] [--set NAME=VALUE]");
   options.sequence = names[0];
   options.output = names[1];
   return options;

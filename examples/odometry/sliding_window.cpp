@@ -62,7 +62,8 @@ struct Reprojection {
 
 class SlidingWindow {
  public:
-  explicit SlidingWindow(const Session& session) : texts_(session.camera()), camera_(session.camera()) {}
+  explicit SlidingWindow(const Session& session)
+      : texts_(session.camera(), session.options.settings), camera_(session.camera()) {}
 
   Pose grab(const cv::Mat& image, const Pose* known, const std::vector<textplane::TextDetection>& quads) {  // text
     tracks_.follow(image);

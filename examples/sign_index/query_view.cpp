@@ -33,13 +33,13 @@ std::vector<WordEvidence> evidence(const SignIndex& index, int most, const std::
   const auto matches = index.words().similar(reading, static_cast<std::size_t>(most), kWordRange, scratch);
   // An unknown place has words of its own, and words of this map: the common ones as often as the map has them.
   double unknown = index.unique_share() * std::exp(index.words().letters().log_probability(reading));
-  for (const WordMatch& m : matches) {
+  for (const SimilarWord& m : matches) {
     const std::size_t count = index.signs_of(m.word).size();
     const double expected = count > 1 ? static_cast<double>(count) : index.expected_again();
     unknown += expected / index.size() * std::exp(m.log_likelihood);
   }
   std::vector<WordEvidence> words;
-  for (const WordMatch& m : matches) words.push_back({m.word, m.log_likelihood - std::log(unknown + 1e-300)});
+  for (const SimilarWord& m : matches) words.push_back({m.word, m.log_likelihood - std::log(unknown + 1e-300)});
   std::sort(words.begin(), words.end(), [](const WordEvidence& a, const WordEvidence& b) { return a.word < b.word; });
   return words;
 }

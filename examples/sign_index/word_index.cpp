@@ -50,9 +50,9 @@ Symbols WordIndex::word(std::uint32_t number) const {
   return {letter_.begin() + first_letter_[number], letter_.begin() + first_letter_[number + 1]};
 }
 
-std::vector<WordMatch> WordIndex::similar(const Symbols& reading, std::size_t most, double range,
-                                          WordScratch* scratch) const {
-  std::vector<WordMatch> found;
+std::vector<SimilarWord> WordIndex::similar(const Symbols& reading, std::size_t most, double range,
+                                            WordScratch* scratch) const {
+  std::vector<SimilarWord> found;
   if (reading.empty() || size() == 0) return found;
   std::vector<std::uint16_t> pairs;
   pairs_of(reading.data(), reading.size(), &pairs);
@@ -76,7 +76,7 @@ std::vector<WordMatch> WordIndex::similar(const Symbols& reading, std::size_t mo
     }
     shared[w] = 0;
   }
-  std::sort(found.begin(), found.end(), [](const WordMatch& a, const WordMatch& b) {
+  std::sort(found.begin(), found.end(), [](const SimilarWord& a, const SimilarWord& b) {
     return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.word < b.word;
   });
   std::size_t kept = 0;

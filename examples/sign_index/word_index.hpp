@@ -14,7 +14,7 @@
 
 namespace textslam {
 
-struct WordMatch {
+struct SimilarWord {
   std::uint32_t word;     ///< number in the index
   double log_likelihood;  ///< of the reading, given that word
 };
@@ -38,7 +38,7 @@ class WordIndex {
 
   /// The words that may have been read so, the likeliest first, at most `most`, none less likely than the first by more
   /// than exp(-range).
-  std::vector<WordMatch> similar(const Symbols& reading, std::size_t most, double range, WordScratch* scratch) const;
+  std::vector<SimilarWord> similar(const Symbols& reading, std::size_t most, double range, WordScratch* scratch) const;
 
   std::size_t bytes() const noexcept;
 

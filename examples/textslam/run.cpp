@@ -182,7 +182,7 @@ void track_frames(const RunOptions& options, const Sequence& sequence, const std
     progress.show(i + 1, asked.size(),
                   std::string(to_string(record.state)) + ", " + counted(record.points, "point") + ", " +
                       counted(record.texts, "text"));
-    if (options.json_lines) print_line(frame_line(index, record, system.map()));
+    if (options.json_lines) print_line(frame_line(index, record, system.map(), system.live_world()));
     ++index;
     if (interrupted() == 0 || i + 1 == asked.size()) continue;
     result.interrupted = true;

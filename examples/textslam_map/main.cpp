@@ -9,7 +9,9 @@
 
 #include "cli/command_line.hpp"
 #include "io/input_error.hpp"
+#include "plugins/plugins.hpp"
 #include "textslam_map/file_commands.hpp"
+#include "textslam_map/find_command.hpp"
 #include "textslam_map/map_queries.hpp"
 #include "textslam_map/text_query.hpp"
 
@@ -82,8 +84,10 @@ int execute(int argc, char** argv) {
   angles->add_option("--within", within, "Degrees: exit code 1 where two normals are farther apart")
       ->check(textslam::within(0, 180));
   textslam::FileCommands file(app);
+  textslam::FindCommand find(app);
   if (const auto code = textslam::parse_command_line(app, "textslam-map", argc, argv)) return *code;
   if (const auto code = file.run()) return *code;
+  if (find.parsed()) return find.run();
   const std::vector<textslam::IndexedText> texts = read_texts(folder);
   if (angles->parsed() && words.empty()) return show_angles(texts, within, json);
   if (query->parsed()) words = {word};
@@ -107,6 +111,7 @@ int execute(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  textslam::register_plugins();
   try {
     return execute(argc, argv);
   } catch (const textslam::InputError& error) {

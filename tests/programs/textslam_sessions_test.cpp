@@ -11,6 +11,7 @@
 #include "io/input_error.hpp"
 #include "io/io_support.hpp"
 #include "io/text_file.hpp"
+#include "programs/textslam_support.hpp"
 #include "renderer/render_sequence.hpp"
 #include "textslam/map_file/map_file.hpp"
 #include "textslam/run.hpp"
@@ -143,6 +144,34 @@ TEST_F(Sessions, ASessionCanBeSavedElsewhere) {
   EXPECT_EQ(run(options).error, "");
   EXPECT_EQ(read_file(options.map), before);
   EXPECT_EQ(load_map(options.save_map, options.parameters).record.sessions.size(), 2u);
+}
+
+// Each image by itself; of another room none.
+TEST_F(Sessions, SingleImagesAreFound) {
+  const Similarity alignment =
+      evaluate_trajectory(read_tum(path("out_first/trajectory.txt")), read_tum(path("first/groundtruth.txt")), 110)
+          .alignment;
+  const auto truth = read_tum(path("second/groundtruth.txt"));
+  std::vector<std::string> arguments = {"find", path("map.db"), "--json", "--detections", path("second/detections")};
+  for (const char* name : {"000000", "000015", "000030", "000045"})
+    arguments.push_back(path("second/images/") + name + ".png");
+  const ProgramResult found = run_program(TEXTSLAM_MAP_PROGRAM, arguments);
+  EXPECT_EQ(found.code, 0) << found.out << found.err;
+  const auto images = nlohmann::json::parse(found.out).at("images");
+  ASSERT_EQ(images.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(images[i].at("found_by"), "texts");
+    EXPECT_GT(images[i].at("probability").get<double>(), 0.1);
+    EXPECT_FALSE(images[i].at("words").empty());
+    const auto& pose = images[i].at("T_w_c");
+    const Vec3 at(pose[0], pose[1], pose[2]);
+    EXPECT_LT((alignment * at - truth[15 * i].T_w_c.t).norm(), 0.06);
+  }
+  const ProgramResult none = run_program(
+      TEXTSLAM_MAP_PROGRAM,
+      {"find", path("map.db"), path("elsewhere/images/000010.png"), "--detections", path("elsewhere/detections")});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_EQ(none.out, path("elsewhere/images/000010.png") + ": not found\n");
 }
 
 // Another room, with other signs: no wrong answer, and no harm to the map.

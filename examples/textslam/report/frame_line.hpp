@@ -14,7 +14,11 @@ const char* to_string(FrameState state);
 /// `pose`: [x, y, z, qx, qy, qz, qw], camera to world, as known live, or null; `keyframe`: whether it became one;
 /// `map_keyframes`: how many the map holds; `ms`: time of detection, tracking and mapping. Poses that change later are
 /// in the output files.
-std::string frame_line(int index, const FrameRecord& record, const Map& map);
+///
+/// A key frame has `map` too, what it sees of the map in the same world: {"points": [[id, x, y, z], ...], "texts":
+/// [{"id", "text", "corners"}, ...]}. What comes again under its id is where it is known to be by then. `live_world`:
+/// of the system.
+std::string frame_line(int index, const FrameRecord& record, const Map& map, const Similarity& live_world);
 
 /// Writes the line to standard output at once.
 void print_line(const std::string& line);

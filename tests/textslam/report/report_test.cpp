@@ -117,7 +117,7 @@ TEST(FrameLine, IsAnObject) {
   Map map;
   FrameRecord record;
   record.timestamp = 1.5;
-  const Json waiting = Json::parse(frame_line(0, record, map));
+  const Json waiting = Json::parse(frame_line(0, record, map, {}));
   EXPECT_EQ(waiting.at("state"), "waiting");
   EXPECT_TRUE(waiting.at("pose").is_null());
   map.keyframes.resize(1);
@@ -126,15 +126,23 @@ TEST(FrameLine, IsAnObject) {
   record.live = true;
   record.keyframe = 0;
   record.T_w_c_live.t = {1, 2, 3};
-  const Json tracked = Json::parse(frame_line(4, record, map));
+  const Json tracked = Json::parse(frame_line(4, record, map, {}));
   EXPECT_EQ(tracked.at("frame"), 4);
   EXPECT_EQ(tracked.at("timestamp"), 1.5);
   EXPECT_EQ(tracked.at("pose"), Json::array({1, 2, 3, 0, 0, 0, 1}));
   EXPECT_EQ(tracked.at("keyframe"), false);
-  EXPECT_EQ(Json::parse(frame_line(3, record, map)).at("keyframe"), true);
+  EXPECT_FALSE(tracked.contains("map"));
+  map.points.push_back({{1, 0, 4}});
+  map.keyframes[0].points = {0};
+  Similarity doubled;
+  doubled.scale = 2;
+  const Json keyframe = Json::parse(frame_line(3, record, map, doubled));
+  EXPECT_EQ(keyframe.at("keyframe"), true);
+  EXPECT_EQ(keyframe.at("map").at("points"), Json::array({Json::array({0, 2, 0, 8})}));
+  EXPECT_EQ(keyframe.at("map").at("texts"), Json::array());
   EXPECT_EQ(tracked.at("map_keyframes"), 1);
   map.keyframes.emplace_back().culled = true;
-  EXPECT_EQ(Json::parse(frame_line(4, record, map)).at("map_keyframes"), 1);
+  EXPECT_EQ(Json::parse(frame_line(4, record, map, {})).at("map_keyframes"), 1);
 }
 
 TEST(Progress, OneIsNoPlural) {
