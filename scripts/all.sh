@@ -79,6 +79,9 @@ all_stages() {
   set -- clang++ wasm-ld node /usr/include/wasm32-wasi/c++ /usr/src/googletest
   if needs wasm "$@"; then stage wasm '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
   if needs wasm-scalar "$@"; then stage wasm-scalar '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
+  if needs mingw x86_64-w64-mingw32-g++-posix wine /usr/src/googletest; then
+    stage mingw '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''
+  fi
   stage unoptimised "$library_only" '-L ^library$' "$library_tests"
   stage fast-math "$library_only" '-L ^fast_math$' "$library_tests"
   stage cxx20 "$library_only" '-L ^library$' "$library_tests"

@@ -21,6 +21,7 @@ packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang l
   python3-pip python3-pytest mypy"
 packages_all="$packages_ci python3-sympy libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
   g++-11-s390x-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32 nodejs
+  g++-mingw-w64-x86-64-posix wine64 wine
   lintian colcon python3-colcon-ros python3-colcon-recursive-crawl"
 
 say() { printf '\n== %s\n' "$*"; }

@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: d675af27f62f86d8
+// Hash of these files: 4ebb6de73863cab8
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 d675af27f62f86d8"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 4ebb6de73863cab8"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -46,7 +46,8 @@
 //
 // Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of
 // the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's two largest
-// alignments, and the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two translation units built
+// alignments, the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp), and the moves that MinGW's wide
+// targets need (simd/targets.hpp). Two translation units built
 // with different flags therefore keep their own copies, and passing a type from one to the other is a link error
 // instead of a corrupt heap. It protects textplane's own functions. Those of Eigen and of the standard library that a
 // compiler does not inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none
@@ -113,13 +114,20 @@
 #define TEXTPLANE_ABI_TARGET
 #endif
 
-#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target) \
-  v##major##_##minor##_##isa##_##math##_##align##fixed##target
-#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, fixed, target) \
-  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target)
+// Which targets there are, see simd/targets.
+#if defined(TEXTPLANE_UNALIGNED_VECTOR_MOVES)
+#define TEXTPLANE_ABI_MOVES _moves
+#else
+#define TEXTPLANE_ABI_MOVES
+#endif
+
+#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target, moves) \
+  v##major##_##minor##_##isa##_##math##_##align##fixed##target##moves
+#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, fixed, target, moves) \
+  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target, moves)
 #define TEXTPLANE_ABI                                                                                         \
   TEXTPLANE_ABI_JOIN(TEXTPLANE_VERSION_MAJOR, TEXTPLANE_VERSION_MINOR, TEXTPLANE_ABI_ISA, TEXTPLANE_ABI_MATH, \
-                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_STATIC, TEXTPLANE_ABI_TARGET)
+                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_STATIC, TEXTPLANE_ABI_TARGET, TEXTPLANE_ABI_MOVES)
 
 #define TEXTPLANE_BEGIN_NAMESPACE \
   namespace textplane {           \
@@ -2530,10 +2538,13 @@ TEXTPLANE_END_NAMESPACE
 // set, whatever the command line says (foreach_target.inl opens them). Code outside stays baseline, so one plain -O2
 // build holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
 //
-// GCC and Clang build the x86-64 targets (MinGW: SSE4.1 alone, its stack is not aligned for more) and NEON on
-// little-endian AArch64. WebAssembly has no CPU to ask: its vectors (simd128) are for a whole translation unit, with
-// Clang's -msimd128. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where
-// TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only what that one needs.
+// GCC and Clang build the x86-64 targets and NEON on little-endian AArch64. For Windows GCC builds SSE4.1 alone: it
+// aligns the stack to 16 bytes and moves wider vectors there as if they were aligned (its bug 54412). A file that the
+// assembler makes with -Wa,-muse-unaligned-vector-move (binutils 2.38) may say so, by the macro
+// TEXTPLANE_UNALIGNED_VECTOR_MOVES, and has them all. WebAssembly has no CPU to ask: its vectors (simd128) are for a
+// whole translation unit, with Clang's -msimd128. All other compilers and CPUs, MSVC itself and 32 bits among them,
+// have the scalar target alone. Where TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only
+// what that one needs.
 //
 // Compiled kernels, an option: every file that calls a kernel compiles all its targets, which takes time. Where
 // TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see only declarations of kernels and solvers, and
@@ -2559,14 +2570,34 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_SIMD_ON_x86_wide 0
 #define TEXTPLANE_SIMD_ON_arm 0
 #define TEXTPLANE_SIMD_ON_wasm 0
-#if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
+#if defined(__GNUC__) || defined(__clang__)
 #if defined(__x86_64__)
 #if TEXTPLANE_HAS_KERNELS
 #include <immintrin.h>
+// For MSVC's target Clang's <immintrin.h> leaves out what the command line does not ask for. Their order matters.
+#if defined(_MSC_VER)
+// clang-format off
+#include <pmmintrin.h>
+#include <tmmintrin.h>
+#include <smmintrin.h>
+#include <popcntintrin.h>
+#include <avxintrin.h>
+#include <avx2intrin.h>
+#include <fmaintrin.h>
+#include <avx512fintrin.h>
+#include <avx512vlintrin.h>
+#include <avx512bwintrin.h>
+#include <avx512dqintrin.h>
+#include <avx512vlbwintrin.h>
+#include <avx512vldqintrin.h>
+#include <avx512vnniintrin.h>
+#include <avx512vlvnniintrin.h>
+// clang-format on
+#endif
 #endif
 #undef TEXTPLANE_SIMD_ON_x86
 #define TEXTPLANE_SIMD_ON_x86 1
-#if defined(__clang__) || !defined(_WIN32)
+#if defined(__clang__) || defined(TEXTPLANE_UNALIGNED_VECTOR_MOVES) || !(defined(_WIN32) || defined(__CYGWIN__))
 #undef TEXTPLANE_SIMD_ON_x86_wide
 #define TEXTPLANE_SIMD_ON_x86_wide 1
 #endif
@@ -2778,10 +2809,6 @@ TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_SIMD_TARGETS_HPP
 
-#if TEXTPLANE_SIMD_ON_x86
-#include <cpuid.h>
-#endif
-
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
@@ -2803,6 +2830,11 @@ constexpr CpuFeature kCpuFeatures[] = {
     {"avx512vl", CpuFeature::leaf7_b, 31, kSavesZmm}, {"avx512vnni", CpuFeature::leaf7_c, 11, kSavesZmm},
 };
 
+/// The words a, b, c, d of a leaf of CPUID. Not by <cpuid.h>, whose macro __cpuid is a function of Windows' headers.
+inline void cpu_identification(unsigned leaf, unsigned (&words)[4]) noexcept {
+  __asm__ volatile("cpuid" : "=a"(words[0]), "=b"(words[1]), "=c"(words[2]), "=d"(words[3]) : "0"(leaf), "2"(0));
+}
+
 /// The low half of XCR0: which registers the operating system saves. Only where CPUID reports OSXSAVE.
 inline unsigned extended_control_register() noexcept {
   unsigned low = 0, high = 0;
@@ -2822,10 +2854,18 @@ inline bool skip_feature(const char* name, const char*& list) noexcept {
 
 /// True when this CPU has all features of a comma-separated list and the operating system saves their registers.
 inline bool cpu_has(const char* features) noexcept {
-  unsigned highest = 0, a = 0, b = 0, c = 0, d = 0, words[3] = {0, 0, 0};
-  __cpuid(0, highest, b, c, d);
-  if (highest >= 1) __cpuid(1, a, b, words[0], d);
-  if (highest >= 7) __cpuid_count(7, 0, a, words[1], words[2], d);
+  unsigned leaf[4] = {}, words[3] = {0, 0, 0};
+  cpu_identification(0, leaf);
+  const unsigned highest = leaf[0];
+  if (highest >= 1) {
+    cpu_identification(1, leaf);
+    words[CpuFeature::leaf1_c] = leaf[2];
+  }
+  if (highest >= 7) {
+    cpu_identification(7, leaf);
+    words[CpuFeature::leaf7_b] = leaf[1];
+    words[CpuFeature::leaf7_c] = leaf[2];
+  }
   const bool osxsave = (words[0] >> 27 & 1U) != 0;
   const unsigned saved = osxsave ? extended_control_register() : 0U;
   while (*features != '\0') {
@@ -11203,8 +11243,9 @@ class BasicLensMap {
   bool interpolate(double low, double high, int terms, LensPiece* out) const noexcept {
     double t[LensPiece::kMost] = {}, d[LensPiece::kMost] = {}, *p = out->c;
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    constexpr double kPi = 3.141592653589793;  // M_PI is not of the standard
     for (int i = 0; i <= terms; ++i) {
-      t[i] = half * std::cos(M_PI * (i + 0.5) / (terms + 1));
+      t[i] = half * std::cos(kPi * (i + 0.5) / (terms + 1));
       d[i] = radial(middle + t[i]);
     }
     for (int order = 1; order <= terms; ++order)

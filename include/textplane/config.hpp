@@ -2,7 +2,8 @@
 //
 // Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of
 // the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's two largest
-// alignments, and the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp). Two translation units built
+// alignments, the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp), and the moves that MinGW's wide
+// targets need (simd/targets.hpp). Two translation units built
 // with different flags therefore keep their own copies, and passing a type from one to the other is a link error
 // instead of a corrupt heap. It protects textplane's own functions. Those of Eigen and of the standard library that a
 // compiler does not inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none
@@ -69,13 +70,20 @@
 #define TEXTPLANE_ABI_TARGET
 #endif
 
-#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target) \
-  v##major##_##minor##_##isa##_##math##_##align##fixed##target
-#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, fixed, target) \
-  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target)
+// Which targets there are, see simd/targets.
+#if defined(TEXTPLANE_UNALIGNED_VECTOR_MOVES)
+#define TEXTPLANE_ABI_MOVES _moves
+#else
+#define TEXTPLANE_ABI_MOVES
+#endif
+
+#define TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target, moves) \
+  v##major##_##minor##_##isa##_##math##_##align##fixed##target##moves
+#define TEXTPLANE_ABI_JOIN(major, minor, isa, math, align, fixed, target, moves) \
+  TEXTPLANE_ABI_JOIN_(major, minor, isa, math, align, fixed, target, moves)
 #define TEXTPLANE_ABI                                                                                         \
   TEXTPLANE_ABI_JOIN(TEXTPLANE_VERSION_MAJOR, TEXTPLANE_VERSION_MINOR, TEXTPLANE_ABI_ISA, TEXTPLANE_ABI_MATH, \
-                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_STATIC, TEXTPLANE_ABI_TARGET)
+                     TEXTPLANE_ABI_ALIGN, TEXTPLANE_ABI_STATIC, TEXTPLANE_ABI_TARGET, TEXTPLANE_ABI_MOVES)
 
 #define TEXTPLANE_BEGIN_NAMESPACE \
   namespace textplane {           \

@@ -46,28 +46,62 @@ class GuardedPages {
 
 #else
 
+#if defined(_WIN32)
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#undef near
+#undef far
+#else
 #include <sys/mman.h>
 #include <unistd.h>
+#endif
 
 #include <cstddef>
 #include <new>
 
 namespace textplane_test {
 
+/// Pages of the operating system: zeroed, and one that may not be touched.
+#if defined(_WIN32)
+inline std::size_t page_size() {
+  SYSTEM_INFO info;
+  GetSystemInfo(&info);
+  return info.dwPageSize;
+}
+inline void* take_pages(std::size_t bytes) {
+  return VirtualAlloc(nullptr, bytes, MEM_RESERVE | MEM_COMMIT, PAGE_READWRITE);
+}
+inline bool forbid_page(void* page) {
+  DWORD former = 0;
+  return VirtualProtect(page, page_size(), PAGE_NOACCESS, &former) != 0;
+}
+inline void give_pages(void* pages, std::size_t) { VirtualFree(pages, 0, MEM_RELEASE); }
+#else
+inline std::size_t page_size() { return static_cast<std::size_t>(sysconf(_SC_PAGESIZE)); }
+inline void* take_pages(std::size_t bytes) {
+  void* const pages = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  return pages == MAP_FAILED ? nullptr : pages;
+}
+inline bool forbid_page(void* page) { return mprotect(page, page_size(), PROT_NONE) == 0; }
+inline void give_pages(void* pages, std::size_t bytes) { munmap(pages, bytes); }
+#endif
+
 class GuardedPages {
  public:
   /// Whole pages for `bytes` bytes.
-  explicit GuardedPages(std::size_t bytes) : page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))) {
+  explicit GuardedPages(std::size_t bytes) : page_(page_size()) {
     inside_ = (bytes + page_ - 1) / page_ * page_;
-    void* const memory = mmap(nullptr, inside_ + 2 * page_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    base_ = static_cast<unsigned char*>(memory);
-    if (mprotect(base_, page_, PROT_NONE) != 0 || mprotect(end(), page_, PROT_NONE) != 0) {
-      munmap(base_, inside_ + 2 * page_);
+    base_ = static_cast<unsigned char*>(take_pages(inside_ + 2 * page_));
+    if (base_ == nullptr) throw std::bad_alloc();
+    if (!forbid_page(base_) || !forbid_page(end())) {
+      give_pages(base_, inside_ + 2 * page_);
       throw std::bad_alloc();
     }
   }
-  ~GuardedPages() { munmap(base_, inside_ + 2 * page_); }
+  ~GuardedPages() { give_pages(base_, inside_ + 2 * page_); }
   GuardedPages(const GuardedPages&) = delete;
   GuardedPages& operator=(const GuardedPages&) = delete;
 

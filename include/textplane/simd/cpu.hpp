@@ -4,10 +4,6 @@
 
 #include "textplane/simd/targets.hpp"
 
-#if TEXTPLANE_SIMD_ON_x86
-#include <cpuid.h>
-#endif
-
 TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 
@@ -29,6 +25,11 @@ constexpr CpuFeature kCpuFeatures[] = {
     {"avx512vl", CpuFeature::leaf7_b, 31, kSavesZmm}, {"avx512vnni", CpuFeature::leaf7_c, 11, kSavesZmm},
 };
 
+/// The words a, b, c, d of a leaf of CPUID. Not by <cpuid.h>, whose macro __cpuid is a function of Windows' headers.
+inline void cpu_identification(unsigned leaf, unsigned (&words)[4]) noexcept {
+  __asm__ volatile("cpuid" : "=a"(words[0]), "=b"(words[1]), "=c"(words[2]), "=d"(words[3]) : "0"(leaf), "2"(0));
+}
+
 /// The low half of XCR0: which registers the operating system saves. Only where CPUID reports OSXSAVE.
 inline unsigned extended_control_register() noexcept {
   unsigned low = 0, high = 0;
@@ -48,10 +49,18 @@ inline bool skip_feature(const char* name, const char*& list) noexcept {
 
 /// True when this CPU has all features of a comma-separated list and the operating system saves their registers.
 inline bool cpu_has(const char* features) noexcept {
-  unsigned highest = 0, a = 0, b = 0, c = 0, d = 0, words[3] = {0, 0, 0};
-  __cpuid(0, highest, b, c, d);
-  if (highest >= 1) __cpuid(1, a, b, words[0], d);
-  if (highest >= 7) __cpuid_count(7, 0, a, words[1], words[2], d);
+  unsigned leaf[4] = {}, words[3] = {0, 0, 0};
+  cpu_identification(0, leaf);
+  const unsigned highest = leaf[0];
+  if (highest >= 1) {
+    cpu_identification(1, leaf);
+    words[CpuFeature::leaf1_c] = leaf[2];
+  }
+  if (highest >= 7) {
+    cpu_identification(7, leaf);
+    words[CpuFeature::leaf7_b] = leaf[1];
+    words[CpuFeature::leaf7_c] = leaf[2];
+  }
   const bool osxsave = (words[0] >> 27 & 1U) != 0;
   const unsigned saved = osxsave ? extended_control_register() : 0U;
   while (*features != '\0') {

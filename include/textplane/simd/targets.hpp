@@ -4,10 +4,13 @@
 // set, whatever the command line says (foreach_target.inl opens them). Code outside stays baseline, so one plain -O2
 // build holds kernels for every CPU. Besides config.hpp this is the only header that reads compiler macros.
 //
-// GCC and Clang build the x86-64 targets (MinGW: SSE4.1 alone, its stack is not aligned for more) and NEON on
-// little-endian AArch64. WebAssembly has no CPU to ask: its vectors (simd128) are for a whole translation unit, with
-// Clang's -msimd128. All other compilers and CPUs, MSVC and 32 bits among them, have the scalar target alone. Where
-// TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only what that one needs.
+// GCC and Clang build the x86-64 targets and NEON on little-endian AArch64. For Windows GCC builds SSE4.1 alone: it
+// aligns the stack to 16 bytes and moves wider vectors there as if they were aligned (its bug 54412). A file that the
+// assembler makes with -Wa,-muse-unaligned-vector-move (binutils 2.38) may say so, by the macro
+// TEXTPLANE_UNALIGNED_VECTOR_MOVES, and has them all. WebAssembly has no CPU to ask: its vectors (simd128) are for a
+// whole translation unit, with Clang's -msimd128. All other compilers and CPUs, MSVC itself and 32 bits among them,
+// have the scalar target alone. Where TEXTPLANE_TARGET fixes a target (dispatch.hpp), a translation unit builds only
+// what that one needs.
 //
 // Compiled kernels, an option: every file that calls a kernel compiles all its targets, which takes time. Where
 // TEXTPLANE_EXTERN_KERNELS is defined for a whole program, its files see only declarations of kernels and solvers, and
@@ -35,14 +38,34 @@
 #define TEXTPLANE_SIMD_ON_x86_wide 0
 #define TEXTPLANE_SIMD_ON_arm 0
 #define TEXTPLANE_SIMD_ON_wasm 0
-#if (defined(__GNUC__) || defined(__clang__)) && !defined(_MSC_VER)
+#if defined(__GNUC__) || defined(__clang__)
 #if defined(__x86_64__)
 #if TEXTPLANE_HAS_KERNELS
 #include <immintrin.h>
+// For MSVC's target Clang's <immintrin.h> leaves out what the command line does not ask for. Their order matters.
+#if defined(_MSC_VER)
+// clang-format off
+#include <pmmintrin.h>
+#include <tmmintrin.h>
+#include <smmintrin.h>
+#include <popcntintrin.h>
+#include <avxintrin.h>
+#include <avx2intrin.h>
+#include <fmaintrin.h>
+#include <avx512fintrin.h>
+#include <avx512vlintrin.h>
+#include <avx512bwintrin.h>
+#include <avx512dqintrin.h>
+#include <avx512vlbwintrin.h>
+#include <avx512vldqintrin.h>
+#include <avx512vnniintrin.h>
+#include <avx512vlvnniintrin.h>
+// clang-format on
+#endif
 #endif
 #undef TEXTPLANE_SIMD_ON_x86
 #define TEXTPLANE_SIMD_ON_x86 1
-#if defined(__clang__) || !defined(_WIN32)
+#if defined(__clang__) || defined(TEXTPLANE_UNALIGNED_VECTOR_MOVES) || !(defined(_WIN32) || defined(__CYGWIN__))
 #undef TEXTPLANE_SIMD_ON_x86_wide
 #define TEXTPLANE_SIMD_ON_x86_wide 1
 #endif

@@ -8,10 +8,14 @@
 #include <string>
 #include <vector>
 
-#if !defined(__wasm__)
+#if defined(__wasm__) || defined(_WIN32)
+#define TEXTPLANE_TEST_FORKS 0
+#else
+#define TEXTPLANE_TEST_FORKS 1
 #include <sys/wait.h>
 #include <unistd.h>
-
+#endif
+#if !defined(__wasm__)
 #include <thread>
 #endif
 
@@ -34,19 +38,28 @@ using textplane::Status;
 constexpr Target kTargets[] = {Target::scalar, Target::sse41, Target::avx2,
                                Target::avx512, Target::neon,  Target::simd128};
 
-void force(const char* target) {
+/// Sets the variable, or with null removes it. Windows knows no empty variables: there the empty name removes it, too.
+void set_environment(const char* target) {
+#if defined(_WIN32)
+  _putenv_s("TEXTPLANE_FORCE_TARGET", target == nullptr ? "" : target);
+#else
   if (target == nullptr) {
     unsetenv("TEXTPLANE_FORCE_TARGET");
   } else {
     setenv("TEXTPLANE_FORCE_TARGET", target, 1);
   }
+#endif
+}
+
+void force(const char* target) {
+  set_environment(target);
   textplane::process::simd_target.store(-1);
 }
 
 /// The value of `body` in a child process that has not chosen its target yet and has TEXTPLANE_FORCE_TARGET = `target`.
-/// WebAssembly has no processes: there the program forgets its choice, and gets it back.
+/// WebAssembly has no processes, Windows does not copy them: there the program forgets its choice, and gets it back.
 int in_fresh_process(const char* target, const std::function<int()>& body) {
-#if defined(__wasm__)
+#if !TEXTPLANE_TEST_FORKS
   const char* const set = std::getenv("TEXTPLANE_FORCE_TARGET");
   const std::string former = set == nullptr ? "" : set;
   const int chosen = textplane::process::simd_target.load();
@@ -143,7 +156,7 @@ TEST(Dispatch, TheEnvironmentForcesASupportedTargetAndNoOther) {
 TEST(Dispatch, TheEnvironmentIsReadOnce) {
   const auto body = [] {
     const int before = active();
-    setenv("TEXTPLANE_FORCE_TARGET", to_string(simd::best_target()), 1);
+    set_environment(to_string(simd::best_target()));
     return before == active() ? before : 100;
   };
   EXPECT_EQ(in_fresh_process("scalar", body), static_cast<int>(Target::scalar));

@@ -2,6 +2,10 @@
 #ifndef TEXTPLANE_TESTS_SIMD_OPS_VEC_SUPPORT_HPP
 #define TEXTPLANE_TESTS_SIMD_OPS_VEC_SUPPORT_HPP
 
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
 #include "support/targets.hpp"
 #include "textplane/simd/ops.hpp"
 
@@ -34,6 +38,20 @@ inline void partial_store(float* p, const float* from, int n) { TEXTPLANE_SIMD_D
 inline unsigned first_lanes(int n) { TEXTPLANE_SIMD_DISPATCH(first_lanes(n)) }
 inline unsigned read_u16(const std::uint8_t* p) { TEXTPLANE_SIMD_DISPATCH(read_u16(p)) }
 inline void copy_bytes(void* to, const void* from, int n) { TEXTPLANE_SIMD_DISPATCH(copy(to, from, n)) }
+
+/// a b + c rounded once. Not std::fma, which rounds twice in MinGW's library. The product is exact in double; a sum
+/// whose last bit is set where something was cut off ("round to odd") rounds to float as the exact one would.
+inline float fused_sum(float a, float b, float c) {
+  const double product = static_cast<double>(a) * b;
+  double sum = product + c;
+  if (!std::isfinite(sum)) return static_cast<float>(sum);
+  const double from_product = sum - c;
+  const double cut = (product - from_product) + (c - (sum - from_product));
+  std::int64_t bits = 0;
+  std::memcpy(&bits, &sum, sizeof bits);
+  if (cut != 0 && bits % 2 == 0) sum = std::nextafter(sum, cut > 0 ? HUGE_VAL : -HUGE_VAL);
+  return static_cast<float>(sum);
+}
 
 constexpr int kMost = 16;  // lanes
 

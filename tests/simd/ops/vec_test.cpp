@@ -57,8 +57,8 @@ void expect_float_operations(Target target, const float* a, const float* b, cons
                               x - y,
                               x * y,
                               x / y,  //
-                              fused ? std::fma(x, y, z) : product + z,
-                              fused ? std::fma(-x, y, z) : z - product,
+                              fused ? fused_sum(x, y, z) : product + z,
+                              fused ? fused_sum(-x, y, z) : z - product,
                               product + z,
                               z - product,  //
                               x < y ? x : y,

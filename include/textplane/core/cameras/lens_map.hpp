@@ -145,8 +145,9 @@ class BasicLensMap {
   bool interpolate(double low, double high, int terms, LensPiece* out) const noexcept {
     double t[LensPiece::kMost] = {}, d[LensPiece::kMost] = {}, *p = out->c;
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    constexpr double kPi = 3.141592653589793;  // M_PI is not of the standard
     for (int i = 0; i <= terms; ++i) {
-      t[i] = half * std::cos(M_PI * (i + 0.5) / (terms + 1));
+      t[i] = half * std::cos(kPi * (i + 0.5) / (terms + 1));
       d[i] = radial(middle + t[i]);
     }
     for (int order = 1; order <= terms; ++order)
