@@ -1,5 +1,5 @@
-// Where was an image taken? Its signs name places of a map, and key frames may look like it; the answer is the pose from
-// which the image shows most of the map.
+// Where was an image taken? Its signs name places of a map, and key frames may look like it; the answer is the pose
+// from which the image shows most of the map.
 #ifndef TEXTSLAM_MAP_FIND_IMAGE_HPP
 #define TEXTSLAM_MAP_FIND_IMAGE_HPP
 
