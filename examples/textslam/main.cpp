@@ -86,12 +86,13 @@ void add_map_options(CLI::App& app, textslam::RunOptions& run) {
       "--scale",
       [&run](const std::vector<std::string>& texts) {
         for (const std::string& text : texts)
-          if (!textslam::parse_known_width(text, &run.widths.emplace_back()))
-            throw CLI::ValidationError("--scale",
-                                       "should be WORD=WIDTH or WORD=WIDTH:SIGMA in metres, not '" + text + "'");
+          if (!textslam::parse_known_length(text, &run.lengths.emplace_back()))
+            throw CLI::ValidationError(
+                "--scale", "should be WORD=WIDTH or WORD..WORD=DISTANCE in metres, or with :SIGMA, not '" + text + "'");
       },
-      "WORD=WIDTH[:SIGMA], in metres: the word is written so wide on its sign. Makes the map metric; may be given "
-      "several times");
+      "WORD=WIDTH[:SIGMA], in metres: the word is written so wide on its sign. WORD..WORD=DISTANCE[:SIGMA]: the "
+      "centres "
+      "of two signs are so far apart. Makes the map metric; may be given several times");
 }
 
 // The renderer checks the ranges.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <stdexcept>
 
 #include "io/camera_formats/formats.hpp"
+#include "io/clock.hpp"
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
 #include "textplane/config.hpp"
@@ -13,15 +13,6 @@
 
 namespace textslam {
 namespace {
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
-  return text;
-}
 
 const char* to_string(Mode mode) { return mode == Mode::text ? "text" : mode == Mode::points ? "points" : "loose"; }
 

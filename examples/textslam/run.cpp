@@ -191,15 +191,15 @@ void track_frames(const RunOptions& options, const Sequence& sequence, const std
   }
 }
 
-// By the signs whose widths are known.
+// By what is known of signs.
 std::optional<MetricScale> make_metric(const RunOptions& options, System* system) {
-  if (options.widths.empty()) return std::nullopt;
+  if (options.lengths.empty()) return std::nullopt;
   const Map& map = system->map();
-  const MetricScale scale = metric_scale(map, at_size(options.parameters, map.width, map.height), options.widths);
+  const MetricScale scale = metric_scale(map, at_size(options.parameters, map.width, map.height), options.lengths);
   if (scale.texts == 0)
     throw InputError("--scale", 0,
-                     "no mapped text reads '" + options.widths.front().word +
-                         (options.widths.size() > 1 ? "' or another of the words" : "'") + ": the map has no scale");
+                     "no mapped text reads '" + options.lengths.front().word +
+                         (options.lengths.size() > 1 ? "' or another of the words" : "'") + ": the map has no scale");
   system->scale_by(scale.metres);
   return scale;
 }

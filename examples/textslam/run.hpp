@@ -31,7 +31,7 @@ struct RunOptions {
   bool skip_broken = false;                    ///< Frames that cannot be read are passed over; else the first ends it.
   std::string save_map;                        ///< The map file that is written; empty: none, or `map` again.
   std::string map;                             ///< The map file of earlier sessions; empty: none.
-  std::vector<KnownWidth> widths;              ///< Of signs; they make the map metric.
+  std::vector<KnownLength> lengths;            ///< Of signs; they make the map metric.
   bool localise = false;                       ///< Frames are only localised in `map`, which stays as it is.
   Parameters parameters;
   std::optional<double> readout;  ///< s, of a rolling shutter; in place of what the camera file says.

@@ -1,5 +1,4 @@
 // COLMAP's files: https://colmap.github.io/format.html
-#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -44,22 +43,9 @@ class Bytes {
   std::string bytes_;
 };
 
-// COLMAP's numbers of its models: their places.
-constexpr std::array<const char*, 11> kModels = {"SIMPLE_PINHOLE",
-                                                 "PINHOLE",
-                                                 "SIMPLE_RADIAL",
-                                                 "RADIAL",
-                                                 "OPENCV",
-                                                 "OPENCV_FISHEYE",
-                                                 "FULL_OPENCV",
-                                                 "FOV",
-                                                 "SIMPLE_RADIAL_FISHEYE",
-                                                 "RADIAL_FISHEYE",
-                                                 "THIN_PRISM_FISHEYE"};
-
 std::uint32_t number_of(const std::string& model) {
-  for (std::size_t i = 0; i < kModels.size(); ++i)
-    if (model == kModels[i]) return static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < kColmapModels.size(); ++i)
+    if (model == kColmapModels[i].name) return static_cast<std::uint32_t>(i);
   throw InputError("cameras.bin", 0, "COLMAP has no number for the camera model " + model);
 }
 

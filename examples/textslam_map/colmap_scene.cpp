@@ -10,27 +10,10 @@
 namespace textslam {
 namespace {
 
-constexpr double kHalfPixel = 0.5;
-
 std::string image_name(int id) {
   char name[32];
   std::snprintf(name, sizeof name, "keyframe_%06d.png", id);
   return name;
-}
-
-// The one line of cameras.txt: which model COLMAP has for a camera is said in one place.
-ColmapScene::Camera camera_of(const std::string& text, const std::string& folder) {
-  const std::size_t line = text.find('\n') + 1;  // the first is a comment
-  const std::string row = text.substr(line, text.find('\n', line) - line);
-  const std::vector<std::string_view> words = split_blanks(row);
-  const auto number = [&](std::size_t i) { return require_number(words.at(i), folder, 0, "a number of the camera"); };
-  ColmapScene::Camera camera;
-  camera.id = static_cast<int>(number(0));
-  camera.model = std::string(words.at(1));
-  camera.width = static_cast<int>(number(2));
-  camera.height = static_cast<int>(number(3));
-  for (std::size_t i = 4; i < words.size(); ++i) camera.parameters.push_back(number(i));
-  return camera;
 }
 
 double error_of(const Map& map, const MapPoint& point) {
@@ -55,13 +38,36 @@ int grey_of(const Map& map, const MapPoint& point) {
 
 }  // namespace
 
+ColmapScene::Camera camera_of_text(const std::string& text, const std::string& path) {
+  ColmapScene::Camera camera;
+  int line = 0, cameras = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string row = text.substr(at, end - at);
+    at = end + 1;
+    ++line;
+    const std::vector<std::string_view> words = split_blanks(row);
+    if (words.empty() || words[0][0] == '#') continue;
+    if (++cameras > 1) throw InputError(path, line, "a second camera: a map has one, for all images");
+    if (words.size() < 5) throw InputError(path, line, "expected 'id model width height parameters'");
+    const auto number = [&](std::size_t i) { return require_number(words[i], path, line, "a number of the camera"); };
+    camera.id = static_cast<int>(number(0));
+    camera.model = std::string(words[1]);
+    camera.width = static_cast<int>(number(2));
+    camera.height = static_cast<int>(number(3));
+    for (std::size_t i = 4; i < words.size(); ++i) camera.parameters.push_back(number(i));
+  }
+  if (cameras == 0) throw InputError(path, 0, "no camera");
+  return camera;
+}
+
 ColmapScene colmap_scene(const LoadedMap& loaded, const std::string& folder) {
   const Map& map = loaded.map;
   ColmapScene scene;
   scene.camera_text = format_camera(loaded.record.camera, CameraFormat::colmap);
   if (scene.camera_text.empty())
     throw InputError(folder, 0, std::string("COLMAP has no camera like the map's, ") + loaded.record.camera.raw.name());
-  scene.camera = camera_of(scene.camera_text, folder);
+  scene.camera = camera_of_text(scene.camera_text, folder);
   std::map<int, std::size_t> place;  // of a key frame's image
   for (const int id : map.keyframe_ids()) {
     place[id] = scene.images.size();
@@ -78,7 +84,7 @@ ColmapScene colmap_scene(const LoadedMap& loaded, const std::string& folder) {
       seen.push_back(o.keyframe);
       ColmapScene::Image& image = scene.images[place.at(o.keyframe)];
       out.track.emplace_back(image.id, image.pixels.size());
-      image.pixels.push_back({o.px + Vec2(kHalfPixel, kHalfPixel), id});
+      image.pixels.push_back({o.px + Vec2(kColmapHalfPixel, kColmapHalfPixel), id});
     }
     std::sort(out.track.begin(), out.track.end());
     scene.points.push_back(std::move(out));

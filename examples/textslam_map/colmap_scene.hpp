@@ -2,6 +2,7 @@
 #ifndef TEXTSLAM_MAP_COLMAP_SCENE_HPP
 #define TEXTSLAM_MAP_COLMAP_SCENE_HPP
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,24 @@
 #include "textslam/map_file/map_file.hpp"
 
 namespace textslam {
+
+/// COLMAP's models: its numbers of them are their places.
+struct ColmapCameraModel {
+  const char* name;
+  int parameters;
+};
+inline constexpr std::array<ColmapCameraModel, 11> kColmapModels = {{{"SIMPLE_PINHOLE", 3},
+                                                                     {"PINHOLE", 4},
+                                                                     {"SIMPLE_RADIAL", 4},
+                                                                     {"RADIAL", 5},
+                                                                     {"OPENCV", 8},
+                                                                     {"OPENCV_FISHEYE", 8},
+                                                                     {"FULL_OPENCV", 12},
+                                                                     {"FOV", 5},
+                                                                     {"SIMPLE_RADIAL_FISHEYE", 4},
+                                                                     {"RADIAL_FISHEYE", 5},
+                                                                     {"THIN_PRISM_FISHEYE", 12}}};
+inline constexpr double kColmapHalfPixel = 0.5;  ///< The centre of its top-left pixel is there, ours at 0.
 
 /// Ids are ours and one. Pixels are COLMAP's: the centre of the top-left one is (0.5, 0.5).
 struct ColmapScene {
@@ -43,6 +62,15 @@ struct ColmapScene {
 
 /// Throws InputError that names `folder` where COLMAP has no word for the camera.
 ColmapScene colmap_scene(const LoadedMap& map, const std::string& folder);
+
+/// The one camera of cameras.txt. Throws InputError where it is not one.
+ColmapScene::Camera camera_of_text(const std::string& text, const std::string& path);
+
+/// The model in a folder, its ids as they are there: binary where there is a cameras.bin, else text. Pixels without a
+/// point have -1. Throws InputError for what is missing or broken, and for several cameras.
+ColmapScene read_colmap_scene(const std::string& folder);
+/// Its camera. Throws InputError that names `folder` for a model that the library does not have.
+CameraModel camera_of(const ColmapScene& scene, const std::string& folder);
 
 /// images.txt and points3D.txt; cameras.txt is ColmapScene::camera_text.
 std::string colmap_images_text(const ColmapScene& scene);

@@ -10,7 +10,7 @@
 #include "textplane/landmarks/text_view.hpp"
 #include "textplane/landmarks/words.hpp"
 #include "textslam/common/report_json.hpp"
-#include "textslam/report/evaluate_text.hpp"
+#include "textslam/map/text_views.hpp"
 
 namespace textslam {
 namespace {

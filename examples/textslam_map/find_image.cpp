@@ -9,7 +9,6 @@
 #include "textslam/common/report_json.hpp"
 #include "textslam/input/make_frame.hpp"
 #include "textslam/map/text_views.hpp"
-#include "textslam/report/evaluate_text.hpp"
 #include "textslam/report/localisation.hpp"
 
 namespace textslam {

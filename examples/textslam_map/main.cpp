@@ -85,9 +85,11 @@ int execute(int argc, char** argv) {
       ->check(textslam::within(0, 180));
   textslam::FileCommands file(app);
   textslam::FindCommand find(app);
+  textslam::ImportCommand importer(app);
   if (const auto code = textslam::parse_command_line(app, "textslam-map", argc, argv)) return *code;
   if (const auto code = file.run()) return *code;
   if (find.parsed()) return find.run();
+  if (importer.parsed()) return importer.run();
   const std::vector<textslam::IndexedText> texts = read_texts(folder);
   if (angles->parsed() && words.empty()) return show_angles(texts, within, json);
   if (query->parsed()) words = {word};

@@ -6,25 +6,13 @@
 #include "textplane/landmarks/text_view.hpp"
 #include "textplane/landmarks/words.hpp"
 #include "textslam/common/geometry.hpp"
-#include "textslam/report/evaluate_text.hpp"
+#include "textslam/map/text_views.hpp"
+#include "textslam/text/text_centre.hpp"
 
 namespace textslam {
 namespace {
 
-// A box's corner errs by a pixel or two, and by a share of the letters' height: detectors differ in
-// where a letter ends.
-constexpr double kCornerPx = 1.5, kCornerShare = 0.06;
 constexpr double kSteepest = 70;  // degrees: beyond this slant no text is mapped
-
-// Standard deviation of the distance along the ray to p, as a share: dp = -p (p . dtheta).
-double distance_sigma(const TextObject& text, const Vec3& p) {
-  return std::sqrt(std::max(0.0, p.dot(text.covariance * p)));
-}
-
-Vec3 centre_in_host(const TextObject& text) {
-  const Vec3 ray = text.patch.camera.unproject(textplane::centroid(text.patch.quad));
-  return ray / text.theta.dot(ray);
-}
 
 MapSign sign_of(const Map& map, const TextObject& text) {
   MapSign sign;
@@ -32,7 +20,9 @@ MapSign sign_of(const Map& map, const TextObject& text) {
   sign.word = textplane::consensus(text.votes);
   sign.corners = world_corners(map, text);
   const auto& c = sign.corners;
-  sign.centre = (c[0] + c[1] + c[2] + c[3]) / 4;
+  const TextCentre centre = text_centre(map, text);
+  sign.centre = centre.at;
+  sign.covariance = centre.covariance;
   const Vec3 right = c[1] + c[2] - c[0] - c[3], down = c[2] + c[3] - c[0] - c[1];
   sign.size = 0.5 * std::sqrt(right.norm() * down.norm());
   const Eigen::Matrix3d& R_w_h = map.keyframe(text.host).T_w_c.R;
@@ -41,21 +31,17 @@ MapSign sign_of(const Map& map, const TextObject& text) {
   sign.axes.col(0) = (right - into * into.dot(right)).normalized();
   sign.axes.col(1) = into.cross(sign.axes.col(0));
 
-  const Vec3 p = centre_in_host(text), ray = p.normalized();
   const auto& q = text.patch.quad.corner;
   const double wide = 0.5 * (q[1] + q[2] - q[0] - q[3]).norm(), high = 0.5 * (q[2] + q[3] - q[0] - q[1]).norm();
-  const double corner = std::max(kCornerPx, kCornerShare * high), distance = distance_sigma(text, p);
-  const double aside = corner / text.patch.camera.fx * p.z(), ahead = distance * p.norm();
-  const Eigen::Matrix3d along = ray * ray.transpose();
-  sign.covariance =
-      R_w_h * (ahead * ahead * along + aside * aside * (Eigen::Matrix3d::Identity() - along)) * R_w_h.transpose();
-  const double cosine = std::max(-textplane::plane_normal(text.theta).dot(ray), std::cos(radians(kSteepest)));
+  const double corner = centre.corner_px;
+  const double cosine =
+      std::max(-textplane::plane_normal(text.theta).dot(centre.in_host.normalized()), std::cos(radians(kSteepest)));
   const double slant = std::sqrt(1 - std::min(1.0, cosine * cosine)) / cosine;
   sign.normal_sigma = normal_sigma(text);
   sign.turn_sigma = std::hypot(sign.normal_sigma, corner / std::max(wide, 1.0));
   // Two corners of four each side.
   const double box = 0.5 * std::hypot(corner / std::max(wide, 1.0), corner / std::max(high, 1.0));
-  sign.size_sigma = std::hypot(distance, box, slant * sign.normal_sigma);
+  sign.size_sigma = std::hypot(distance_sigma(text), box, slant * sign.normal_sigma);
   return sign;
 }
 
@@ -76,8 +62,6 @@ std::vector<MapSign> map_signs(const Map& map, const textplane::TextOptions& opt
   return signs;
 }
 
-double plane_uncertainty(const TextObject& text) {
-  return std::hypot(normal_sigma(text), distance_sigma(text, centre_in_host(text)));
-}
+double plane_uncertainty(const TextObject& text) { return std::hypot(normal_sigma(text), distance_sigma(text)); }
 
 }  // namespace textslam

@@ -10,8 +10,8 @@
 
 namespace textslam {
 
-/// A mapped text that was read. Standard deviations come from the covariance of its plane, and from the detector's box
-/// in the host, whose corners err by some pixels.
+/// A mapped text that was read. Standard deviations come from the covariance of its plane and the detector's box in the
+/// host (text_centre.hpp).
 struct MapSign {
   int text = -1;
   std::string word;

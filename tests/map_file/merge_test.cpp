@@ -4,7 +4,7 @@
 #include "io/text_file.hpp"
 #include "map_file/map_file_support.hpp"
 #include "textslam/map/scale_map.hpp"
-#include "textslam/report/evaluate_text.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam_map/map_queries.hpp"
 #include "textslam_map/merge_maps.hpp"
 

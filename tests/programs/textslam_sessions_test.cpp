@@ -1,82 +1,20 @@
 // Sessions in one map: saved, localised in, gone on in. In this process, as textslam runs them.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
-#include "io/evaluate.hpp"
 #include "io/evaluate_signs.hpp"
 #include "io/input_error.hpp"
-#include "io/io_support.hpp"
 #include "io/text_file.hpp"
+#include "programs/sessions_support.hpp"
 #include "programs/textslam_support.hpp"
-#include "renderer/render_sequence.hpp"
+#include "textplane/landmarks/words.hpp"
 #include "textslam/map_file/map_file.hpp"
-#include "textslam/run.hpp"
+#include "textslam/text/text_centre.hpp"
+#include "textslam_map/colmap_scene.hpp"
 
 namespace textslam {
 namespace {
-
-namespace fs = std::filesystem;
-
-// A room, and the map of a first session in it.
-class Sessions : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    render("first", 1, 0, 110);
-    render("second", 1, 1, 50);
-    render("elsewhere", 7, 0, 24);
-    RunOptions options = options_for("first", "out_first");
-    options.save_map = path("map.db");
-    ASSERT_EQ(run(options).error, "");
-  }
-  static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
-  }
-
-  static std::string path(const std::string& name) { return folder_->path(name); }
-  static void render(const std::string& name, std::uint64_t seed, int walk, int frames, int width = 320) {
-    RenderOptions options;
-    options.output = path(name);
-    options.seed = seed;
-    options.walk = walk;
-    options.frames = frames;
-    options.width = width;
-    options.height = width * 3 / 4;
-    render_sequence(options);
-  }
-  static RunOptions options_for(const std::string& sequence, const std::string& output) {
-    RunOptions options;
-    options.sequence = path(sequence);
-    options.output = path(output);
-    options.report = false;
-    return options;
-  }
-  // Errors of the poses in the map's world, aligned as the first session is.
-  static std::vector<double> errors_of(const std::string& output, const std::string& sequence) {
-    const auto truth = read_tum(path("first/groundtruth.txt"));
-    const Similarity alignment =
-        evaluate_trajectory(read_tum(path("out_first/trajectory.txt")), truth, truth.size()).alignment;
-    const auto poses = read_tum(path(output + "/trajectory.txt")),
-               right = read_tum(path(sequence + "/groundtruth.txt"));
-    std::vector<double> errors;
-    for (const PosePair& pair : associate(poses, right, 0.01))
-      errors.push_back((alignment * poses[pair.estimate].T_w_c.t - right[pair.truth].T_w_c.t).norm());
-    return errors;
-  }
-  static std::string copy_of_map(const std::string& name) {
-    fs::copy_file(path("map.db"), path(name), fs::copy_options::overwrite_existing);
-    return path(name);
-  }
-
-  static TemporaryFolder* folder_;
-};
-
-TemporaryFolder* Sessions::folder_ = nullptr;
 
 TEST_F(Sessions, AnotherWalkIsLocalisedInTheMapsFrame) {
   RunOptions options = options_for("second", "out_localised");
@@ -174,6 +112,42 @@ TEST_F(Sessions, SingleImagesAreFound) {
   EXPECT_EQ(none.out, path("elsewhere/images/000010.png") + ": not found\n");
 }
 
+// A map that went through COLMAP's model has its points, finds its texts again, and can be localised in.
+TEST_F(Sessions, AModelOfColmapBecomesAMap) {
+  const Parameters parameters;
+  const LoadedMap map = load_map(path("map.db"), parameters);
+  ASSERT_EQ(run_program(TEXTSLAM_MAP_PROGRAM, {"export", path("map.db"), "--colmap", path("model")}).code, 0);
+  fs::create_directory(path("boxes"));
+  for (const ColmapScene::Image& image : read_colmap_scene(path("model")).images) {
+    const std::string taken = fs::path(map.record.sources.at(image.id - 1).image).stem().string();
+    fs::copy_file(path("first/detections/" + taken + ".txt"),
+                  path("boxes/" + fs::path(image.name).stem().string() + ".txt"));
+  }
+  const ProgramResult made =
+      run_program(TEXTSLAM_MAP_PROGRAM, {"import", path("model"), "--images", path("model/images"), "--detections",
+                                         path("boxes"), "--output", path("imported.db")});
+  EXPECT_EQ(made.code, 0) << made.err;
+  const LoadedMap imported = load_map(path("imported.db"), parameters);
+  EXPECT_EQ(imported.map.keyframe_ids().size(), map.map.keyframe_ids().size());
+  const auto mapped = [](const LoadedMap& m) {
+    return std::count_if(m.map.texts.begin(), m.map.texts.end(),
+                         [](const TextObject& text) { return text.state == TextState::mapped; });
+  };
+  EXPECT_GE(mapped(imported), mapped(map) - 2);
+  for (const TextObject& text : imported.map.texts) {
+    if (text.state != TextState::mapped) continue;
+    double nearest = 1;
+    for (const TextObject& other : map.map.texts)
+      if (other.state == TextState::mapped)
+        nearest = std::min(nearest, (text_centre(imported.map, text).at - text_centre(map.map, other).at).norm());
+    EXPECT_LT(nearest, 0.01) << textplane::consensus(text.votes);
+  }
+  const ProgramResult found = run_program(
+      TEXTSLAM_MAP_PROGRAM,
+      {"find", path("imported.db"), path("second/images/000015.png"), "--detections", path("second/detections")});
+  EXPECT_EQ(found.code, 0) << found.out << found.err;
+}
+
 // Another room, with other signs: no wrong answer, and no harm to the map.
 TEST_F(Sessions, AnotherRoomIsNotFound) {
   RunOptions options = options_for("elsewhere", "out_not_found");
@@ -225,7 +199,7 @@ TEST_F(Sessions, SignsOfKnownWidthMakeTheMapMetric) {
   RunOptions options = options_for("first", "out_metric");
   options.save_map = path("metric.db");
   for (const TrueSign& sign : signs)
-    options.widths.push_back({sign.word, (sign.corners[1] - sign.corners[0]).norm(), 1e-3});
+    options.lengths.push_back({sign.word, "", (sign.corners[1] - sign.corners[0]).norm(), 1e-3});
   const RunResult result = run(options);
   ASSERT_EQ(result.error, "");
   ASSERT_TRUE(result.summary.metric.has_value());
@@ -235,7 +209,7 @@ TEST_F(Sessions, SignsOfKnownWidthMakeTheMapMetric) {
   EXPECT_LT(error, 0.02);
   EXPECT_EQ(load_map(options.save_map, options.parameters).record.scale_sigma, result.summary.metric->sigma);
 
-  options.widths = {{"NO SUCH WORD", 1, 0.01}};
+  options.lengths = {{"NO SUCH WORD", "", 1, 0.01}};
   options.last = 60;
   EXPECT_NE(run(options).error.find("NO SUCH WORD"), std::string::npos);
 }

@@ -56,7 +56,9 @@ int side(const std::string& path, int line, std::string_view text, const std::st
   return static_cast<int>(value);
 }
 
-CameraModel read_line(const std::string& path, int line, const std::vector<std::string_view>& words) {
+}  // namespace
+
+CameraModel colmap_camera(const std::string& path, int line, const std::vector<std::string_view>& words) {
   if (words.size() < 4) throw InputError(path, line, "expected 'id MODEL width height parameters'");
   const ColmapModel& model = find_model(path, line, words[1]);
   CameraModel camera;
@@ -80,8 +82,6 @@ CameraModel read_line(const std::string& path, int line, const std::vector<std::
   return camera;
 }
 
-}  // namespace
-
 bool is_colmap(const std::string& path) {
   for (const TextLine& line : read_lines(path)) {
     const std::string_view text = trimmed(line.text);
@@ -103,7 +103,7 @@ CameraFile read_colmap(const std::string& path) {
           path, line.number,
           "a second camera, after that of line " + std::to_string(first) + ": keep the one that took the images");
     first = line.number;
-    out.model = read_line(path, line.number, split_blanks(text));
+    out.model = colmap_camera(path, line.number, split_blanks(text));
   }
   return out;
 }

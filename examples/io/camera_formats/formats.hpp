@@ -4,6 +4,7 @@
 #define TEXTSLAM_IO_CAMERA_FORMATS_FORMATS_HPP
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/camera_formats/camera_types.hpp"
@@ -30,6 +31,8 @@ std::string format_opencv(const CameraModel& camera);
 bool is_colmap(const std::string& path);
 CameraFile read_colmap(const std::string& path);
 std::string format_colmap(const CameraModel& camera);
+/// The camera of the words of a line: id, model, width, height, parameters.
+CameraModel colmap_camera(const std::string& path, int line, const std::vector<std::string_view>& words);
 
 /// The camera of a type and fx fy cx cy and its coefficients; those at the end that are missing are 0. The numbers are
 /// out of the model's range where it is false.

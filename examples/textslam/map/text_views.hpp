@@ -8,6 +8,15 @@
 
 namespace textslam {
 
+/// World positions of the corners of a text that has a plane.
+inline std::array<Vec3, 4> world_corners(const Map& map, const TextObject& text) {
+  std::array<Vec3, 4> corners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  textplane::text_corners(text, &corners);
+  const SE3d& T_w_h = map.keyframe(text.host).T_w_c;
+  for (Vec3& corner : corners) corner = T_w_h * corner;
+  return corners;
+}
+
 /// The text's quad as seen by the camera; false where a corner is behind it, or beyond what its lens sees.
 inline bool project_text(const Map& map, const TextObject& text, const SE3d& T_c_w, Quad<double>* quad) {
   return textplane::project_text(text, map.T_c_h(T_c_w, text.host), map.camera, quad);

@@ -3,9 +3,9 @@
 
 #include "textplane/geometry/plane.hpp"
 #include "textplane/landmarks/words.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/map_file/pixel_bytes.hpp"
 #include "textslam/map_file/tables.hpp"
-#include "textslam/report/evaluate_text.hpp"
 
 namespace textslam {
 namespace {

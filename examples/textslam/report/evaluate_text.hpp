@@ -3,7 +3,6 @@
 #ifndef TEXTSLAM_REPORT_EVALUATE_TEXT_HPP
 #define TEXTSLAM_REPORT_EVALUATE_TEXT_HPP
 
-#include <array>
 #include <vector>
 
 #include "io/evaluate_signs.hpp"
@@ -11,9 +10,6 @@
 #include "textslam/map/map.hpp"
 
 namespace textslam {
-
-/// World positions of the corners of a text that has a plane.
-std::array<Vec3, 4> world_corners(const Map& map, const TextObject& text);
 
 /// The signs in the folder truth of a sequence; see read_true_signs() in io/evaluate_signs.hpp.
 std::vector<TrueSign> read_true_signs(const Sequence& sequence);

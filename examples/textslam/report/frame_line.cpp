@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "textplane/landmarks/words.hpp"
-#include "textslam/report/evaluate_text.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/report/localisation.hpp"
 #include "textslam/report/timing.hpp"
 

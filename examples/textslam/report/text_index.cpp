@@ -4,7 +4,6 @@
 #include "textplane/landmarks/words.hpp"
 #include "textslam/common/report_json.hpp"
 #include "textslam/map/text_views.hpp"
-#include "textslam/report/evaluate_text.hpp"
 
 namespace textslam {
 int best_view(const Map& map, const TextObject& text, Quad<double>* quad) {

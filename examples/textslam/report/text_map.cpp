@@ -7,6 +7,7 @@
 #include "textplane/geometry/plane.hpp"
 #include "textplane/landmarks/text_view.hpp"
 #include "textplane/landmarks/words.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/report/report_frames.hpp"
 
 namespace textslam {

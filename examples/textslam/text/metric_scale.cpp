@@ -6,50 +6,82 @@
 
 #include "io/text_file.hpp"
 #include "textplane/landmarks/words.hpp"
+#include "textslam/text/text_centre.hpp"
 #include "textslam/text/text_width.hpp"
 
 namespace textslam {
 namespace {
 
-constexpr double kUsualSigma = 0.002;  // of a width, where none is given
+constexpr double kUsualSigma = 0.002;  // of a length, where none is given
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 
+struct Estimate {
+  double log_scale, variance;  // relative errors are errors of the logarithm
+};
+
+Estimate estimate(const KnownLength& known, double seen, double sigma) {
+  const double relative = std::hypot(known.sigma / known.length, sigma / seen);
+  return {std::log(known.length / seen), relative * relative};
+}
+
+std::vector<const TextObject*> texts_of(const Map& map, const std::string& word) {
+  std::vector<const TextObject*> found;
+  for (const TextObject& text : map.texts)
+    if (text.state == TextState::mapped && lower(textplane::consensus(text.votes)) == lower(word))
+      found.push_back(&text);
+  return found;
+}
+
+void add_widths(const Map& map, const Parameters& parameters, const KnownLength& known, std::vector<Estimate>* out) {
+  for (const TextObject* text : texts_of(map, known.word)) {
+    const TextWidth seen = text_width(map, parameters, *text);
+    if (seen.width > 0) out->push_back(estimate(known, seen.width, seen.sigma));
+  }
+}
+
+void add_distance(const Map& map, const KnownLength& known, std::vector<Estimate>* out) {
+  const auto first = texts_of(map, known.word), second = texts_of(map, known.other);
+  if (first.size() != 1 || second.size() != 1 || first == second) return;
+  const TextCentre a = text_centre(map, *first.front()), b = text_centre(map, *second.front());
+  const Vec3 between = b.at - a.at, along = between.normalized();
+  if (!(between.norm() > 0)) return;
+  out->push_back(estimate(known, between.norm(), std::sqrt(along.dot((a.covariance + b.covariance) * along))));
+}
+
 }  // namespace
 
-bool parse_known_width(const std::string& text, KnownWidth* out) {
+bool parse_known_length(const std::string& text, KnownLength* out) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) return false;
   const std::string numbers = text.substr(equals + 1);
   const std::size_t colon = numbers.find(':');
-  KnownWidth known;
+  KnownLength known;
   known.word = text.substr(0, equals);
-  if (!parse_number(numbers.substr(0, colon), &known.width) || !(known.width > 0)) return false;
-  known.sigma = kUsualSigma * known.width;
+  const std::size_t dots = known.word.find("..");
+  if (dots != std::string::npos) {
+    known.other = known.word.substr(dots + 2);
+    known.word.resize(dots);
+    if (known.word.empty() || known.other.empty()) return false;
+  }
+  if (!parse_number(numbers.substr(0, colon), &known.length) || !(known.length > 0)) return false;
+  known.sigma = kUsualSigma * known.length;
   if (colon != std::string::npos && (!parse_number(numbers.substr(colon + 1), &known.sigma) || !(known.sigma > 0)))
     return false;
   *out = known;
   return true;
 }
 
-MetricScale metric_scale(const Map& map, const Parameters& parameters, const std::vector<KnownWidth>& widths) {
-  struct Estimate {
-    double log_scale, variance;  // relative errors are errors of the logarithm
-  };
+MetricScale metric_scale(const Map& map, const Parameters& parameters, const std::vector<KnownLength>& lengths) {
   std::vector<Estimate> estimates;
-  for (const TextObject& text : map.texts) {
-    if (text.state != TextState::mapped) continue;
-    const std::string word = lower(textplane::consensus(text.votes));
-    for (const KnownWidth& known : widths) {
-      if (lower(known.word) != word) continue;
-      const TextWidth seen = text_width(map, parameters, text);
-      if (!(seen.width > 0)) continue;
-      const double sigma = std::hypot(known.sigma / known.width, seen.sigma / seen.width);
-      estimates.push_back({std::log(known.width / seen.width), sigma * sigma});
-    }
+  for (const KnownLength& known : lengths) {
+    if (known.other.empty())
+      add_widths(map, parameters, known, &estimates);
+    else
+      add_distance(map, known, &estimates);
   }
   MetricScale out;
   double sum = 0, weights = 0, chi2 = 0;

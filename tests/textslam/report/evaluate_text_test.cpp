@@ -1,5 +1,6 @@
 // Text maps against true signs.
 #include "textslam/report/evaluate_text.hpp"
+#include "textslam/map/text_views.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 
 #include "io/io_support.hpp"
 #include "textplane/geometry/plane.hpp"
+#include "textslam/map/text_views.hpp"
 #include "textslam/scene_support.hpp"
 
 namespace textslam {

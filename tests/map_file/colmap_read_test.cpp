@@ -1,0 +1,107 @@
+// COLMAP's models are read as they were written, as text and as binary; broken ones are refused in one line.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "io/text_file.hpp"
+#include "map_file/map_file_support.hpp"
+#include "textslam_map/export_map.hpp"
+#include "textslam_map/import_colmap.hpp"
+
+namespace textslam {
+namespace colmap_read_test {
+
+using namespace map_file_support;
+namespace fs = std::filesystem;
+
+class ColmapRead : public MapFileTest {
+ protected:
+  ColmapRead() : model(folder.path("model")) {
+    save();
+    written = colmap_scene(load(), model);
+    export_colmap(load(), model);
+  }
+  void keep(const std::string& extension) const {
+    for (const char* name : {"cameras", "images", "points3D"})
+      fs::remove(model + "/" + name + (extension == ".txt" ? ".bin" : ".txt"));
+  }
+  void expect_refused(const std::string& said) const {
+    try {
+      camera_of(read_colmap_scene(model), model);
+      ADD_FAILURE() << "read, but " << said;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
+  }
+
+  std::string model;
+  ColmapScene written;
+};
+
+TEST_F(ColmapRead, IsWhatWasWritten) {
+  for (const char* extension : {".bin", ".txt"}) {
+    if (std::string(extension) == ".txt") keep(extension);
+    const ColmapScene read = read_colmap_scene(model);
+    EXPECT_EQ(read.camera.model, written.camera.model);
+    EXPECT_EQ(read.camera.parameters, written.camera.parameters);
+    const CameraModel camera = camera_of(read, model);
+    EXPECT_EQ(camera.width, map.width);
+    EXPECT_NEAR(camera.pinhole().cx, map.camera.pinhole.cx, 1e-12);
+    ASSERT_EQ(read.images.size(), written.images.size());
+    for (std::size_t i = 0; i < read.images.size(); ++i) {
+      const ColmapScene::Image &a = read.images[i], &b = written.images[i];
+      EXPECT_EQ(a.id, b.id);
+      EXPECT_EQ(a.name, b.name);
+      EXPECT_LT((a.T_c_w.R - b.T_c_w.R).norm() + (a.T_c_w.t - b.T_c_w.t).norm(), 1e-12);
+      ASSERT_EQ(a.pixels.size(), b.pixels.size());
+      for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+        EXPECT_EQ(a.pixels[k].px, b.pixels[k].px);
+        EXPECT_EQ(a.pixels[k].point, b.pixels[k].point);
+      }
+    }
+    ASSERT_EQ(read.points.size(), written.points.size());
+    for (std::size_t i = 0; i < read.points.size(); ++i) {
+      EXPECT_EQ(read.points[i].p, written.points[i].p);
+      EXPECT_EQ(read.points[i].id, written.points[i].id);
+      EXPECT_EQ(read.points[i].grey, written.points[i].grey);
+      EXPECT_EQ(read.points[i].track, written.points[i].track);
+    }
+  }
+}
+
+TEST_F(ColmapRead, CutFilesAreRefused) {
+  for (const char* name : {"/cameras.bin", "/images.bin", "/points3D.bin"}) {
+    const std::string bytes = read_file(model + name);
+    for (std::size_t end = 0; end < bytes.size(); end += 1 + bytes.size() / 60) {
+      folder.write("model" + std::string(name), bytes.substr(0, end));
+      expect_refused("it ends in the middle");
+    }
+    folder.write("model" + std::string(name), bytes);
+  }
+}
+
+TEST_F(ColmapRead, WhatIsNoModelIsRefused) {
+  keep(".txt");
+  const std::string cameras = read_file(model + "/cameras.txt"), images = read_file(model + "/images.txt");
+  folder.write("model/cameras.txt", cameras + "2 PINHOLE 64 48 50 50 32 24\n");
+  expect_refused("cameras.txt:3: a second camera");
+  folder.write("model/cameras.txt", "# none\n");
+  expect_refused("no camera");
+  folder.write("model/cameras.txt", "1 PINHOLE 64 48 50 50 32\n");
+  expect_refused("PINHOLE has 4 parameters, not 3");
+  folder.write("model/cameras.txt", cameras);
+  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1\n\n");
+  expect_refused("images.txt:1: expected 'id qw");
+  folder.write("model/images.txt", "1 0 0 0 0 0 0 0 1 a.png\n\n");
+  expect_refused("images.txt:1: a pose that is none");
+  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n1 2\n");
+  expect_refused("images.txt:2: expected 'x y point'");
+  folder.write("model/images.txt", images);
+  folder.write("model/points3D.txt", "1 0 0 nan 0 0 0 1\n");
+  expect_refused("points3D.txt:1");
+  fs::remove(model + "/images.txt");
+  expect_refused("images.txt");
+}
+
+}  // namespace colmap_read_test
+}  // namespace textslam
