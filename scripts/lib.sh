@@ -14,12 +14,12 @@ fi
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev libyaml-cpp-dev libsqlite3-dev fonts-dejavu-core fonts-dejavu-extra"
-packages_test="$packages_demo libgtest-dev"
-packages_ci="$packages_test libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
+packages_test="$packages_build libgtest-dev"
+packages_ci="$packages_demo libgtest-dev libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
   pandoc libjs-katex fonts-katex clang-format pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel
   python3-pip python3-pytest mypy"
-packages_all="$packages_ci python3-sympy libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
+packages_all="$packages_ci python3-sympy python3-matplotlib libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
   g++-11-s390x-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32 nodejs
   g++-mingw-w64-x86-64-posix wine64 wine
   lintian colcon python3-colcon-ros python3-colcon-recursive-crawl"

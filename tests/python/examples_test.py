@@ -31,3 +31,19 @@ def test_numbered_example(number, text, side, bound, monkeypatch):
     assert match, output.getvalue()
     number = float(match[1])
     assert number > float(bound) if side == "ABOVE" else number < float(bound), output.getvalue()
+
+
+def test_the_tour(tmp_path, monkeypatch):
+    pytest.importorskip("matplotlib")
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    monkeypatch.setattr(sys, "argv", ["tour.py", str(tmp_path)])
+    monkeypatch.setattr(sys, "path", [str(FOLDER / "examples"), *sys.path])
+    output = io.StringIO()
+    with contextlib.redirect_stdout(output):
+        runpy.run_path(str(FOLDER / "examples" / "tour.py"))
+    assert len(list(tmp_path.glob("?_*.png"))) == 5
+    said = dict(re.findall(r"(corners off by at most|share of guesses that come back|texts mapped) ([\d.]+)",
+                           output.getvalue()))
+    assert float(said["corners off by at most"]) < 0.3, output.getvalue()
+    assert float(said["share of guesses that come back"]) > 0.1, output.getvalue()
+    assert float(said["texts mapped"]) >= 2, output.getvalue()

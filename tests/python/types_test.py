@@ -54,6 +54,8 @@ def test_mypy_is_content_with_package_and_examples():
     for files in [str(package / "__init__.py"), str(package / "_core.pyi")], programs:
         if not files:
             continue
+        # matplotlib, of the tour, may come without types.
         result = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", os.devnull,
-                                 "--scripts-are-modules", *files], capture_output=True, text=True, env=environment)
+                                 "--ignore-missing-imports", "--scripts-are-modules", *files],
+                                capture_output=True, text=True, env=environment)
         assert result.returncode == 0, result.stdout + result.stderr
