@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 4ebb6de73863cab8
+// Hash of these files: 7d279672aabe8c56
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 4ebb6de73863cab8"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 7d279672aabe8c56"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -36280,11 +36280,11 @@ inline void add_observations_of(const TextObject& other, int first_keyframe, con
 TEXTPLANE_DEFERRED
 inline bool same_text(const TextOptions& options, const KeyframeLookup& keyframes, const TextObject& a,
                       const TextObject& b) {
-  if (!words_agree(consensus(a.votes), consensus(b.votes), options)) return false;
   const TextKeyframe host_a = keyframes(a.host), host_b = keyframes(b.host);
   const SE3d T_a_b = host_a.from(host_b), T_b_a = host_b.from(host_a);
   return detail::overlaps_in_host(options, T_a_b, a, b) && detail::overlaps_in_host(options, T_b_a, b, a) &&
-         detail::planes_agree(options, T_a_b, a, b) && detail::planes_agree(options, T_b_a, b, a);
+         words_agree(consensus(a.votes), consensus(b.votes), options) && detail::planes_agree(options, T_a_b, a, b) &&
+         detail::planes_agree(options, T_b_a, b, a);
 }
 
 /// Merges two texts into the one with more views, `a` among equals. Its plane stays; the other text is dropped.
@@ -36299,19 +36299,31 @@ inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b
   drop(from);
 }
 
-/// Merges the mapped texts that are the same. Returns how many are gone.
-TEXTPLANE_DEFERRED
-int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts) {
-  int merged = 0;
+/// Merges the mapped texts that are the same. Returns how many are gone. Of each pair was_seen(text) holds for one at
+/// least: where few texts have changed, the time is theirs times the number of all.
+template <class Predicate>
+int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts,
+                          Predicate was_seen) {
+  std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < texts.size(); ++i)
-    for (std::size_t j = i + 1; j < texts.size(); ++j) {
-      TextObject &a = texts[i], &b = texts[j];
+    if (texts[i].state == TextState::mapped && was_seen(texts[i])) seen.push_back(i);
+  int merged = 0;
+  for (const std::size_t i : seen)
+    for (std::size_t j = 0; j < texts.size(); ++j) {
+      if (j <= i && (j == i || std::binary_search(seen.begin(), seen.end(), j))) continue;  // that pair had its turn
+      TextObject &a = texts[(std::min)(i, j)], &b = texts[(std::max)(i, j)];
       if (a.state != TextState::mapped || b.state != TextState::mapped || !same_text(options, keyframes, a, b))
         continue;
       merge_texts(options, a, b);
       ++merged;
     }
   return merged;
+}
+
+/// The same of all pairs.
+TEXTPLANE_DEFERRED
+int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts) {
+  return merge_duplicate_texts(options, keyframes, texts, [](const TextObject&) { return true; });
 }
 
 TEXTPLANE_END_NAMESPACE
@@ -36845,7 +36857,9 @@ class BasicTextMapping {
     for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
     for (std::size_t d = 0; d < detections.size(); ++d)
       if (!taken[d]) propose(id, keyframe, detections[d], points);
-    merge_duplicate_texts(options_, keyframes_, objects_);
+    merge_duplicate_texts(options_, keyframes_, objects_, [id](const TextObject& text) {
+      return text.host == id || (!text.views.empty() && text.views.back() == id);
+    });
     erase_dropped();
   }
 

@@ -89,6 +89,18 @@ TEST_F(TextMergeTest, TheOneObservedMoreIsKeptAndGetsAll) {
   EXPECT_EQ(merge_duplicate_texts(options, KeyframeLookup(frames), texts), 0);
 }
 
+// A pair is compared where one of the two was seen, whichever comes first. The older one is kept, so what was seen may be
+// gone after the first.
+TEST_F(TextMergeTest, PairsOfWhichNoneWasSeenWait) {
+  for (int seen = -1; seen < 3; ++seen) {
+    texts.clear();
+    for (const int host : {0, 1, 2}) add(host, -0.4, "EXIT", {3});
+    const int merged = merge_duplicate_texts(options, KeyframeLookup(frames), texts,
+                                             [seen](const TextObject& text) { return text.id == seen; });
+    EXPECT_EQ(merged, seen < 0 ? 0 : seen == 0 ? 2 : 1);
+  }
+}
+
 TEST_F(TextMergeTest, ThreeBecomeOneAndUnfinishedOnesStay) {
   const int a = add(0, -0.4, "EXIT", {1, 2});
   add(1, -0.4, "EXIT", {2});

@@ -38,7 +38,9 @@ class BasicTextMapping {
     for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
     for (std::size_t d = 0; d < detections.size(); ++d)
       if (!taken[d]) propose(id, keyframe, detections[d], points);
-    merge_duplicate_texts(options_, keyframes_, objects_);
+    merge_duplicate_texts(options_, keyframes_, objects_, [id](const TextObject& text) {
+      return text.host == id || (!text.views.empty() && text.views.back() == id);
+    });
     erase_dropped();
   }
 
