@@ -1,6 +1,7 @@
 #include "renderer/canvas.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "renderer/random.hpp"
@@ -13,10 +14,32 @@ int texels(double metres, double density) { return std::max(1, static_cast<int>(
 
 double smooth(double a) noexcept { return a * a * (3.0 - 2.0 * a); }
 
+// Rounded down; without SSE4.1 std::floor is a call.
+std::int64_t below(double x) noexcept {
+  const std::int64_t i = static_cast<std::int64_t>(x);
+  return x < static_cast<double>(i) ? i - 1 : i;
+}
+
 double lattice(std::int64_t x, std::int64_t y, std::uint64_t seed) noexcept {
   return 2.0 * unit(mix(seed + static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15ULL +
                         static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fULL)) -
          1.0;
+}
+
+// The four numbers about a place. Neighbouring texels lie in one cell, of each octave: the last ones are kept by seed.
+struct Cell {
+  std::int64_t i = INT64_MIN, j = INT64_MIN;
+  std::uint64_t seed = 0;
+  double n00 = 0, n10 = 0, n01 = 0, n11 = 0;
+};
+
+const Cell& cell_at(std::int64_t i, std::int64_t j, std::uint64_t seed) noexcept {
+  thread_local std::array<Cell, 64> kept;
+  Cell& cell = kept[(seed * 0x9e3779b97f4a7c15ULL) >> 58];
+  if (cell.i != i || cell.j != j || cell.seed != seed)
+    cell = {
+        i, j, seed, lattice(i, j, seed), lattice(i + 1, j, seed), lattice(i, j + 1, seed), lattice(i + 1, j + 1, seed)};
+  return cell;
 }
 
 }  // namespace
@@ -109,12 +132,10 @@ void Canvas::triangle(const textplane::Vector2<double> corner[3], double value, 
 }
 
 double value_noise(double x, double y, std::uint64_t seed) noexcept {
-  const double fx = std::floor(x), fy = std::floor(y);
-  const std::int64_t i = static_cast<std::int64_t>(fx), j = static_cast<std::int64_t>(fy);
-  const double a = smooth(x - fx), b = smooth(y - fy);
-  const double n00 = lattice(i, j, seed), n10 = lattice(i + 1, j, seed);
-  const double n01 = lattice(i, j + 1, seed), n11 = lattice(i + 1, j + 1, seed);
-  const double top = n00 + a * (n10 - n00), bottom = n01 + a * (n11 - n01);
+  const std::int64_t i = below(x), j = below(y);
+  const double a = smooth(x - static_cast<double>(i)), b = smooth(y - static_cast<double>(j));
+  const Cell& cell = cell_at(i, j, seed);
+  const double top = cell.n00 + a * (cell.n10 - cell.n00), bottom = cell.n01 + a * (cell.n11 - cell.n01);
   return top + b * (bottom - top);
 }
 

@@ -92,7 +92,9 @@ Image<std::uint8_t> develop(const Image<double>& light, const SensorState& state
       const double value = values(x, y);
       const double sigma = std::sqrt(state.noise * state.noise + state.shot * std::max(0.0, value));
       const double noisy = value + sigma * near_normal(mix(noise_seed + place * 0x9e3779b97f4a7c15ULL));
-      picture(x, y) = static_cast<std::uint8_t>(std::lround(std::clamp(noisy, 0.0, 255.0)));
+      const double grey = std::clamp(noisy, 0.0, 255.0);
+      const int whole = static_cast<int>(grey);
+      picture(x, y) = static_cast<std::uint8_t>(grey - whole >= 0.5 ? whole + 1 : whole);
     }
   }
   return picture;

@@ -23,15 +23,7 @@ textplane::Image<std::uint8_t> halved(const textplane::Image<std::uint8_t>& from
   return to;
 }
 
-}  // namespace
-
-Texture::Texture(textplane::Image<std::uint8_t> base) {
-  levels_.push_back(std::move(base));
-  while (levels_.back().width() > 1 || levels_.back().height() > 1) levels_.push_back(halved(levels_.back()));
-}
-
-double Texture::bilinear(int level, double x, double y) const noexcept {
-  const textplane::Image<std::uint8_t>& image = levels_[static_cast<std::size_t>(level)];
+double bilinear(const textplane::Image<std::uint8_t>& image, double x, double y) noexcept {
   x = std::clamp(x, 0.0, static_cast<double>(image.width() - 1));
   y = std::clamp(y, 0.0, static_cast<double>(image.height() - 1));
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
@@ -44,15 +36,11 @@ double Texture::bilinear(int level, double x, double y) const noexcept {
   return upper + b * (lower - upper);
 }
 
-double Texture::trilinear(double level, double x, double y) const noexcept {
-  const double top = static_cast<double>(levels_.size() - 1);
-  level = std::clamp(level, 0.0, top);
-  const int l = static_cast<int>(level);
-  const double part = level - l, scale = 1.0 / static_cast<double>(1 << l);
-  const double fine = bilinear(l, (x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);
-  if (part <= 0.0) return fine;
-  const double coarse = bilinear(l + 1, (x + 0.5) * 0.5 * scale - 0.5, (y + 0.5) * 0.5 * scale - 0.5);
-  return fine + part * (coarse - fine);
+}  // namespace
+
+Texture::Texture(textplane::Image<std::uint8_t> base) {
+  levels_.push_back(std::move(base));
+  while (levels_.back().width() > 1 || levels_.back().height() > 1) levels_.push_back(halved(levels_.back()));
 }
 
 double Texture::lookup(const textplane::Vector2<double>& p, const textplane::Vector2<double>& side_x,
@@ -60,15 +48,31 @@ double Texture::lookup(const textplane::Vector2<double>& p, const textplane::Vec
   const double x2 = side_x.squaredNorm(), y2 = side_y.squaredNorm();
   const textplane::Vector2<double>& axis = x2 > y2 ? side_x : side_y;
   const double longer = std::sqrt(std::max(x2, y2));
-  if (longer <= 1.0) return bilinear(0, p[0], p[1]);
+  if (longer <= 1.0) return bilinear(levels_.front(), p[0], p[1]);
   const double area = std::abs(side_x[0] * side_y[1] - side_x[1] * side_y[0]);
   const double shorter = std::max(1.0, area / longer);
-  const int probes = std::min(kMaxProbes, static_cast<int>(std::ceil(longer / shorter - 0.25)));
-  const double level = std::log2(std::max(1.0, longer / probes));
+  const double wanted = longer / shorter - 0.25;  // rounded up; without SSE4.1 std::ceil is a call
+  int probes = kMaxProbes;
+  if (wanted <= kMaxProbes) probes = static_cast<int>(wanted) + (wanted > static_cast<int>(wanted) ? 1 : 0);
+
+  // The same two levels for all probes.
+  const double width = longer / probes;
+  const double level = width > 1.0 ? std::min(std::log2(width), static_cast<double>(levels_.size() - 1)) : 0.0;
+  const int l = static_cast<int>(level);
+  const double part = level - l, scale = 1.0 / static_cast<double>(1 << l);
+  const textplane::Image<std::uint8_t>& fine = levels_[static_cast<std::size_t>(l)];
+  const textplane::Image<std::uint8_t>* coarse = part > 0.0 ? &levels_[static_cast<std::size_t>(l) + 1] : nullptr;
   double sum = 0.0;
   for (int i = 0; i < probes; ++i) {
     const double along = (i + 0.5) / probes - 0.5;
-    sum += trilinear(level, p[0] + along * axis[0], p[1] + along * axis[1]);
+    const double x = p[0] + along * axis[0], y = p[1] + along * axis[1];
+    const double near = bilinear(fine, (x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5);
+    if (coarse) {
+      const double far = bilinear(*coarse, (x + 0.5) * 0.5 * scale - 0.5, (y + 0.5) * 0.5 * scale - 0.5);
+      sum += near + part * (far - near);
+    } else {
+      sum += near;
+    }
   }
   return sum / probes;
 }

@@ -25,9 +25,6 @@ class Texture {
                 const textplane::Vector2<double>& side_y) const noexcept;
 
  private:
-  double bilinear(int level, double x, double y) const noexcept;
-  double trilinear(double level, double x, double y) const noexcept;
-
   std::vector<textplane::Image<std::uint8_t>> levels_;
 };
 
