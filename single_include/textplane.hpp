@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 7d279672aabe8c56
+// Hash of these files: d7e0902067ffd350
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 7d279672aabe8c56"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 d7e0902067ffd350"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -35944,6 +35944,7 @@ struct TextNotes {
   std::vector<Vector3<double>> inside;                ///< Known points in the quad, in the host.
   Vector3<double> guess = Vector3<double>::Zero();    ///< A plane by the depths about it, or zero.
   int age = 0;                                        ///< Key frames since.
+  int mapped_by = -1;                                 ///< The key frame that made it a mapped text.
   std::size_t refined_views = 0;                      ///< Views at the last refinement.
 };
 
@@ -36299,8 +36300,8 @@ inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b
   drop(from);
 }
 
-/// Merges the mapped texts that are the same. Returns how many are gone. Of each pair was_seen(text) holds for one at
-/// least: where few texts have changed, the time is theirs times the number of all.
+/// Merges the mapped texts that are the same, and returns how many are gone. A pair is compared where was_seen(text)
+/// holds for one of the two: the time is the number of texts seen times that of all.
 template <class Predicate>
 int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts,
                           Predicate was_seen) {
@@ -36857,8 +36858,9 @@ class BasicTextMapping {
     for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
     for (std::size_t d = 0; d < detections.size(); ++d)
       if (!taken[d]) propose(id, keyframe, detections[d], points);
-    merge_duplicate_texts(options_, keyframes_, objects_, [id](const TextObject& text) {
-      return text.host == id || (!text.views.empty() && text.views.back() == id);
+    merge_duplicate_texts(options_, keyframes_, objects_, [this, id](const TextObject& text) {
+      const TextNotes& notes = notes_[static_cast<std::size_t>(&text - objects_.data())];
+      return text.host == id || notes.mapped_by == id || (!text.views.empty() && text.views.back() == id);
     });
     erase_dropped();
   }
@@ -37022,6 +37024,7 @@ class BasicTextMapping {
                         options_.cull_zncc, text);
       if (!is_proven(text, options_) || !refined(text)) return;
       text.state = TextState::mapped;
+      notes.mapped_by = id;
       notes.refined_views = text.views.size();
       notes.rays.clear();
       notes.inside.clear();

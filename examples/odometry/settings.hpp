@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "textplane/landmarks/text_map.hpp"
 
@@ -20,10 +21,12 @@ inline void set_by_name(const std::string& setting, textplane::TextMapOptions* o
   const double number = std::strtod(value.c_str(), &rest);
   if (value.empty() || *rest != '\0' || !std::isfinite(number))
     throw std::invalid_argument("--set " + setting + ": wanted NAME=NUMBER");
-#define ODOMETRY_SETTING(member)                                      \
-  if (name == #member) {                                              \
-    options->member = static_cast<decltype(options->member)>(number); \
-    return;                                                           \
+#define ODOMETRY_SETTING(member)                                                                                   \
+  if (name == #member) {                                                                                           \
+    if (std::is_integral_v<decltype(options->member)> && (number != std::floor(number) || std::abs(number) > 1e9)) \
+      throw std::invalid_argument("--set " + setting + ": wanted a whole number");                                 \
+    options->member = static_cast<decltype(options->member)>(number);                                              \
+    return;                                                                                                        \
   }
 #include "odometry_settings.inc"
 #undef ODOMETRY_SETTING

@@ -191,15 +191,19 @@ void track_frames(const RunOptions& options, const Sequence& sequence, const std
   }
 }
 
+std::string no_scale(const std::vector<KnownLength>& lengths) {
+  const KnownLength& first = lengths.front();
+  return (first.other.empty() ? "no mapped text reads '" + first.word + "'"
+                              : "'" + first.word + "' and '" + first.other + "' are not on one mapped text each") +
+         (lengths.size() > 1 ? ", and no other length counts" : "") + ": the map has no scale";
+}
+
 // By what is known of signs.
 std::optional<MetricScale> make_metric(const RunOptions& options, System* system) {
   if (options.lengths.empty()) return std::nullopt;
   const Map& map = system->map();
   const MetricScale scale = metric_scale(map, at_size(options.parameters, map.width, map.height), options.lengths);
-  if (scale.texts == 0)
-    throw InputError("--scale", 0,
-                     "no mapped text reads '" + options.lengths.front().word +
-                         (options.lengths.size() > 1 ? "' or another of the words" : "'") + ": the map has no scale");
+  if (scale.texts == 0) throw InputError("--scale", 0, no_scale(options.lengths));
   system->scale_by(scale.metres);
   return scale;
 }

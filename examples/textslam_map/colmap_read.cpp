@@ -6,10 +6,12 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <set>
 
 #include "io/camera_formats/formats.hpp"
 #include "io/input_error.hpp"
 #include "io/text_file.hpp"
+#include "textplane/core/numeric.hpp"
 #include "textslam_map/colmap_scene.hpp"
 
 namespace textslam {
@@ -22,11 +24,7 @@ SE3d read_pose(const std::array<double, 7>& numbers, const std::string& path, in
   return {q.normalized().toRotationMatrix(), t};
 }
 
-int id_of(double number, const std::string& path, int line) {
-  if (!(number >= 0 && number < std::numeric_limits<int>::max()) || number != std::floor(number))
-    throw InputError(path, line, "an id that is none, or too large");
-  return static_cast<int>(number);
-}
+int id_of(double number, const std::string& path, int line) { return require_whole(number, path, line, "an id"); }
 
 // Little-endian bytes.
 class ByteReader {
@@ -69,6 +67,11 @@ void only_camera(std::uint64_t count, const std::string& path) {
     throw InputError(path, 0, "it has " + std::to_string(count) + " cameras: a map has one, for all images");
 }
 
+void own_camera(int id, int camera, const std::string& path, int line) {
+  if (id != camera)
+    throw InputError(path, line, "an image of camera " + std::to_string(id) + ", which the model does not have");
+}
+
 ColmapScene read_binary(const std::string& folder) {
   ColmapScene scene;
   ByteReader cameras(folder + "/cameras.bin"), images(folder + "/images.bin"), points(folder + "/points3D.bin");
@@ -77,18 +80,18 @@ ColmapScene read_binary(const std::string& folder) {
   const std::uint64_t model = cameras.next(4);
   if (model >= kColmapModels.size()) throw InputError(cameras.path(), 0, "a camera model that is not known");
   scene.camera.model = kColmapModels[model].name;
-  scene.camera.width = id_of(static_cast<double>(cameras.count()), cameras.path(), 0);
-  scene.camera.height = id_of(static_cast<double>(cameras.count()), cameras.path(), 0);
+  scene.camera.width = require_whole(static_cast<double>(cameras.count()), cameras.path(), 0, "the width");
+  scene.camera.height = require_whole(static_cast<double>(cameras.count()), cameras.path(), 0, "the height");
   for (int i = 0; i < kColmapModels[model].parameters; ++i) scene.camera.parameters.push_back(cameras.number());
 
   const std::uint64_t image_count = images.count();
   for (std::uint64_t i = 0; i < image_count; ++i) {
     ColmapScene::Image image;
-    image.id = image.keyframe = images.id();
+    image.id = images.id();
     std::array<double, 7> pose{};
     for (double& number : pose) number = images.number();
     image.T_c_w = read_pose(pose, images.path(), 0);
-    images.id();  // of the camera
+    own_camera(images.id(), scene.camera.id, images.path(), 0);
     image.name = images.name();
     const std::uint64_t pixels = images.count();
     for (std::uint64_t k = 0; k < pixels; ++k) {
@@ -134,13 +137,18 @@ std::vector<TextLine> lines_of(const std::string& path) {
 void read_texts(const std::string& folder, ColmapScene* scene) {
   const std::string images = folder + "/images.txt", points = folder + "/points3D.txt";
   const std::vector<TextLine> lines = lines_of(images);
-  for (std::size_t i = 0; i < lines.size(); i += 2) {
+  for (std::size_t i = 0; i < lines.size();) {
     const auto words = split_blanks(lines[i].text);
+    if (words.empty()) {  // only the line of its pixels may be blank
+      ++i;
+      continue;
+    }
     const int line = lines[i].number;
     if (words.size() < 10) throw InputError(images, line, "expected 'id qw qx qy qz tx ty tz camera name'");
     const auto number = [&](std::size_t k) { return require_number(words[k], images, line, "a number of the image"); };
     ColmapScene::Image image;
-    image.id = image.keyframe = id_of(number(0), images, line);
+    image.id = id_of(number(0), images, line);
+    own_camera(id_of(number(8), images, line), scene->camera.id, images, line);
     std::array<double, 7> pose{};
     for (std::size_t k = 0; k < 7; ++k) pose[k] = number(k + 1);
     image.T_c_w = read_pose(pose, images, line);
@@ -148,16 +156,18 @@ void read_texts(const std::string& folder, ColmapScene* scene) {
     image.name = std::string(trimmed(image.name));
     if (i + 1 < lines.size()) {
       const auto pixels = split_blanks(lines[i + 1].text);
-      if (pixels.size() % 3 != 0) throw InputError(images, line + 1, "expected 'x y point' for each pixel");
+      const int below = lines[i + 1].number;
+      if (pixels.size() % 3 != 0) throw InputError(images, below, "expected 'x y point' for each pixel");
       for (std::size_t k = 0; k < pixels.size(); k += 3) {
         const auto value = [&](std::size_t n) {
-          return require_number(pixels[k + n], images, line + 1, "a number of a pixel");
+          return require_number(pixels[k + n], images, below, "a number of a pixel");
         };
         const double point = value(2);
-        image.pixels.push_back({{value(0), value(1)}, point == -1 ? -1 : id_of(point, images, line + 1)});
+        image.pixels.push_back({{value(0), value(1)}, point == -1 ? -1 : id_of(point, images, below)});
       }
     }
     scene->images.push_back(std::move(image));
+    i += 2;
   }
   for (const TextLine& line : lines_of(points)) {
     const auto words = split_blanks(line.text);
@@ -170,7 +180,7 @@ void read_texts(const std::string& folder, ColmapScene* scene) {
     ColmapScene::Point point;
     point.id = id_of(number(0), points, line.number);
     point.p = {number(1), number(2), number(3)};
-    point.grey = static_cast<int>((number(4) + number(5) + number(6)) / 3);
+    point.grey = static_cast<int>(std::clamp((number(4) + number(5) + number(6)) / 3, 0.0, 255.0));
     point.error = number(7);
     for (std::size_t k = 8; k + 1 < words.size(); k += 2)
       point.track.emplace_back(id_of(number(k), points, line.number),
@@ -179,21 +189,40 @@ void read_texts(const std::string& folder, ColmapScene* scene) {
   }
 }
 
+void check(const ColmapScene& scene, const std::string& folder) {
+  const auto refuse = [&](const std::string& what) { throw InputError(folder, 0, "the model has " + what); };
+  std::set<int> ids, points;
+  std::set<std::string> names;
+  for (const ColmapScene::Point& point : scene.points) {
+    if (!point.p.allFinite()) refuse("a point that is not finite");
+    if (!points.insert(point.id).second) refuse("two points " + std::to_string(point.id));
+  }
+  for (const ColmapScene::Image& image : scene.images) {
+    if (!ids.insert(image.id).second) refuse("two images " + std::to_string(image.id));
+    if (!names.insert(image.name).second) refuse("two images named " + shown(image.name));
+    if (!textplane::all_finite(image.T_c_w.inverse())) refuse("a pose that is not finite");
+    for (const ColmapScene::Pixel& pixel : image.pixels) {
+      if (!(pixel.px.x() >= 0 && pixel.px.y() >= 0 && pixel.px.x() <= scene.camera.width &&
+            pixel.px.y() <= scene.camera.height))
+        refuse("a pixel outside of its image, " + shown(image.name));
+      if (pixel.point >= 0 && points.count(pixel.point) == 0)
+        refuse("no point " + std::to_string(pixel.point) + ", which " + shown(image.name) + " sees");
+    }
+  }
+}
+
 }  // namespace
 
 ColmapScene read_colmap_scene(const std::string& folder) {
   ColmapScene scene;
-  if (std::filesystem::exists(folder + "/cameras.bin")) {
+  std::error_code none;
+  if (std::filesystem::exists(folder + "/cameras.bin", none)) {
     scene = read_binary(folder);
   } else {
     scene.camera = camera_of_text(read_file(folder + "/cameras.txt"), folder + "/cameras.txt");
     read_texts(folder, &scene);
   }
-  for (const ColmapScene::Image& image : scene.images)
-    for (const ColmapScene::Pixel& pixel : image.pixels)
-      if (!pixel.px.allFinite()) throw InputError(folder, 0, "the model has a pixel that is not finite");
-  for (const ColmapScene::Point& point : scene.points)
-    if (!point.p.allFinite()) throw InputError(folder, 0, "the model has a point that is not finite");
+  check(scene, folder);
   return scene;
 }
 

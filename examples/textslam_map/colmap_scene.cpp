@@ -1,7 +1,9 @@
 #include "textslam_map/colmap_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "io/input_error.hpp"
@@ -38,6 +40,12 @@ int grey_of(const Map& map, const MapPoint& point) {
 
 }  // namespace
 
+int require_whole(double number, const std::string& path, int line, const char* what) {
+  if (!(number >= 0 && number < std::numeric_limits<int>::max()) || number != std::floor(number))
+    throw InputError(path, line, std::string(what) + " should be a whole number below 2^31");
+  return static_cast<int>(number);
+}
+
 ColmapScene::Camera camera_of_text(const std::string& text, const std::string& path) {
   ColmapScene::Camera camera;
   int line = 0, cameras = 0;
@@ -51,10 +59,10 @@ ColmapScene::Camera camera_of_text(const std::string& text, const std::string& p
     if (++cameras > 1) throw InputError(path, line, "a second camera: a map has one, for all images");
     if (words.size() < 5) throw InputError(path, line, "expected 'id model width height parameters'");
     const auto number = [&](std::size_t i) { return require_number(words[i], path, line, "a number of the camera"); };
-    camera.id = static_cast<int>(number(0));
+    camera.id = require_whole(number(0), path, line, "the id");
     camera.model = std::string(words[1]);
-    camera.width = static_cast<int>(number(2));
-    camera.height = static_cast<int>(number(3));
+    camera.width = require_whole(number(2), path, line, "the width");
+    camera.height = require_whole(number(3), path, line, "the height");
     for (std::size_t i = 4; i < words.size(); ++i) camera.parameters.push_back(number(i));
   }
   if (cameras == 0) throw InputError(path, 0, "no camera");

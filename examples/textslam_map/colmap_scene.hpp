@@ -1,4 +1,4 @@
-// A map as COLMAP's model, and its files as text and binary.
+// COLMAP's model: of a map, and its files as text and binary, written and read.
 #ifndef TEXTSLAM_MAP_COLMAP_SCENE_HPP
 #define TEXTSLAM_MAP_COLMAP_SCENE_HPP
 
@@ -29,7 +29,8 @@ inline constexpr std::array<ColmapCameraModel, 11> kColmapModels = {{{"SIMPLE_PI
                                                                      {"THIN_PRISM_FISHEYE", 12}}};
 inline constexpr double kColmapHalfPixel = 0.5;  ///< The centre of its top-left pixel is there, ours at 0.
 
-/// Ids are ours and one. Pixels are COLMAP's: the centre of the top-left one is (0.5, 0.5).
+/// Of a map, ids are the map's and one; of a model that was read, they are as they are there. Pixels are COLMAP's: the
+/// centre of the top-left one is (0.5, 0.5).
 struct ColmapScene {
   struct Camera {
     int id = 1;
@@ -42,7 +43,8 @@ struct ColmapScene {
     int point;
   };
   struct Image {
-    int id, keyframe;
+    int id;
+    int keyframe = -1;  ///< Of a map.
     SE3d T_c_w;
     std::string name;
     std::vector<Pixel> pixels;
@@ -62,6 +64,9 @@ struct ColmapScene {
 
 /// Throws InputError that names `folder` where COLMAP has no word for the camera.
 ColmapScene colmap_scene(const LoadedMap& map, const std::string& folder);
+
+/// A number of a model as the integer that it should be, 0 to 2^31 - 2. Throws InputError that says so of `what`.
+int require_whole(double number, const std::string& path, int line, const char* what);
 
 /// The one camera of cameras.txt. Throws InputError where it is not one.
 ColmapScene::Camera camera_of_text(const std::string& text, const std::string& path);

@@ -27,7 +27,7 @@ class FindCommand {
     command_->add_option("FILE", file_, "Map file")->required();
     command_->add_option("IMAGE", images_, "Images of the map's camera")->required();
     command_->add_option("--detections", detections_,
-                         "Of --detector files: their folder, if they are not beside the images");
+                         "Of --detector files: their folder, if it is not `detections` beside the images");
     command_->add_flag("--json", json_, "Print it as JSON");
     add_detector_options(*command_, detector_);
   }
@@ -70,13 +70,14 @@ class ImportCommand {
     command_->add_option("--images", images_, "Folder of the images that the model names")->required();
     command_->add_option("--output", output_, "Map file to write; one that is there is replaced")->required();
     command_->add_option("--detections", detections_,
-                         "Of --detector files: their folder, if they are not beside the images");
+                         "Of --detector files: their folder, if it is not `detections` beside the images");
     add_detector_options(*command_, detector_);
   }
   bool parsed() const { return command_->parsed(); }
   int run() const {
     check_can_save(output_);
     const ColmapScene scene = read_colmap_scene(model_);
+    if (scene.images.size() < 2) throw InputError(model_, 0, "the model has fewer than two images");
     const CameraModel camera = camera_of(scene, model_);
     ImageDetections detections(detector_, camera, detections_);
     LoadedMap map = import_colmap(scene, camera, images_, detections);

@@ -31,6 +31,8 @@ ImageAnswer answer_of(const Relocalisation& found) {
 
 ImageFinder::ImageFinder(const LoadedMap& map)
     : map_(map), parameters_(at_size(Parameters{}, map.map.width, map.map.height)) {
+  // A lost frame leaves some key frames to the next one; a single image has no next one.
+  parameters_.place_compared = std::max(parameters_.place_compared, static_cast<int>(map.map.keyframes.size()) + 1);
   double reach = 0;
   for (const TextObject& text : map.map.texts) {
     const std::string word = textplane::consensus(text.votes);

@@ -30,6 +30,8 @@ struct ImageAnswer {
 class ImageFinder {
  public:
   explicit ImageFinder(const LoadedMap& map);
+  ImageFinder(const ImageFinder&) = delete;
+  ImageFinder& operator=(const ImageFinder&) = delete;
 
   /// `image`: of the map's camera.
   ImageAnswer find(Image<std::uint8_t> image, std::vector<Detection> detections);

@@ -3,18 +3,24 @@
 #define TEXTSLAM_MAP_IMAGE_DETECTIONS_HPP
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "io/input_error.hpp"
+#include "io/paths.hpp"
 #include "textslam/detect/text_detector.hpp"
 
 namespace textslam {
 
 class ImageDetections {
  public:
-  /// `folder`: of the files of --detector files; empty: they are beside the images. Throws as make_detector().
+  /// `folder`: of the files of --detector files; empty: `detections` beside each image. Throws as make_detector(), and
+  /// InputError where there is no such folder.
   ImageDetections(const DetectorOptions& options, const CameraModel& camera, const std::string& folder) {
+    if (!folder.empty() && !is_folder(folder))
+      throw InputError(folder, 0, "no such folder: detections are expected there");
     sequence_.camera = camera;
     sequence_.detections = folder;
     detector_ = make_detector(options, sequence_);
@@ -29,12 +35,16 @@ class ImageDetections {
     FrameRef frame;
     frame.path = path;
     frame.stem = file.stem().string();
+    const auto [first, is_new] = path_of_stem_.emplace(frame.stem, path);
+    if (!sequence_.detections.empty() && !is_new && first->second != path)
+      throw InputError(path, 0, "its boxes would be those of " + first->second + ", which has the same stem");
     sequence_.frames = {frame};
     return detector_->detect(frame, image);
   }
 
  private:
   Sequence sequence_;  // of one image at a time
+  std::map<std::string, std::string> path_of_stem_;
   std::unique_ptr<TextDetector> detector_;
 };
 

@@ -79,7 +79,6 @@ void check_size(const std::string& path, ImageView8 image, const CameraModel& ca
 
 LoadedMap import_colmap(const ColmapScene& scene, const CameraModel& camera, const std::string& images,
                         ImageDetections& detections) {
-  if (scene.images.size() < 2) throw InputError(images, 0, "the model has fewer than two images");
   LoadedMap loaded;
   loaded.record.camera = camera;
   loaded.record.camera.shutter = all_at_once(camera.height);

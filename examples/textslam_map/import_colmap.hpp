@@ -15,7 +15,7 @@ namespace textslam {
 void check_size(const std::string& path, ImageView8 image, const CameraModel& camera, const std::string& whose);
 
 /// Key frames are in the order of the images' names. Points that fewer than two images see are left out. Throws
-/// InputError for an image of the model that is missing or of another size, and for a model of fewer than two images.
+/// InputError for an image of the model that is missing or of another size. The model has two images or more.
 LoadedMap import_colmap(const ColmapScene& scene, const CameraModel& camera, const std::string& images,
                         ImageDetections& detections);
 

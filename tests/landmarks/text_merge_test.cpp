@@ -89,8 +89,8 @@ TEST_F(TextMergeTest, TheOneObservedMoreIsKeptAndGetsAll) {
   EXPECT_EQ(merge_duplicate_texts(options, KeyframeLookup(frames), texts), 0);
 }
 
-// A pair is compared where one of the two was seen, whichever comes first. The older one is kept, so what was seen may be
-// gone after the first.
+// A pair is compared where one of the two was seen, whichever comes first. The older one is kept, so what was seen may
+// be gone after the first.
 TEST_F(TextMergeTest, PairsOfWhichNoneWasSeenWait) {
   for (int seen = -1; seen < 3; ++seen) {
     texts.clear();

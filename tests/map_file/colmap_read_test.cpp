@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "io/image_file.hpp"
 #include "io/text_file.hpp"
 #include "map_file/map_file_support.hpp"
 #include "textslam_map/export_map.hpp"
@@ -80,6 +81,50 @@ TEST_F(ColmapRead, CutFilesAreRefused) {
   }
 }
 
+// Counts and numbers that no file holds.
+TEST_F(ColmapRead, HugeNumbersAreRefused) {
+  for (const char* name : {"/cameras.bin", "/images.bin", "/points3D.bin"}) {
+    const std::string bytes = read_file(model + name);
+    folder.write("model" + std::string(name), std::string(8, '\xff') + bytes.substr(8));
+    expect_refused(std::string(name) == "/cameras.bin" ? "it has 18446744073709551615 cameras"
+                                                       : "it ends in the middle");
+    folder.write("model" + std::string(name), bytes);
+  }
+  const std::string cameras = read_file(model + "/cameras.bin");
+  std::string changed = cameras;
+  changed.replace(16, 8, std::string(8, '\x7f'));
+  folder.write("model/cameras.bin", changed);
+  expect_refused("the width should be a whole number");
+  changed = cameras;
+  changed[12] = 99;
+  folder.write("model/cameras.bin", changed);
+  expect_refused("a camera model that is not known");
+  changed = cameras;
+  changed[0] = 2;
+  folder.write("model/cameras.bin", changed);
+  expect_refused("it has 2 cameras");
+}
+
+// The images that a model names are there, and of its camera's size.
+TEST_F(ColmapRead, ImagesAreThoseOfTheCamera) {
+  const ColmapScene scene = read_colmap_scene(model);
+  const CameraModel camera = camera_of(scene, model);
+  DetectorOptions options;
+  EXPECT_THROW(ImageDetections(options, camera, folder.path("none")), InputError);
+  ImageDetections detections(options, camera, "");
+  EXPECT_EQ(import_colmap(scene, camera, model + "/images", detections).map.keyframes.size(), scene.images.size());
+  const std::string image = model + "/images/" + scene.images.back().name;
+  save_png(image, Image<std::uint8_t>(8, 6, 100).view());
+  try {
+    import_colmap(scene, camera, model + "/images", detections);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("this one is 8 x 6"), std::string::npos) << error.what();
+  }
+  fs::remove(image);
+  EXPECT_THROW(import_colmap(scene, camera, model + "/images", detections), InputError);
+}
+
 TEST_F(ColmapRead, WhatIsNoModelIsRefused) {
   keep(".txt");
   const std::string cameras = read_file(model + "/cameras.txt"), images = read_file(model + "/images.txt");
@@ -96,7 +141,19 @@ TEST_F(ColmapRead, WhatIsNoModelIsRefused) {
   expect_refused("images.txt:1: a pose that is none");
   folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n1 2\n");
   expect_refused("images.txt:2: expected 'x y point'");
-  folder.write("model/images.txt", images);
+  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 2 a.png\n\n");
+  expect_refused("images.txt:1: an image of camera 2");
+  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n\n1 1 0 0 0 0 0 0 1 b.png\n\n");
+  expect_refused("two images 1");
+  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n-5 2 -1\n");
+  expect_refused("a pixel outside of its image");
+  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n5 2 777\n");
+  expect_refused("no point 777");
+  folder.write("model/images.txt", "\n# a comment\n" + images + "\n\n");
+  EXPECT_EQ(read_colmap_scene(model).images.size(), written.images.size()) << "blank lines";
+  folder.write("model/cameras.txt", "1 PINHOLE 1e300 48 50 50 32 24\n");
+  expect_refused("the width should be a whole number");
+  folder.write("model/cameras.txt", cameras);
   folder.write("model/points3D.txt", "1 0 0 nan 0 0 0 1\n");
   expect_refused("points3D.txt:1");
   fs::remove(model + "/images.txt");

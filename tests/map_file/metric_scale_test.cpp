@@ -123,7 +123,7 @@ TEST(KnownLengths, AreParsedStrictly) {
   EXPECT_TRUE(parse_known_length("EXIT=2", &known));
   EXPECT_NEAR(known.sigma, 0.004, 1e-12);
   for (const char* wrong : {"EXIT", "", "=1", "EXIT=", "EXIT=-1", "EXIT=0", "EXIT=nan", "EXIT=1:", "EXIT=1:0",
-                            "EXIT=1m", "..EXIT=1", "EXIT..=1"})
+                            "EXIT=1m", "..EXIT=1", "EXIT..=1", "EXIT..EXIT=1"})
     EXPECT_FALSE(parse_known_length(wrong, &known)) << wrong;
 }
 

@@ -1,5 +1,5 @@
-"""viewers_test.py ROOT TEXTSLAM: the program of docs/viewers.md runs as it stands on a short rendered sequence. Without
-the package rerun it gets a stand-in for it, and what it logs is checked."""
+"""viewers_test.py ROOT TEXTSLAM: the program of docs/viewers.md runs as it stands on a short rendered sequence. It gets a
+stand-in for the package rerun, and what it logs is checked."""
 import os
 import re
 import subprocess
@@ -24,6 +24,7 @@ def Points3D(positions):
 def LineStrips3D(strips, labels):
     assert all(len(strip) == 5 and all(len(p) == 3 for p in strip) for strip in strips) and len(labels) == len(strips)
     return "text", labels[0]
+def Clear(recursive): return "clear", recursive
 def log(path, what):
     counts[path.split("/")[0]] = counts.get(path.split("/")[0], 0) + 1
     global points
@@ -40,19 +41,18 @@ def main(root, textslam):
     with tempfile.TemporaryDirectory() as folder:
         home = Path(folder)
         (home / "live.py").write_text(program, encoding="utf-8")
-        stands_in = subprocess.run([sys.executable, "-c", "import rerun"], capture_output=True).returncode != 0
-        if stands_in:
-            (home / "rerun.py").write_text(STAND_IN, encoding="utf-8")
+        (home / "rerun.py").write_text(STAND_IN, encoding="utf-8")
         environment = dict(os.environ, PATH=f"{Path(textslam).resolve().parent}{os.pathsep}{os.environ['PATH']}")
         run = subprocess.run([sys.executable, "live.py", "--render", "room", "--frames", "60", "--output", "out",
                               "--no-report"], cwd=home, env=environment, capture_output=True, text=True)
         if run.returncode != 0:
             sys.exit(f"live.py ended with {run.returncode}:\n{run.stdout}{run.stderr}")
-        if stands_in:
-            told = re.search(r"logged (\d+) poses (\d+) points (\d+) texts", run.stdout)
-            poses, points, texts = map(int, told.groups())
-            if poses < 40 or points < 100 or texts < 2:
-                sys.exit(f"too little was logged: {told.group(0)}")
+        told = re.search(r"logged (\d+) poses (\d+) points (\d+) texts", run.stdout)
+        if not told:
+            sys.exit(f"nothing was logged:\n{run.stdout}{run.stderr}")
+        poses, points, texts = map(int, told.groups())
+        if poses < 40 or points < 100 or texts < 2:
+            sys.exit(f"too little was logged: {told.group(0)}")
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ Json seen_by(const Map& map, int keyframe, const Similarity& live_world) {
     for (Vec3& corner : corners) corner = live_world * corner;
     texts.push_back({{"id", text.id}, {"text", textplane::consensus(text.votes)}, {"corners", short_corners(corners)}});
   }
-  return {{"points", points}, {"texts", texts}};
+  return {{"number", map.number}, {"points", points}, {"texts", texts}};
 }
 
 }  // namespace

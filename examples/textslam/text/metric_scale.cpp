@@ -65,7 +65,7 @@ bool parse_known_length(const std::string& text, KnownLength* out) {
   if (dots != std::string::npos) {
     known.other = known.word.substr(dots + 2);
     known.word.resize(dots);
-    if (known.word.empty() || known.other.empty()) return false;
+    if (known.word.empty() || known.other.empty() || known.word == known.other) return false;
   }
   if (!parse_number(numbers.substr(0, colon), &known.length) || !(known.length > 0)) return false;
   known.sigma = kUsualSigma * known.length;

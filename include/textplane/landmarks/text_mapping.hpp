@@ -38,8 +38,9 @@ class BasicTextMapping {
     for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
     for (std::size_t d = 0; d < detections.size(); ++d)
       if (!taken[d]) propose(id, keyframe, detections[d], points);
-    merge_duplicate_texts(options_, keyframes_, objects_, [id](const TextObject& text) {
-      return text.host == id || (!text.views.empty() && text.views.back() == id);
+    merge_duplicate_texts(options_, keyframes_, objects_, [this, id](const TextObject& text) {
+      const TextNotes& notes = notes_[static_cast<std::size_t>(&text - objects_.data())];
+      return text.host == id || notes.mapped_by == id || (!text.views.empty() && text.views.back() == id);
     });
     erase_dropped();
   }
@@ -203,6 +204,7 @@ class BasicTextMapping {
                         options_.cull_zncc, text);
       if (!is_proven(text, options_) || !refined(text)) return;
       text.state = TextState::mapped;
+      notes.mapped_by = id;
       notes.refined_views = text.views.size();
       notes.rays.clear();
       notes.inside.clear();

@@ -81,8 +81,8 @@ inline void merge_texts(const TextOptions& options, TextObject& a, TextObject& b
   drop(from);
 }
 
-/// Merges the mapped texts that are the same. Returns how many are gone. Of each pair was_seen(text) holds for one at
-/// least: where few texts have changed, the time is theirs times the number of all.
+/// Merges the mapped texts that are the same, and returns how many are gone. A pair is compared where was_seen(text)
+/// holds for one of the two: the time is the number of texts seen times that of all.
 template <class Predicate>
 int merge_duplicate_texts(const TextOptions& options, const KeyframeLookup& keyframes, std::vector<TextObject>& texts,
                           Predicate was_seen) {

@@ -140,6 +140,7 @@ TEST(FrameLine, IsAnObject) {
   EXPECT_EQ(keyframe.at("keyframe"), true);
   EXPECT_EQ(keyframe.at("map").at("points"), Json::array({Json::array({0, 2, 0, 8})}));
   EXPECT_EQ(keyframe.at("map").at("texts"), Json::array());
+  EXPECT_EQ(keyframe.at("map").at("number"), map.number);
   EXPECT_EQ(tracked.at("map_keyframes"), 1);
   map.keyframes.emplace_back().culled = true;
   EXPECT_EQ(Json::parse(frame_line(4, record, map, {})).at("map_keyframes"), 1);
