@@ -51,10 +51,12 @@ if(TARGET Ceres::ceres)
 endif()
 list(TRANSFORM headers REPLACE "(.+)" "#include <\\1>")
 list(JOIN headers "\n" all_headers)
-configure_file(careless_unit.cpp.in careless_unit.cpp @ONLY)
-add_library(careless_unit OBJECT ${CMAKE_CURRENT_BINARY_DIR}/careless_unit.cpp)
-target_link_libraries(careless_unit PRIVATE textplane_developer $<TARGET_NAME_IF_EXISTS:opencv_core> $<TARGET_NAME_IF_EXISTS:Ceres::ceres>)
-target_compile_options(careless_unit PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0 -g0 -Wdouble-promotion>)
+if(all_tiers)
+  configure_file(careless_unit.cpp.in careless_unit.cpp @ONLY)
+  add_library(careless_unit OBJECT ${CMAKE_CURRENT_BINARY_DIR}/careless_unit.cpp)
+  target_link_libraries(careless_unit PRIVATE textplane_developer $<TARGET_NAME_IF_EXISTS:opencv_core> $<TARGET_NAME_IF_EXISTS:Ceres::ceres>)
+  target_compile_options(careless_unit PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0 -g0 -Wdouble-promotion>)
+endif()
 
 # With matrices stored by rows, kernels get the numbers that they expect: tests that compare them with the reference,
 # with differences and with known truth, as header-only programs compile them.
