@@ -71,10 +71,11 @@ void find_texts(const Parameters& parameters, Map* map) {
 }  // namespace
 
 void check_size(const std::string& path, ImageView8 image, const CameraModel& camera, const std::string& whose) {
-  if (image.width() != camera.width || image.height() != camera.height)
-    throw InputError(
-        path, 0,
-        whose + " " + std::to_string(camera.width) + " x " + std::to_string(camera.height) + ", this one is not");
+  if (image.width() == camera.width && image.height() == camera.height) return;
+  const auto size = [](int width, int height) { return std::to_string(width) + " x " + std::to_string(height); };
+  throw InputError(
+      path, 0,
+      whose + " " + size(camera.width, camera.height) + ", this one is " + size(image.width(), image.height()));
 }
 
 LoadedMap import_colmap(const ColmapScene& scene, const CameraModel& camera, const std::string& images,

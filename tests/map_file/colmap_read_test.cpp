@@ -132,7 +132,7 @@ TEST_F(ColmapRead, WhatIsNoModelIsRefused) {
   expect_refused("cameras.txt:3: a second camera");
   folder.write("model/cameras.txt", "# none\n");
   expect_refused("no camera");
-  folder.write("model/cameras.txt", "1 PINHOLE 64 48 50 50 32\n");
+  folder.write("model/cameras.txt", "1 PINHOLE 320 240 50 50 32\n");
   expect_refused("PINHOLE has 4 parameters, not 3");
   folder.write("model/cameras.txt", cameras);
   folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1\n\n");
