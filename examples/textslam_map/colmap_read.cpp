@@ -121,22 +121,9 @@ ColmapScene read_binary(const std::string& folder) {
   return scene;
 }
 
-// With those that are blank: an image without points has one.
-std::vector<TextLine> lines_of(const std::string& path) {
-  const std::string bytes = read_file(path);
-  std::vector<TextLine> lines;
-  int number = 0;
-  for (std::size_t at = 0; at < bytes.size(); ++number) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    if (bytes[at] != '#') lines.push_back({bytes.substr(at, end - at), number + 1});
-    at = end + 1;
-  }
-  return lines;
-}
-
 void read_texts(const std::string& folder, ColmapScene* scene) {
   const std::string images = folder + "/images.txt", points = folder + "/points3D.txt";
-  const std::vector<TextLine> lines = lines_of(images);
+  const std::vector<TextLine> lines = model_lines(read_file(images));
   for (std::size_t i = 0; i < lines.size();) {
     const auto words = split_blanks(lines[i].text);
     if (words.empty()) {  // only the line of its pixels may be blank
@@ -169,7 +156,7 @@ void read_texts(const std::string& folder, ColmapScene* scene) {
     scene->images.push_back(std::move(image));
     i += 2;
   }
-  for (const TextLine& line : lines_of(points)) {
+  for (const TextLine& line : model_lines(read_file(points))) {
     const auto words = split_blanks(line.text);
     if (words.empty()) continue;
     if (words.size() < 8 || words.size() % 2 != 0)

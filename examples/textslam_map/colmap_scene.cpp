@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "io/camera_formats/formats.hpp"
 #include "io/input_error.hpp"
 #include "io/text_file.hpp"
 
@@ -46,19 +47,28 @@ int require_whole(double number, const std::string& path, int line, const char* 
   return static_cast<int>(number);
 }
 
+std::vector<TextLine> model_lines(const std::string& bytes) {
+  std::vector<TextLine> lines;
+  int number = 0;
+  for (std::size_t at = 0; at < bytes.size(); ++number) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    if (bytes[at] != '#') lines.push_back({bytes.substr(at, end - at), number + 1});
+    at = end + 1;
+  }
+  return lines;
+}
+
 ColmapScene::Camera camera_of_text(const std::string& text, const std::string& path) {
   ColmapScene::Camera camera;
-  int line = 0, cameras = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string row = text.substr(at, end - at);
-    at = end + 1;
-    ++line;
+  int cameras = 0;
+  for (const auto& [row, line] : model_lines(text)) {
     const std::vector<std::string_view> words = split_blanks(row);
     if (words.empty() || words[0][0] == '#') continue;
     if (++cameras > 1) throw InputError(path, line, "a second camera: a map has one, for all images");
     if (words.size() < 5) throw InputError(path, line, "expected 'id model width height parameters'");
-    const auto number = [&](std::size_t i) { return require_number(words[i], path, line, "a number of the camera"); };
+    const auto number = [&, line = line](std::size_t i) {
+      return require_number(words[i], path, line, "a number of the camera");
+    };
     camera.id = require_whole(number(0), path, line, "the id");
     camera.model = std::string(words[1]);
     camera.width = require_whole(number(2), path, line, "the width");

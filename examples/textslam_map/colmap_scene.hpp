@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/text_file.hpp"
 #include "textslam/map_file/map_file.hpp"
 
 namespace textslam {
@@ -27,7 +28,6 @@ inline constexpr std::array<ColmapCameraModel, 11> kColmapModels = {{{"SIMPLE_PI
                                                                      {"SIMPLE_RADIAL_FISHEYE", 4},
                                                                      {"RADIAL_FISHEYE", 5},
                                                                      {"THIN_PRISM_FISHEYE", 12}}};
-inline constexpr double kColmapHalfPixel = 0.5;  ///< The centre of its top-left pixel is there, ours at 0.
 
 /// Of a map, ids are the map's and one; of a model that was read, they are as they are there. Pixels are COLMAP's: the
 /// centre of the top-left one is (0.5, 0.5).
@@ -64,6 +64,9 @@ struct ColmapScene {
 
 /// Throws InputError that names `folder` where COLMAP has no word for the camera.
 ColmapScene colmap_scene(const LoadedMap& map, const std::string& folder);
+
+/// The lines of a model's file, without comments, and with those that are blank: an image without points has one.
+std::vector<TextLine> model_lines(const std::string& bytes);
 
 /// A number of a model as the integer that it should be, 0 to 2^31 - 2. Throws InputError that says so of `what`.
 int require_whole(double number, const std::string& path, int line, const char* what);

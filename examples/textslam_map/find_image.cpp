@@ -33,6 +33,7 @@ ImageFinder::ImageFinder(const LoadedMap& map)
     : map_(map), parameters_(at_size(Parameters{}, map.map.width, map.map.height)) {
   // A lost frame leaves some key frames to the next one; a single image has no next one.
   parameters_.place_compared = std::max(parameters_.place_compared, static_cast<int>(map.map.keyframes.size()) + 1);
+  std::vector<MappedSign> signs;
   double reach = 0;
   for (const TextObject& text : map.map.texts) {
     const std::string word = textplane::consensus(text.votes);
@@ -42,11 +43,11 @@ ImageFinder::ImageFinder(const LoadedMap& map)
     sign.word = word;
     sign.corners = world_corners(map.map, text);
     reach = std::max(reach, (sign.corners[0] - map.map.keyframe(text.host).T_w_c.t).norm());
-    signs_.push_back(std::move(sign));
+    signs.push_back(std::move(sign));
   }
   SignIndexOptions options;
   options.reach = kReachOfHosts * reach;
-  if (!signs_.empty() && textplane::is_ok(SignIndex::build(signs_, options, &index_))) search_.emplace(index_);
+  if (!signs.empty() && textplane::is_ok(SignIndex::build(signs, options, &index_))) search_.emplace(index_);
 }
 
 ImageAnswer ImageFinder::find(Image<std::uint8_t> image, std::vector<Detection> detections) {
@@ -74,13 +75,12 @@ void ImageFinder::name_place(const std::vector<FoundPlace>& places, const std::v
   for (const FoundPlace& place : places) {
     std::vector<std::string> words;
     for (const SignSighting& sighting : place.sightings) {
-      const auto sign = std::find_if(signs_.begin(), signs_.end(),
-                                     [&](const MappedSign& s) { return s.id == index_.id(sighting.sign); });
+      const TextObject& sign = map_.map.text(static_cast<int>(index_.id(sighting.sign)));
       Quad<double> quad;
-      if (!project_text(map_.map, map_.map.text(static_cast<int>(sign->id)), T_c_w, &quad)) break;
+      if (!project_text(map_.map, sign, T_c_w, &quad)) break;
       const Quad<double>& seen = detections[static_cast<std::size_t>(sighting.detection)].quad;
       if (!textplane::contains(quad, textplane::centroid(seen))) break;
-      words.push_back(sign->word);
+      words.push_back(textplane::consensus(sign.votes));
     }
     if (words.size() != place.sightings.size()) continue;
     answer->probability = place.probability;

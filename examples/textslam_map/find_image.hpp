@@ -43,7 +43,6 @@ class ImageFinder {
 
   const LoadedMap& map_;
   Parameters parameters_;
-  std::vector<MappedSign> signs_;
   SignIndex index_;
   std::optional<PlaceSearch> search_;  // none: no sign of the map was read
 };

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "io/camera_formats/formats.hpp"
 #include "io/clock.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"

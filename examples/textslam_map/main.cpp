@@ -11,7 +11,7 @@
 #include "io/input_error.hpp"
 #include "plugins/plugins.hpp"
 #include "textslam_map/file_commands.hpp"
-#include "textslam_map/find_command.hpp"
+#include "textslam_map/image_commands.hpp"
 #include "textslam_map/map_queries.hpp"
 #include "textslam_map/text_query.hpp"
 

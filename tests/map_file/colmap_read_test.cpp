@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "io/image_file.hpp"
 #include "io/text_file.hpp"
@@ -135,20 +136,19 @@ TEST_F(ColmapRead, WhatIsNoModelIsRefused) {
   folder.write("model/cameras.txt", "1 PINHOLE 320 240 50 50 32\n");
   expect_refused("PINHOLE has 4 parameters, not 3");
   folder.write("model/cameras.txt", cameras);
-  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1\n\n");
-  expect_refused("images.txt:1: expected 'id qw");
-  folder.write("model/images.txt", "1 0 0 0 0 0 0 0 1 a.png\n\n");
-  expect_refused("images.txt:1: a pose that is none");
-  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n1 2\n");
-  expect_refused("images.txt:2: expected 'x y point'");
-  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 2 a.png\n\n");
-  expect_refused("images.txt:1: an image of camera 2");
-  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n\n1 1 0 0 0 0 0 0 1 b.png\n\n");
-  expect_refused("two images 1");
-  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n-5 2 -1\n");
-  expect_refused("a pixel outside of its image");
-  folder.write("model/images.txt", "1 1 0 0 0 0 0 0 1 a.png\n5 2 777\n");
-  expect_refused("no point 777");
+  const std::pair<const char*, const char*> broken[] = {
+      {"1 1 0 0 0 0 0 0 1\n\n", "images.txt:1: expected 'id qw"},
+      {"1 0 0 0 0 0 0 0 1 a.png\n\n", "images.txt:1: a pose that is none"},
+      {"1 1 0 0 0 0 0 0 1 a.png\n1 2\n", "images.txt:2: expected 'x y point'"},
+      {"1 1 0 0 0 0 0 0 2 a.png\n\n", "images.txt:1: an image of camera 2"},
+      {"1 1 0 0 0 0 0 0 1 a.png\n\n1 1 0 0 0 0 0 0 1 b.png\n\n", "two images 1"},
+      {"1 1 0 0 0 0 0 0 1 a.png\n-5 2 -1\n", "a pixel outside of its image"},
+      {"1 1 0 0 0 0 0 0 1 a.png\n5 2 777\n", "no point 777"},
+  };
+  for (const auto& [text, said] : broken) {
+    folder.write("model/images.txt", text);
+    expect_refused(said);
+  }
   folder.write("model/images.txt", "\n# a comment\n" + images + "\n\n");
   EXPECT_EQ(read_colmap_scene(model).images.size(), written.images.size()) << "blank lines";
   folder.write("model/cameras.txt", "1 PINHOLE 1e300 48 50 50 32 24\n");

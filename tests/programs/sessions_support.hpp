@@ -10,7 +10,7 @@
 
 #include "io/evaluate.hpp"
 #include "io/io_support.hpp"
-#include "renderer/render_sequence.hpp"
+#include "programs/textslam_support.hpp"
 #include "textslam/run.hpp"
 
 namespace textslam {
@@ -35,14 +35,7 @@ class Sessions : public testing::Test {
 
   static std::string path(const std::string& name) { return folder_->path(name); }
   static void render(const std::string& name, std::uint64_t seed, int walk, int frames, int width = 320) {
-    RenderOptions options;
-    options.output = path(name);
-    options.seed = seed;
-    options.walk = walk;
-    options.frames = frames;
-    options.width = width;
-    options.height = width * 3 / 4;
-    render_sequence(options);
+    textslam::render(path(name), "room", frames, width, seed, walk);
   }
   static RunOptions options_for(const std::string& sequence, const std::string& output) {
     RunOptions options;

@@ -7,7 +7,6 @@
 #include "io/input_error.hpp"
 #include "io/text_file.hpp"
 #include "programs/sessions_support.hpp"
-#include "programs/textslam_support.hpp"
 #include "textplane/landmarks/words.hpp"
 #include "textslam/map_file/map_file.hpp"
 #include "textslam/text/text_centre.hpp"

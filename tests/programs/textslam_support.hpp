@@ -119,8 +119,11 @@ inline void expect_all_outputs(const std::string& folder, const std::set<std::st
 }
 
 /// A rendered sequence in `folder`.
-inline void render(const std::string& folder, const std::string& kind, int frames, int width) {
+inline void render(const std::string& folder, const std::string& kind, int frames, int width, std::uint64_t seed = 1,
+                   int walk = 0) {
   RenderOptions options;
+  options.seed = seed;
+  options.walk = walk;
   options.kind = kind;
   options.output = folder;
   options.frames = frames;

@@ -13,8 +13,6 @@ namespace textslam {
 
 namespace {
 
-constexpr double kHalfPixel = 0.5;
-
 struct ColmapModel {
   const char* name;
   const char* model;             // the library's
@@ -72,8 +70,8 @@ CameraModel colmap_camera(const std::string& path, int line, const std::vector<s
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     values[model.parameters[i]] = require_number(words[4 + i], path, line, model.parameters[i]);
   if (values.count("f")) values["fx"] = values["fy"] = values["f"];
-  values["cx"] -= kHalfPixel;
-  values["cy"] -= kHalfPixel;
+  values["cx"] -= kColmapHalfPixel;
+  values["cy"] -= kColmapHalfPixel;
   std::vector<double> parameters;
   const CameraType& type = camera_type(model.model);
   for (const std::string& name : type.parameters()) parameters.push_back(values[name]);
@@ -121,8 +119,8 @@ std::string format_colmap(const CameraModel& camera) {
       return value.second == 0 || is_one_of(model.parameters, value.first);
     });
     if (!has_all) continue;
-    values["cx"] += kHalfPixel;
-    values["cy"] += kHalfPixel;
+    values["cx"] += kColmapHalfPixel;
+    values["cy"] += kColmapHalfPixel;
     std::string out = "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]\n1 " + std::string(model.name) + " " +
                       std::to_string(camera.width) + " " + std::to_string(camera.height);
     for (const std::string& name : model.parameters) out += " " + shortest(values[name]);

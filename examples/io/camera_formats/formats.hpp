@@ -28,6 +28,7 @@ bool is_opencv(const YamlMap& file);
 CameraFile read_opencv(const YamlMap& file);
 std::string format_opencv(const CameraModel& camera);
 
+inline constexpr double kColmapHalfPixel = 0.5;  ///< The centre of COLMAP's top-left pixel is there, ours at 0.
 bool is_colmap(const std::string& path);
 CameraFile read_colmap(const std::string& path);
 std::string format_colmap(const CameraModel& camera);

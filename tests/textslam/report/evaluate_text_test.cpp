@@ -1,6 +1,5 @@
 // Text maps against true signs.
 #include "textslam/report/evaluate_text.hpp"
-#include "textslam/map/text_views.hpp"
 
 #include <gtest/gtest.h>
 

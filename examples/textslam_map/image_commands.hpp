@@ -1,6 +1,6 @@
 // The commands of textslam-map that look for text in images: find and import. Need CLI11 and the plug-ins.
-#ifndef TEXTSLAM_MAP_FIND_COMMAND_HPP
-#define TEXTSLAM_MAP_FIND_COMMAND_HPP
+#ifndef TEXTSLAM_MAP_IMAGE_COMMANDS_HPP
+#define TEXTSLAM_MAP_IMAGE_COMMANDS_HPP
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -94,4 +94,4 @@ class ImportCommand {
 
 }  // namespace textslam
 
-#endif  // TEXTSLAM_MAP_FIND_COMMAND_HPP
+#endif  // TEXTSLAM_MAP_IMAGE_COMMANDS_HPP
