@@ -76,9 +76,13 @@ all_stages() {
   if needs s390x s390x-linux-gnu-g++-11 qemu-s390x /usr/src/googletest; then
     stage s390x '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''
   fi
+  if needs riscv64 riscv64-linux-gnu-g++ qemu-riscv64 /usr/src/googletest; then
+    stage riscv64 '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''
+  fi
   set -- clang++ wasm-ld node /usr/include/wasm32-wasi/c++ /usr/src/googletest
   if needs wasm "$@"; then stage wasm '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
   if needs wasm-scalar "$@"; then stage wasm-scalar '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
+  if needs wasm-relaxed clang++-19 wasm-ld-19 "$@"; then stage wasm-relaxed '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''; fi
   if needs mingw x86_64-w64-mingw32-g++-posix wine /usr/src/googletest; then
     stage mingw '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''
   fi

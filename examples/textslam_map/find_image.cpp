@@ -59,7 +59,7 @@ ImageAnswer ImageFinder::find(Image<std::uint8_t> image, std::vector<Detection> 
   if (search_) places = search_->find(frame.detections, map_.record.camera).places;
   for (const FoundPlace& place : places) {
     Relocalisation found = recognise_from(map_.map, parameters_, frame, place.T_c_w);
-    if (!found.ok || (best.ok && found.inliers + found.texts <= best.inliers + best.texts)) continue;
+    if (!found.ok || (best.ok && found.shown() <= best.shown())) continue;
     best = std::move(found);
     best.by = FoundBy::texts;
   }

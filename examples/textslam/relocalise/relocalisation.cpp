@@ -75,7 +75,7 @@ Relocalisation observe_from(const Map& map, const Parameters& parameters, const 
     Tracker tracker(map, parameters);
     tracker.start(frame, guess, {});
     TrackReport report = tracker.track(frame);
-    if (!report.ok || report.inliers + report.texts <= best.inliers + best.texts) break;
+    if (!report.ok || report.inliers + report.texts <= best.shown()) break;
     guess = report.T_c_w;
     best = {std::move(report), FoundBy::nothing, std::move(tracker.tracks())};
   }
@@ -89,14 +89,16 @@ Relocalisation recognise_from(const Map& map, const Parameters& parameters, cons
 
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
                                    const std::vector<WordMatch>& ways) {
+  Relocalisation best;
   for (const WordMatch words : ways) {
     for (const TextHypothesis& hypothesis : text_hypotheses(map, parameters, frame, words)) {
       Relocalisation found = recognise_from(map, parameters, frame, hypothesis.T_c_w);
-      found.by = FoundBy::texts;
-      if (found.ok) return found;
+      if (found.ok && (!best.ok || found.shown() > best.shown())) best = std::move(found);
     }
+    if (best.ok) break;
   }
-  return {};
+  best.by = FoundBy::texts;
+  return best;
 }
 
 Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,

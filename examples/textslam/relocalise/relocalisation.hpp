@@ -24,6 +24,9 @@ enum class FoundBy {
 struct Relocalisation : TrackReport {
   FoundBy by = FoundBy::nothing;
   std::vector<Track> tracks;  ///< Map points found in the frame: what a tracker that starts there follows.
+
+  /// What of the map the frame shows from there.
+  int shown() const { return inliers + texts; }
 };
 
 /// The frame as seen from about T_c_w: texts and map points are looked for where that pose expects them, and the pose
@@ -37,8 +40,9 @@ bool holds(const Map& map, const Parameters& parameters, const TrackReport& foun
 /// The same as observe_from(), refused where the pose does not hold.
 Relocalisation recognise_from(const Map& map, const Parameters& parameters, const Frame& frame, const SE3d& T_c_w);
 
-/// The first pose that holds of those that the frame's detections suggest, compared with the texts in one way after
-/// another.
+/// Of the poses that the frame's detections suggest, one that holds and from which the frame shows most of the map:
+/// from a few corners another may hold by chance. `ways` to compare words are tried one after another until one gives a
+/// pose.
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
                                    const std::vector<WordMatch>& ways);
 

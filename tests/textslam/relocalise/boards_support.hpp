@@ -43,21 +43,25 @@ class TextRecoveryTest : public testing::Test {
               {moved({1.0, -0.4, 3.1}, {0, 0.4, 0.1}), 3}};
     map.keyframes.push_back({frame_at(SE3d{}), SE3d{}, {}});
     const char* const words[] = {"EXIT", "OPEN", "TAXI"};
-    for (std::size_t i = 0; i < boards.size(); ++i) {
-      TextObject text;
-      text.id = static_cast<int>(i);
-      text.state = TextState::mapped;
-      text.host = 0;
-      const Vec3 normal = -boards[i].T_w_b.R.col(2);
-      text.theta = textplane::plane_from_normal<double>(normal, -normal.dot(boards[i].T_w_b.t));
-      textplane::SelectOptions options;
-      options.levels = parameters.text.levels;
-      text.patch =
-          textplane::make_patch(map.keyframes[0].frame.image->view(), map.camera, quad_of(boards[i], SE3d{}), options);
-      EXPECT_TRUE(textplane::is_ok(text.patch.status));
-      text.votes[words[i]] = 3;
-      map.texts.push_back(std::move(text));
-    }
+    for (std::size_t i = 0; i < boards.size(); ++i) add_text(boards[i], 0, words[i]);
+  }
+
+  // A text on a board that key frame `host` sees.
+  void add_text(const Board& board, int host, const std::string& word) {
+    TextObject text;
+    text.id = static_cast<int>(map.texts.size());
+    text.state = TextState::mapped;
+    text.host = host;
+    const KeyFrame& keyframe = map.keyframes[static_cast<std::size_t>(host)];
+    const SE3d T_h_w = keyframe.T_w_c.inverse(), T_h_b = T_h_w * board.T_w_b;
+    const Vec3 normal = -T_h_b.R.col(2);
+    text.theta = textplane::plane_from_normal<double>(normal, -normal.dot(T_h_b.t));
+    textplane::SelectOptions options;
+    options.levels = parameters.text.levels;
+    text.patch = textplane::make_patch(keyframe.frame.image->view(), map.camera, quad_of(board, T_h_w), options);
+    EXPECT_TRUE(textplane::is_ok(text.patch.status));
+    text.votes[word] = 3;
+    map.texts.push_back(std::move(text));
   }
 
   static constexpr double kHalfWidth = 0.35, kHalfHeight = 0.15;

@@ -119,5 +119,29 @@ TEST_F(TextRecoveryTest, AWordAloneIsNoPlace) {
   EXPECT_TRUE(text_hypotheses(map, parameters, frame, WordMatch::same).empty());
 }
 
+// Two of the three signs hang alike in another room. The frame shows all three, its detector missed the third.
+TEST_F(TextRecoveryTest, ThePoseThatExplainsMostIsTaken) {
+  const SE3d truth = moved({0.3, -0.1, 0.2}, {0.02, -0.1, 0.05}), T_w_other = moved({30, 0, 0}, {0, 0, 0});
+  const std::vector<Board> room = boards;
+  const SE3d T_c_other = truth * T_w_other.inverse();
+  boards = {{T_w_other * room[0].T_w_b, room[0].print}, {T_w_other * room[1].T_w_b, room[1].print}};
+  map.keyframes.push_back({frame_at(T_c_other), T_c_other.inverse(), {}});
+  map.keyframes.back().frame.index = 1;
+  add_text(boards[0], 1, "EXIT");
+  add_text(boards[1], 1, "OPEN");
+
+  boards = room;
+  Frame frame = frame_at(truth);
+  frame.detections = {detection(0, truth, "EXIT"), detection(1, truth, "OPEN")};
+  const auto found = text_hypotheses(map, parameters, frame, WordMatch::same);
+  ASSERT_FALSE(found.empty());
+  EXPECT_GE(found[0].text, 3) << "the other room's key frame saw them from here: it comes first";
+  ASSERT_TRUE(recognise_from(map, parameters, frame, found[0].T_c_w).ok) << "and would do";
+  const Relocalisation recovery = relocalise_by_texts(map, parameters, frame, {WordMatch::same});
+  ASSERT_TRUE(recovery.ok);
+  EXPECT_EQ(recovery.texts, 3);
+  expect_pose(recovery.T_c_w, truth, 0.006, 0.12);
+}
+
 }  // namespace text_hypotheses_test
 }  // namespace textslam

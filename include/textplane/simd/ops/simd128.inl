@@ -3,6 +3,9 @@
 //
 // Each has in mind what an engine makes of it on x86-64, where some instructions of WebAssembly are many: truncation,
 // bytes picked by a variable, and shuffles of two vectors that are no interleaving.
+//
+// With -mrelaxed-simd (Clang 17 and later) the engine may take instructions of the CPU where these differ in what they
+// make of rounding, or of numbers that are out of range: madd() then rounds once where the CPU can.
 
 // --- floats ---
 constexpr int kLanes = 4;
@@ -48,8 +51,13 @@ TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
 }
 
 // --- float arithmetic ---
+#ifdef __wasm_relaxed_simd__
+TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return __builtin_wasm_relaxed_madd_f32x4(a, b, c); }
+TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return __builtin_wasm_relaxed_nmadd_f32x4(a, b, c); }
+#else
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
+#endif
 // These are "the second where it is less (greater) than the first, else the first".
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return as_float(wasm_f32x4_pmin(as_int(b), as_int(a))); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return as_float(wasm_f32x4_pmax(as_int(b), as_int(a))); }
@@ -59,7 +67,13 @@ TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return as_float(wasm_f32x4_abs(as
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return as_float(wasm_f32x4_floor(as_int(a))); }
 
 // --- conversions ---
+#ifdef __wasm_relaxed_simd__
+TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept {
+  return reinterpret_cast<vi>(__builtin_wasm_relaxed_trunc_s_i32x4_f32x4(a));
+}
+#else
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return wasm_i32x4_trunc_sat_f32x4(as_int(a)); }
+#endif
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return as_float(wasm_f32x4_convert_i32x4(a)); }
 
 // --- int32 arithmetic ---
