@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "photometry/scene.hpp"
+#include "simd/rounding_support.hpp"
 #include "support/guarded.hpp"
 #include "support/targets.hpp"
 #include "textplane/photometry/prepared_target.hpp"
@@ -97,7 +98,7 @@ TEST(SamplePoints, SameBitsWithinAGroup) {
   const auto image = texture<std::uint8_t>(200, 160, 4);
   const tp::PreparedTarget prepared(image.view());
   for (const int n : {1, 7, 15, 16, 17, 255, 256, 300}) {
-    std::vector<Points> first[2];
+    std::vector<Points> first[kRoundings];
     for (const simd::Target target : testable_targets())
       for (const bool paired : {false, true}) {
         const TargetScope scope(target);
@@ -112,7 +113,7 @@ TEST(SamplePoints, SameBitsWithinAGroup) {
         EXPECT_EQ(simd::warp_points(p.args).inside, std::count(p.inside.begin(), p.inside.end(), 1));
         EXPECT_EQ(x, p.out_x);
         EXPECT_EQ(y, p.out_y);
-        std::vector<Points>& group = first[simd::fused(target) ? 1 : 0];
+        std::vector<Points>& group = first[rounding(target)];
         if (group.empty()) group.push_back(p);
         const Points& q = group.front();
         EXPECT_EQ(p.out_x, q.out_x);

@@ -8,11 +8,14 @@
 #include <limits>
 #include <vector>
 
+#include "simd/rounding_support.hpp"
 #include "simd/warp_support.hpp"
 
 namespace warp_kernels_test {
 
 using namespace warp_support;
+using textplane_test::kRoundings;
+using textplane_test::rounding;
 
 // Distance of the source point of (x, y) from the border of the domain; negative outside. Zero where q_z is near zero.
 double clearance(const Matrix3<double>& H, int x, int y, int width, int height) {
@@ -63,7 +66,7 @@ void compare(const ImageView<const S>& source, const Matrix3<double>& H, int wid
 // The same cases on every target; targets with fused multiply-add must agree in every bit, and so must the others.
 template <class S, class D>
 void compare_everywhere(double bound) {
-  std::vector<D> first[2];
+  std::vector<D> first[kRoundings];
   on_each_target([&](Target target) {
     Random random(5);
     std::vector<D> bits;
@@ -85,7 +88,7 @@ void compare_everywhere(double bound) {
       compare<S, D>(source.view(), H, width, height, 1, bound, &bits);
       if (testing::Test::HasFatalFailure()) return;
     }
-    std::vector<D>& group = first[simd::fused(target) ? 1 : 0];
+    std::vector<D>& group = first[rounding(target)];
     if (group.empty()) group = bits;
     EXPECT_EQ(std::memcmp(group.data(), bits.data(), bits.size() * sizeof(D)), 0);
   });
