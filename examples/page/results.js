@@ -14,9 +14,11 @@ class Results {
     for (const url of this.urls) URL.revokeObjectURL(url);
     this.urls = [];
     this.files = new Map();
+    this.message = null;
   }
 
-  show({ metrics, warnings, frames, ms, files }, name) {
+  show(message, name) {
+    const { metrics, warnings, frames, ms, files } = message;
     this.clear();
     for (const { name, bytes } of files) this.files.set(name, this.url_of(name, bytes));
     const ate = metrics.trajectory && metrics.trajectory.ate_rmse, signs = metrics.text;
@@ -33,6 +35,7 @@ class Results {
     const notice = by_id("notice");
     if (warnings.length && notice.hidden) Object.assign(notice, { textContent: warnings.join(". "), hidden: false });
     this.offer(name);
+    this.message = message;
   }
 
   url_of(name, bytes) {
@@ -67,6 +70,7 @@ class Results {
 
   show_report() {
     by_id("report-part").hidden = false;
+    by_id("report").onload = () => { this.shown = true; };
     by_id("report").src = this.files.get("report.html");
     by_id("report-part").scrollIntoView({ behavior: "smooth" });
   }

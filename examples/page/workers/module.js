@@ -24,10 +24,12 @@ async function start_engine() {
   };
 }
 
-/// Answers messages one after the other, by the functions of their names. What a function throws goes to the page.
+/// Answers messages one after the other, by the functions of their names; others are passed over. What a function throws
+/// goes to the page.
 function answer(ready, handlers, port) {
   let last = ready;
   port.onmessage = ({ data }) => {
+    if (!handlers[data.type]) return;
     last = last.then(() => handlers[data.type](data)).catch((error) => {
       self.postMessage({ type: "error", message: error.message || String(error) });
     });

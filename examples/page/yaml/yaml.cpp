@@ -35,7 +35,10 @@ Node Node::operator[](const std::string& key) const {
   return {};
 }
 
-Node Node::operator[](std::size_t index) const { return IsSequence() && index < size() ? begin()[index] : Node(); }
+Node Node::operator[](std::size_t index) const {
+  if (!IsSequence() || index >= size()) return {};
+  return begin()[index];
+}
 
 const Node::Entry* Node::begin() const { return data_ ? data_->entries.data() : nullptr; }
 const Node::Entry* Node::end() const { return data_ ? data_->entries.data() + size() : nullptr; }
@@ -72,6 +75,7 @@ class Parser {
   };
 
   [[noreturn]] void refuse(const std::string& message) const { throw Exception({line_}, message); }
+  // A line end beyond the end of the text.
   char here(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\n'; }
   bool ends(std::size_t ahead = 0) const { return here(ahead) == '\n' || here(ahead) == '\r'; }
   bool blank(std::size_t ahead = 0) const { return here(ahead) == ' ' || here(ahead) == '\t' || ends(ahead); }
@@ -216,7 +220,7 @@ class Parser {
     if (here() == '&' || here() == '*' || here() == '|' || here() == '>') refuse("this part of YAML is not read here");
     while (!ends() && at_ < text_.size()) {
       const bool stops = stop.find(here()) != std::string_view::npos && (here() != ':' || blank(1));
-      if (stops || (here() == '#' && at_ > 0 && blank(static_cast<std::size_t>(-1)))) break;
+      if (stops || (here() == '#' && !out.empty() && (out.back() == ' ' || out.back() == '\t'))) break;
       out += here();
       step();
     }
