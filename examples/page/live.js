@@ -9,14 +9,12 @@ class Live {
     this.view = new View({ texts: [], world: NOTHING, camera: null }, (text) => this.view.choose(text));
     this.canvas = by_id("picture");
     this.small = document.createElement("canvas");
-    this.detected = [];
     this.shown_at = 0;
     new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement);
   }
 
   clear() {
     this.newest = null;
-    this.detected = [];
     this.view.moved = false;
     this.view.show({ texts: [], world: NOTHING, camera: null });
     this.canvas.getContext("2d").clearRect(0, 0, this.canvas.width, this.canvas.height);
@@ -29,8 +27,6 @@ class Live {
     for (let last = path.length - 1; last >= 0; --last)
       if (path[last]) return this.view.set_frame(last);
   }
-
-  show_detected(quads) { this.detected = quads; }
 
   /// `message`: of the mapper; grey pixels and what was found.
   show_frame(message) {
@@ -71,18 +67,16 @@ class Live {
     const pen = this.canvas.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.drawImage(this.small, 0, 0, wide, wide * height / width);
-    const outline = (quad, colour, dash) => {
+    const outline = (quad, colour) => {
       pen.beginPath();
       for (let i = 0; i < 8; i += 2) pen.lineTo(px(quad[i]), px(quad[i + 1]));
       pen.closePath();
-      pen.setLineDash(dash);
       pen.lineWidth = 1.6;
       pen.strokeStyle = colour;
       pen.stroke();
     };
     pen.fillStyle = css("--accent");
     for (let i = 0; i < seen.seen.length; i += 2) pen.fillRect(px(seen.seen[i]) - 1, px(seen.seen[i + 1]) - 1, 2, 2);
-    for (const quad of this.detected) outline(quad, css("--live"), [4, 3]);
-    for (const quad of seen.quads) if (quad) outline(quad, css("--truth"), []);
+    for (const quad of seen.quads) if (quad) outline(quad, css("--truth"));
   }
 }

@@ -43,7 +43,6 @@ async function begin(name, open) {
   let total = 0;
   const now = new Run({
     map: ({ map }) => live.show_map(map),
-    detected: ({ quads }) => live.show_detected(quads),
     frame(message) {
       live.show_frame(message);
       const done = message.seen.frame + 1, rate = (1000 * done / message.ms).toFixed(1);

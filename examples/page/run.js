@@ -11,7 +11,7 @@ function start_worker(...parts) {
 }
 
 class Run {
-  /// `on`: { opened(sequence), map, frame, detected, finishing, finished, error(message) }.
+  /// `on`: { opened(sequence), map, frame, finishing, finished, error(message) }.
   constructor(on) {
     this.on = on;
     this.over = false;

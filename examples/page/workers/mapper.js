@@ -55,7 +55,6 @@ async function take_answer(wait) {
   run.answer = null;
   run.asked = null;
   engine.call("add_detections", frame, JSON.stringify(quads), ms);
-  to_page({ type: "detected", frame, quads, ms });
 }
 
 async function frame({ time, width, height, pixels }) {
