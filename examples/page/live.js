@@ -2,7 +2,7 @@
 "use strict";
 
 const NOTHING = { points: [], keyframes: [], trajectory: [], truth: [], signs: [] };
-const SHOW_EVERY = 60;  // ms between two drawn frames: drawing must not slow tracking
+const SHOW_EVERY = 100;  // ms between two drawn frames: drawing must not slow tracking
 
 class Live {
   constructor() {
@@ -43,7 +43,7 @@ class Live {
   take_pixels() {
     const { width, height, pixels } = this.newest;
     if (this.small.width !== width || this.small.height !== height) Object.assign(this.small, { width, height });
-    const pen = this.small.getContext("2d"), image = pen.createImageData(width, height);
+    const pen = this.small.getContext("2d", { willReadFrequently: true }), image = pen.createImageData(width, height);
     const words = new Uint32Array(image.data.buffer);
     for (let i = 0; i < words.length; ++i) words[i] = 0xff000000 | pixels[i] * 0x010101;
     pen.putImageData(image, 0, 0);

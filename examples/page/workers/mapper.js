@@ -27,8 +27,8 @@ function open({ folder, video, files }) {
 }
 
 function begin({ fov, every, live }) {
-  run = { fov, every, live, size: null, frames: 0, candidate: null, asked: null, answer: null, map_at: 0, maps: -1,
-    began: 0 };
+  run = { fov, every, live, size: null, frames: 0, candidate: null, asked: null, answer: null, asked_at: 0,
+    map_at: 0, maps: -1, began: 0 };
 }
 
 // The newest frame is what the detector sees next, but a key frame keeps its place.
@@ -42,6 +42,7 @@ function ask() {
   if (!run.candidate) return;
   const { frame, pixels } = run.candidate, { width, height } = run.size;
   run.asked = frame;
+  run.asked_at = run.frames;
   run.candidate = null;
   eyes.postMessage({ type: "detect", frame, pixels, width, height }, [pixels.buffer]);
 }
@@ -63,8 +64,8 @@ async function frame({ time, width, height, pixels }) {
     engine.call("begin", width, height, run.fov);
     run.began = performance.now();
   }
-  const slot = run.live ? true : run.frames % run.every === 0;
-  if (slot) await take_answer(!run.live);
+  const slot = run.live ? run.frames - run.asked_at >= run.every : run.frames % run.every === 0;
+  if (slot || run.live) await take_answer(!run.live);
   engine.put(pixels);
   const seen = engine.call("frame", time, width, height);
   ++run.frames;
