@@ -65,6 +65,12 @@ coverage() {
   return $outcome
 }
 
+# textslam in the browser, driven in headless Chromium.
+page() {
+  build_page || return 1
+  "$root/tests/page/run"
+}
+
 fuzz_seconds=${TEXTPLANE_FUZZ_SECONDS:-900}
 
 all_stages() {
@@ -86,6 +92,7 @@ all_stages() {
   if needs mingw x86_64-w64-mingw32-g++-posix wine /usr/src/googletest; then
     stage mingw '-DTEXTPLANE_BUILD_EXAMPLES=OFF' ''
   fi
+  if needs page em++ node chromium "$root/build/dev/bin/textslam"; then checked page page; fi
   stage unoptimised "$library_only" '-L ^library$' "$library_tests"
   stage fast-math "$library_only" '-L ^fast_math$' "$library_tests"
   stage cxx20 "$library_only" '-L ^library$' "$library_tests"

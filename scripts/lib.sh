@@ -14,6 +14,7 @@ fi
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev libyaml-cpp-dev libsqlite3-dev fonts-dejavu-core fonts-dejavu-extra"
+packages_page='cmake g++ make libeigen3-dev emscripten node-acorn nlohmann-json3-dev libstb-dev'
 packages_test="$packages_build libgtest-dev"
 packages_ci="$packages_demo libgtest-dev libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
@@ -22,7 +23,7 @@ packages_ci="$packages_demo libgtest-dev libopencv-dev libceres-dev librapidchec
 packages_all="$packages_ci python3-sympy python3-matplotlib libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
   g++-11-s390x-linux-gnu g++-riscv64-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32
   clang-19 lld-19 libclang-rt-19-dev-wasm32 nodejs
-  g++-mingw-w64-x86-64-posix wine64 wine
+  g++-mingw-w64-x86-64-posix wine64 wine emscripten node-acorn ffmpeg
   lintian colcon python3-colcon-ros python3-colcon-recursive-crawl"
 
 say() { printf '\n== %s\n' "$*"; }
@@ -77,4 +78,10 @@ install_packages() {
   # shellcheck disable=SC2086  # a list of words
   apt_get install -y -qq --no-install-recommends $missing ||
     warn "apt could not install all of them: install them yourself if the build does not find them"
+}
+
+# build_page: the preset page. A node that is not Debian's looks elsewhere for Debian's modules, which Emscripten needs.
+build_page() {
+  export NODE_PATH="${NODE_PATH:-/usr/share/nodejs}"
+  cmake -S "$root" --preset page && cmake --build "$root/build/page" --target page --parallel "$jobs"
 }

@@ -2,13 +2,6 @@
 "use strict";
 
 const read = (id) => { const text = by_id(id).textContent; return text.startsWith("@") ? null : JSON.parse(text); };
-const THEMES = ["system", "light", "dark"];
-
-function set_theme(name) {
-  if (name === "system") delete document.documentElement.dataset.theme;
-  else document.documentElement.dataset.theme = name;
-  by_id("theme").textContent = `Theme: ${name}`;
-}
 
 function start(data, run) {
   const name = run.sequence.replace(/\/+$/, "").split("/").slice(-2).join("/");
@@ -28,13 +21,7 @@ function start(data, run) {
   plots = make_plots(data, run, (frame) => playback.select_frame(frame), choose);
   if (data.frames.length) playback.select(0);
   const recolour = () => { view.request(); playback.draw(); };
-  let theme = 0;
-  by_id("theme").addEventListener("click", () => {
-    theme = (theme + 1) % THEMES.length;
-    set_theme(THEMES[theme]);
-    recolour();
-  });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
+  listen_theme(recolour);
   view.request();
   window.report = { data, run, view, playback, table };
 }

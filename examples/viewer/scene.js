@@ -66,8 +66,38 @@ class Scene {
     return layer;
   }
 
-  /// A quad with a picture; `ready` is called when that can be drawn.
-  add_quad(corners, picture, ready) {
+  /// The texts as quads with their pictures; `ready` is called when another can be drawn. A picture that a text had
+  /// before stays on its quad.
+  set_quads(texts, ready) {
+    const before = new Map(this.quads.map((quad) => [quad.id, quad]));
+    this.quads = texts.map(({ id, corners, image }) => {
+      const quad = before.get(id) || this.make_quad(id);
+      before.delete(id);
+      this.place(quad, corners);
+      if (image && image !== quad.image) this.paint(quad, image, ready);
+      return quad;
+    });
+    for (const quad of before.values()) {
+      this.gl.deleteVertexArray(quad.array);
+      this.gl.deleteBuffer(quad.buffer);
+      this.gl.deleteTexture(quad.texture);
+    }
+  }
+
+  /// Grey, without a place.
+  make_quad(id) {
+    const gl = this.gl, quad = { id, array: gl.createVertexArray(), buffer: gl.createBuffer(), texture: gl.createTexture() };
+    gl.bindVertexArray(quad.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, quad.buffer);
+    for (const [at, size, offset] of [[0, 3, 0], [1, 2, 12]]) {
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, size, gl.FLOAT, false, 20, offset);
+    }
+    this.put(quad, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array([128, 128, 128, 255]));
+    return quad;
+  }
+
+  place(quad, corners) {
     const gl = this.gl, vertices = [];
     const vertex = (i, j) => {
       const u = i / QUAD_CELLS, v = j / QUAD_CELLS;
@@ -76,29 +106,30 @@ class Scene {
     for (let j = 0; j < QUAD_CELLS; ++j)
       for (let i = 0; i < QUAD_CELLS; ++i)
         for (const [a, b] of [[0, 0], [1, 0], [1, 1], [0, 0], [1, 1], [0, 1]]) vertex(i + a, j + b);
-    const quad = { array: gl.createVertexArray(), texture: gl.createTexture(), count: vertices.length / 5 };
-    gl.bindVertexArray(quad.array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(vertices), gl.STATIC_DRAW);
-    for (const [at, size, offset] of [[0, 3, 0], [1, 2, 12]]) {
-      gl.enableVertexAttribArray(at);
-      gl.vertexAttribPointer(at, size, gl.FLOAT, false, 20, offset);
-    }
-    const put = (...source) => {
-      gl.bindTexture(gl.TEXTURE_2D, quad.texture);
-      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, ...source);
-      gl.generateMipmap(gl.TEXTURE_2D);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+    quad.count = vertices.length / 5;
+    gl.bindBuffer(gl.ARRAY_BUFFER, quad.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(vertices), gl.DYNAMIC_DRAW);
+  }
+
+  paint(quad, picture, ready) {
+    const gl = this.gl, image = new Image();
+    quad.image = picture;
+    image.onload = () => {
+      if (quad.image !== picture || !this.quads.includes(quad)) return;
+      this.put(quad, gl.RGBA, gl.UNSIGNED_BYTE, image);
+      ready();
     };
-    put(1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array([128, 128, 128, 255]));
-    if (picture) {
-      const image = new Image();
-      image.onload = () => { put(gl.RGBA, gl.UNSIGNED_BYTE, image); ready(); };
-      image.src = picture;
-    }
-    this.quads.push(quad);
+    image.src = picture;
+  }
+
+  put(quad, ...source) {
+    const gl = this.gl;
+    gl.bindTexture(gl.TEXTURE_2D, quad.texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, ...source);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
   }
 
   draw(clip, with_quads) {

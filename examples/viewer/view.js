@@ -13,6 +13,7 @@ class View {
     this.frame = 0;
     this.follow = false;
     this.with_quads = this.with_labels = true;
+    this.moved = false;  // by the user: from then on the eye stays where it is
     this.measure();
     this.reset();
     try {
@@ -22,7 +23,7 @@ class View {
       this.canvas.hidden = true;
       return;
     }
-    by_id("no-map").hidden = data.world.keyframes.length > 0;
+    this.make_layers();
     this.fill();
     this.listen();
     new ResizeObserver(() => this.request()).observe(this.box);
@@ -53,21 +54,13 @@ class View {
     this.distance = 2 * this.radius * Math.max(1, 1.4 * this.box.clientHeight / this.box.clientWidth);
   }
 
-  fill() {
-    const { texts, world } = this.data, scene = this.scene, small = 0.045 * this.radius;
-    const lines = (corners) => corners.flatMap((c, i) => [...c, ...corners[(i + 1) % corners.length]]);
-    const path = (poses) => poses.flatMap((p, i) => (i && p && poses[i - 1] ? [...poses[i - 1].slice(0, 3), ...p.slice(0, 3)] : []));
-    for (const text of texts) scene.add_quad(text.corners, text.image, () => this.request());
-    const fill = (name, colour, numbers, points) => scene.add_layer(name, colour, points).set(numbers);
-    fill("outlines", "--estimate", texts.flatMap((t) => lines(t.corners)));
-    fill("normals", "--normal", texts.flatMap((t) => [...t.centre, ...add(t.centre, scaled(t.normal, 2.5 * small))]));
-    fill("points", "--point", world.points, 2.6);
-    fill("key frames", "--keyframe", world.keyframes.flatMap((k) => this.frustum(k.pose, small)));
-    fill("trajectory", "--estimate", path(world.trajectory));
-    fill("truth", "--truth", [...path(world.truth), ...world.signs.flatMap((s) => lines(s.corners))]);
+  /// The layers, and what turns them on and off.
+  make_layers() {
+    const scene = this.scene, bar = by_id("layers");
+    for (const [name, colour, points] of [["outlines", "--estimate"], ["normals", "--normal"], ["points", "--point", 2.6],
+      ["key frames", "--keyframe"], ["trajectory", "--estimate"], ["truth", "--truth"]]) scene.add_layer(name, colour, points);
     this.camera_layer = scene.add_layer("camera", "--camera");
     this.chosen_layer = scene.add_layer("chosen", "--accent");
-    const bar = by_id("layers");
     const toggle = (name, colour, on, change) => {
       const label = element("label"), box = element("input", null, { type: "checkbox", checked: on });
       box.addEventListener("change", () => { change(box.checked); this.request(); });
@@ -75,17 +68,44 @@ class View {
       if (colour) label.append(Object.assign(element("i"), { style: `background: var(${colour})` }));
       label.append(name);
       bar.append(label);
+      return label;
     };
     toggle("texts", "", true, (on) => { this.with_quads = scene.layers[0].visible = on; });
     toggle("words", "", true, (on) => { this.with_labels = on; });
-    for (const layer of scene.layers.slice(1, 6)) {
-      if (!layer.count) continue;
-      toggle(layer.name, layer.colour, true, (on) => { layer.visible = on; });
-    }
+    this.toggles = scene.layers.slice(1, 6).map((layer) => toggle(layer.name, layer.colour, true, (on) => { layer.visible = on; }));
     toggle("fly with the camera", "--camera", false, (on) => { this.follow = on; });
     const reset = element("button", "Reset", { type: "button" });
-    reset.addEventListener("click", () => { this.reset(); this.request(); });
+    reset.addEventListener("click", () => { this.moved = false; this.reset(); this.request(); });
     bar.append(reset);
+  }
+
+  /// Puts the map into the layers.
+  fill() {
+    const { texts, world } = this.data, scene = this.scene, small = 0.045 * this.radius;
+    const lines = (corners) => corners.flatMap((c, i) => [...c, ...corners[(i + 1) % corners.length]]);
+    const path = (poses) => poses.flatMap((p, i) => (i && p && poses[i - 1] ? [...poses[i - 1].slice(0, 3), ...p.slice(0, 3)] : []));
+    by_id("no-map").hidden = world.keyframes.length > 0;
+    scene.set_quads(texts, () => this.request());
+    const parts = [
+      texts.flatMap((t) => lines(t.corners)),
+      texts.flatMap((t) => [...t.centre, ...add(t.centre, scaled(t.normal, 2.5 * small))]),
+      world.points,
+      world.keyframes.flatMap((k) => this.frustum(k.pose, small)),
+      path(world.trajectory),
+      [...path(world.truth), ...world.signs.flatMap((s) => lines(s.corners))],
+    ];
+    parts.forEach((numbers, i) => scene.layers[i].set(numbers));
+    this.toggles.forEach((label, i) => { label.hidden = !scene.layers[i + 1].count; });
+  }
+
+  /// Shows another state of the map.
+  show(data) {
+    this.data = data;
+    this.measure();
+    if (!this.moved) this.reset();
+    if (!this.scene) return;
+    this.fill();
+    this.request();
   }
 
   frustum(pose, depth) {
@@ -106,6 +126,7 @@ class View {
   /// Centres the text and looks at its front.
   choose(text) {
     this.chosen = text.id;
+    this.moved = true;
     this.target = text.centre;
     const wide = length(subtract(text.corners[1], text.corners[0])), n = text.normal;
     this.distance = Math.max(5 * wide, 0.3 * this.radius);
@@ -177,17 +198,20 @@ class View {
   }
 
   pan(dx, dy) {
+    this.moved = true;
     const ahead = this.direction(), right = unit(cross(ahead, this.up)), up = cross(right, ahead);
     const unit_a_px = 2 * FIELD * this.distance / Math.max(1, this.box.clientHeight);
     this.target = add(this.target, add(scaled(right, -dx * unit_a_px), scaled(up, dy * unit_a_px)));
   }
 
   turn(yaw, pitch) {
+    this.moved = true;
     this.yaw += yaw;
     this.pitch = Math.max(-1.55, Math.min(1.55, this.pitch + pitch));
   }
 
   zoom(factor) {
+    this.moved = true;
     this.distance = Math.max(0.02 * this.radius, Math.min(40 * this.radius, this.distance * factor));
   }
 
@@ -249,7 +273,7 @@ class View {
       else if (step) this.turn(step[0] * KEY_TURN, step[1] * KEY_TURN);
       else if (event.key === "+" || event.key === "=") this.zoom(0.85);
       else if (event.key === "-") this.zoom(1 / 0.85);
-      else if (event.key === "r" || event.key === "R") this.reset();
+      else if (event.key === "r" || event.key === "R") { this.moved = false; this.reset(); }
       else return;
       event.preventDefault();
       event.stopPropagation();

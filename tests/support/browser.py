@@ -15,7 +15,7 @@ FLAGS = ["--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshade
          "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
          "--disable-sync", "--disable-dev-shm-usage", "--remote-debugging-pipe"]
 WAIT = 120  # s, for something that will come; only how long a failure takes depends on it
-SCHEME = "file:", "data:", "about:", "chrome:", "devtools:"
+SCHEME = "file:", "data:", "blob:", "about:", "chrome:", "devtools:"
 
 
 def skip(reason):
@@ -104,8 +104,11 @@ class Browser:
         return result["result"].get("value")
 
     def until(self, script, what):
+        self.until_true(lambda: self.run(script), what)
+
+    def until_true(self, condition, what):
         end = time.monotonic() + WAIT
-        while not self.run(script):
+        while not condition():
             check(time.monotonic() < end, f"{what}; troubles: {self.troubles}")
             time.sleep(0.02)
 

@@ -10,7 +10,6 @@
 #include "textslam/report/timing.hpp"
 
 namespace textslam {
-namespace {
 
 Json camera_json(const Sequence& sequence) {
   const CameraModel& camera = sequence.camera;
@@ -23,6 +22,8 @@ Json camera_json(const Sequence& sequence) {
   if (sequence.approximate_fov > 0) out["approximate_fov_deg"] = short_number(sequence.approximate_fov);
   return out;
 }
+
+namespace {
 
 Json data_json(const ReportInput& in) {
   return {{"version", TEXTPLANE_VERSION_STRING},

@@ -31,6 +31,9 @@ struct ReportInput {
   int every = 1;                                            ///< One frame of so many was used.
 };
 
+/// {"width", "height", "fx", "fy", "cx", "cy"}, px, and where it is guessed "approximate_fov_deg".
+Json camera_json(const Sequence& sequence);
+
 /// The page. Throws what `image` throws.
 std::string report_html(const ReportInput& input);
 

@@ -2,10 +2,10 @@
 #include <memory>
 #include <stdexcept>
 
-#include "slam/session.hpp"
 #include "slam/slam.hpp"
 #include "textplane/landmarks/text_view.hpp"
 #include "textslam/report/text_map.hpp"
+#include "textslam/session.hpp"
 
 namespace binding {
 
@@ -62,7 +62,11 @@ std::unique_ptr<System> make_system(const Camera& camera, int width, int height,
   model.width = width;
   model.height = height;
   auto out = std::make_unique<System>();
-  out->session = std::make_unique<Session>(model, parameters_of(mode, parameters), keep_images);
+  textslam::SessionOptions options;
+  options.parameters = parameters_of(mode, parameters);
+  options.keep_images = keep_images;
+  options.command = {"textplane.slam.System"};
+  out->session = std::make_unique<Session>(textslam::sequence_of(model), options);
   out->detector = detector;
   return out;
 }
@@ -235,7 +239,7 @@ void bind_system(py::module_& m) {
       "None, keep_images: bool = True, parameters: dict[str, float] = ...) -> None\n\nwidth, height: of all images, "
       "px. "
       "mode: text, points or loose. detector: image -> quads, or (quads, scores, words), called for each frame without "
-      "detections. keep_images: for poses before the map began and for the report; 0.4 MB a frame of 640 x 480. "
+      "detections. keep_images: for poses before the map began and for the report; 0.3 MB a frame of 640 x 480. "
       "parameters: by the names of docs/textslam.md.");
   c.def("process", &process, "image"_a, "timestamp"_a, "detections"_a = py::none(),
         "process(image: Array, timestamp: float, detections: Any = None) -> FrameResult\n\nThe next image, uint8 "

@@ -1,0 +1,117 @@
+// The worker of the system: tracks and maps each frame, in order, and says what became of it.
+//
+// Detections come late, as with `textslam --real-time`: the detector sees the newest key frame that it has not seen, or
+// else the newest frame. Of a file it gets one at every `every`-th frame, and the answer is waited for at the next such
+// frame: so the same file gives the same map on any machine. A camera does not wait: the detector gets the next frame
+// when it is done with one.
+"use strict";
+
+let engine = null, eyes = null, run = null;
+const FOLDER_OF_OUTPUTS = "/outputs";
+const FILES = ["report.html", "text_map.json", "text_map.ply", "trajectory.txt", "trajectory_live.txt", "keyframes.txt",
+  "metrics.json", "timing.json", "text_index.json", "covariances.csv"];
+const MAP_EVERY = 300;  // ms, at least, between two maps for the page
+
+const to_page = (message, moved = []) => self.postMessage(message, moved);
+
+/// The small files of a sequence, as the module's folder.
+function open({ folder, video, files }) {
+  const fs = engine.files;
+  for (const { path, text } of files) {
+    const full = `/${folder}/${path}`;
+    fs.mkdirTree(full.slice(0, full.lastIndexOf("/")));
+    fs.writeFile(full, text);
+  }
+  fs.mkdirTree(`/${folder}`);
+  to_page({ type: "opened", sequence: engine.call("open", `/${folder}`, video) });
+}
+
+function begin({ fov, every, live }) {
+  run = { fov, every, live, size: null, frames: 0, candidate: null, asked: null, answer: null, asked_at: 0,
+    map_at: 0, maps: -1, began: 0 };
+}
+
+// The newest frame is what the detector sees next, but a key frame keeps its place.
+function offer(frame, pixels) {
+  const { candidate } = run;
+  if (!candidate || frame.keyframe || !candidate.keyframe)
+    run.candidate = { frame: frame.frame, keyframe: frame.keyframe, pixels };
+}
+
+function ask() {
+  if (!run.candidate) return;
+  const { frame, pixels } = run.candidate, { width, height } = run.size;
+  run.asked = frame;
+  run.asked_at = run.frames;
+  run.candidate = null;
+  eyes.postMessage({ type: "detect", frame, pixels, width, height }, [pixels.buffer]);
+}
+
+// What the detector answered goes into the map.
+async function take_answer(wait) {
+  if (run.asked === null) return;
+  if (!run.answer && wait) await new Promise((done) => { run.wake = done; });
+  if (!run.answer) return;
+  const { frame, quads, ms } = run.answer;
+  run.answer = null;
+  run.asked = null;
+  engine.call("add_detections", frame, JSON.stringify(quads), ms);
+}
+
+async function frame({ time, width, height, pixels }) {
+  if (!run.size) {
+    run.size = { width, height };
+    engine.call("begin", width, height, run.fov);
+    run.began = performance.now();
+  }
+  const slot = run.live ? run.frames - run.asked_at >= run.every : run.frames % run.every === 0;
+  if (slot || run.live) await take_answer(!run.live);
+  engine.put(pixels);
+  const seen = engine.call("frame", time, width, height);
+  ++run.frames;
+  offer(seen, pixels.slice());
+  if (slot && run.asked === null) ask();
+  eyes.postMessage({ type: "more" });
+  const now = performance.now();
+  const grown = seen.map_keyframes !== run.maps || now - run.map_at > 5 * MAP_EVERY;
+  if (grown && now - run.map_at > MAP_EVERY && seen.map_keyframes > 0) {
+    to_page({ type: "map", map: engine.call("map") });
+    run.map_at = performance.now();
+    run.maps = seen.map_keyframes;
+  }
+  to_page({ type: "frame", seen, width, height, pixels, ms: performance.now() - run.began }, [pixels.buffer]);
+}
+
+async function end({ dropped }) {
+  if (!run || !run.frames) throw new Error("no frame came");
+  await take_answer(true);
+  const ms = performance.now() - run.began;
+  to_page({ type: "finishing", frames: run.frames, ms });
+  const result = engine.call("finish", FOLDER_OF_OUTPUTS), fs = engine.files;
+  to_page({ type: "map", map: engine.call("map") });
+  const files = FILES.filter((name) => fs.analyzePath(`${FOLDER_OF_OUTPUTS}/${name}`).exists)
+    .map((name) => ({ name, bytes: fs.readFile(`${FOLDER_OF_OUTPUTS}/${name}`) }));
+  to_page({ type: "finished", ...result, frames: run.frames, ms, dropped, files }, files.map((f) => f.bytes.buffer));
+}
+
+// The detector's answers must not queue behind the frame that waits for them.
+function detections(message) {
+  run.answer = message;
+  if (run.wake) run.wake();
+  run.wake = null;
+}
+
+const ready = start_engine().then((started) => { engine = started; });
+answer(ready, {
+  open,
+  begin,
+  eyes({ port }) {
+    eyes = port;
+    const queue = new MessageChannel();
+    answer(Promise.resolve(), { frame, end }, queue.port2);
+    port.onmessage = ({ data }) => {
+      if (data.type === "detections") detections(data);
+      else queue.port1.postMessage(data, data.pixels ? [data.pixels.buffer] : []);
+    };
+  },
+}, self);

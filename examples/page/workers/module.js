@@ -1,0 +1,37 @@
+// The compiled system in a worker: calls with JSON, pixels in its memory. Both workers begin with it.
+"use strict";
+
+/// engine.call(name, ...numbers and strings) returns the parsed answer; throws where it is an error.
+async function start_engine() {
+  const module = await textslam_engine();
+  return {
+    files: module.FS,
+    call(name, ...values) {
+      const kinds = values.map((v) => (typeof v === "number" ? "number" : "string"));
+      const out = JSON.parse(module.ccall(`page_${name}`, "string", kinds, values));
+      if (out.error !== undefined) throw new Error(out.error);
+      return out;
+    },
+    /// Copies pixels to where frame and detect look for them.
+    put(pixels) { module.HEAPU8.set(pixels, module._page_pixels(pixels.length)); },
+    /// Grey values of red, green, blue and alpha.
+    grey_of(colours) {
+      const at = module._page_pixels(colours.length), count = colours.length / 4;
+      module.HEAPU8.set(colours, at);
+      module._page_grey(count);
+      return module.HEAPU8.slice(at, at + count);
+    },
+  };
+}
+
+/// Answers messages one after the other, by the functions of their names; others are passed over. What a function throws
+/// goes to the page.
+function answer(ready, handlers, port) {
+  let last = ready;
+  port.onmessage = ({ data }) => {
+    if (!handlers[data.type]) return;
+    last = last.then(() => handlers[data.type](data)).catch((error) => {
+      self.postMessage({ type: "error", message: error.message || String(error) });
+    });
+  };
+}

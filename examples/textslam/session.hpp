@@ -1,0 +1,76 @@
+// Session: the system frame by frame for a host that has the images, with what it needs for its outputs. Python's
+// textplane.slam.System and the page in the browser (examples/page) are such hosts.
+#ifndef TEXTSLAM_SESSION_HPP
+#define TEXTSLAM_SESSION_HPP
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "textslam/input/sequence_camera.hpp"
+#include "textslam/report/summary.hpp"
+#include "textslam/system/system.hpp"
+
+namespace textslam {
+
+struct SessionOptions {
+  Parameters parameters;
+  /// Images are kept for finish(), which gives poses to frames that had none, and for the pictures of the report.
+  bool keep_images = true;
+  /// Of those kept at most. Frames that come later are not filled in, and not shown.
+  std::size_t most_image_bytes = std::numeric_limits<std::size_t>::max();
+  std::string detector = "of the program";  ///< Its name, for the outputs.
+  std::vector<std::string> command;         ///< What the report gives as the command line.
+};
+
+/// The sequence of a host that has nothing but a camera.
+Sequence sequence_of(const CameraModel& camera);
+
+class Session {
+ public:
+  /// Of `sequence` the camera, the truth and the words for people count; its frames are those that come.
+  Session(Sequence sequence, const SessionOptions& options);
+
+  /// The next frame. Throws std::invalid_argument for an image of another size, a time that does not increase, or after
+  /// finish().
+  const FrameRecord& process(FrameRef frame, ImageView8 image, std::vector<Detection> detections, double detect_ms);
+  /// The same of a frame that has nothing but a time.
+  const FrameRecord& process(ImageView8 image, double timestamp, std::vector<Detection> detections, double detect_ms);
+  /// Late detections of a frame that was processed, before finish(): see System::add_detections().
+  void add_detections(int frame, std::vector<Detection> detections, double detect_ms);
+  /// Ends the run; twice does nothing.
+  void finish();
+  bool finished() const { return finished_; }
+  /// Ends the run and writes the files of report/outputs.hpp, the report too unless it would be empty. Throws
+  /// std::runtime_error where it cannot.
+  void save(const std::string& folder);
+  /// Ends the run; the page of report/report.hpp. Empty before the first frame, and without images.
+  std::string report();
+  /// Ends the run; its numbers. Throws InputError for a broken file of true signs.
+  RunSummary summary();
+
+  const System& system() const { return system_; }
+  const CameraModel& camera() const { return sequence_.camera; }
+  std::size_t frames() const { return sequence_.frames.size(); }
+
+ private:
+  Frame kept(int index) const;
+
+  SessionOptions options_;
+  Parameters at_size_;
+  Sequence sequence_;  // its frames are those that came
+  SequenceCamera camera_;
+  System system_;
+  bool finished_ = false;
+  std::vector<Image<std::uint8_t>> images_;  // of the first frames
+  std::size_t image_bytes_ = 0;
+  std::map<int, std::vector<Detection>> detections_;  // of the frames whose images are kept
+  std::vector<TrueSign> signs_;
+  std::size_t detected_ = 0;
+};
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_SESSION_HPP
