@@ -11,7 +11,7 @@ function start_worker(...parts) {
 }
 
 class Run {
-  /// `on`: { opened(sequence), map, frame, finishing, finished, error(message) }.
+  /// `on`: { opened(sequence), map, kept, calibrating, frame, finishing, finished, error(message) }.
   constructor(on) {
     this.on = on;
     this.over = false;
@@ -44,7 +44,7 @@ class Run {
   async open_files(sequence, settings) {
     this.mapper.postMessage({ type: "open", folder: sequence.folder, video: sequence.video ? sequence.video.name : "", files: sequence.texts });
     const { frames, camera } = await new Promise((done) => { this.on.opened = (message) => done(message.sequence); });
-    this.mapper.postMessage({ type: "begin", ...settings, live: false });
+    this.mapper.postMessage({ type: "begin", ...settings, calibrate: settings.calibrate && !camera, live: false });
     const side = camera ? 0 : MOST_SIDE;
     const named = frames.map(({ path, time }) => {
       const name = path.slice(path.indexOf("/", 1) + 1);
@@ -60,7 +60,7 @@ class Run {
     this.webcam = await Webcam.open();
     this.mapper.postMessage({ type: "open", folder: "camera", video: "live", files: [] });
     await new Promise((done) => { this.on.opened = () => done(); });
-    this.mapper.postMessage({ type: "begin", ...settings, live: true });
+    this.mapper.postMessage({ type: "begin", ...settings, calibrate: false, live: true });
     this.camera_is_free = true;
     this.stop = () => {
       this.webcam.stop();
