@@ -35,7 +35,7 @@ class Run {
   }
 
   fail(message) {
-    if (this.over) return;
+    if (this.over || this.failed) return;  // what follows from the first failure says less
     this.on.error(message || "a worker of this page failed");
     this.failed = true;
   }
@@ -48,7 +48,8 @@ class Run {
     const side = camera ? 0 : MOST_SIDE;
     const named = frames.map(({ path, time }) => {
       const name = path.slice(path.indexOf("/", 1) + 1);
-      return { name, time, file: sequence.by_path.get(name) };
+      const file = sequence.by_path.get(name) || sequence.by_path.get(name.split("/").pop());  // chosen without its folder
+      return { name, time, file };
     });
     const source = sequence.video ? { kind: "video", file: sequence.video, side } : { kind: "images", frames: named, side };
     this.eyes.postMessage({ type: "read", source });

@@ -7,7 +7,7 @@
 "use strict";
 
 let engine = null, eyes = null, run = null;
-const FOLDER_OF_OUTPUTS = "/outputs";
+const FOLDER_OF_OUTPUTS = "/.outputs";
 const FILES = ["report.html", "text_map.json", "text_map.ply", "trajectory.txt", "trajectory_live.txt", "keyframes.txt",
   "camera.yaml", "metrics.json", "timing.json", "text_index.json", "covariances.csv"];
 const CALIBRATED_BY = 900;  // frames, at most: as CalibrationOptions has it
@@ -81,8 +81,8 @@ self.calibrating = (done, total) => { if (done % 10 === 0) to_page({ type: "cali
 /// `more`: the next frame may come.
 async function track({ time, width, height, pixels }, more = true) {
   if (!run.size) {
-    run.size = { width, height };
     engine.call("begin", width, height, run.fov);
+    run.size = { width, height };
     run.began = performance.now();
   }
   const slot = run.live ? run.frames - run.asked_at >= run.every : run.frames % run.every === 0;
