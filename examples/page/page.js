@@ -14,7 +14,7 @@ function settings() {
     const value = Number(by_id(id).value);
     return Number.isFinite(value) && value >= low && value <= high ? value : usual;
   };
-  return { fov: number("fov", 10, 170, 60), every: Math.round(number("every", 1, 100, 10)) };
+  return { fov: number("fov", 10, 170, 60), every: Math.round(number("every", 1, 100, 10)), calibrate: by_id("calibrate").checked };
 }
 
 function show_choice() {
@@ -43,6 +43,14 @@ async function begin(name, open) {
   let total = 0;
   const now = new Run({
     map: ({ map }) => live.show_map(map),
+    kept({ frames }) {
+      if (total) by_id("progress").value = frames / total;
+      by_id("progress-text").textContent = `Reading for the camera's estimate: ${frames} frames`;
+    },
+    calibrating({ done, total: all }) {
+      by_id("progress").value = done / all;
+      by_id("progress-text").textContent = `Estimating the camera: ${done} of ${all} frames of a pass`;
+    },
     frame(message) {
       live.show_frame(message);
       const done = message.seen.frame + 1, rate = (1000 * done / message.ms).toFixed(1);

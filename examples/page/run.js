@@ -11,7 +11,7 @@ function start_worker(...parts) {
 }
 
 class Run {
-  /// `on`: { opened(sequence), map, frame, finishing, finished, error(message) }.
+  /// `on`: { opened(sequence), map, kept, calibrating, frame, finishing, finished, error(message) }.
   constructor(on) {
     this.on = on;
     this.over = false;
@@ -35,7 +35,7 @@ class Run {
   }
 
   fail(message) {
-    if (this.over) return;
+    if (this.over || this.failed) return;  // what follows from the first failure says less
     this.on.error(message || "a worker of this page failed");
     this.failed = true;
   }
@@ -44,11 +44,12 @@ class Run {
   async open_files(sequence, settings) {
     this.mapper.postMessage({ type: "open", folder: sequence.folder, video: sequence.video ? sequence.video.name : "", files: sequence.texts });
     const { frames, camera } = await new Promise((done) => { this.on.opened = (message) => done(message.sequence); });
-    this.mapper.postMessage({ type: "begin", ...settings, live: false });
+    this.mapper.postMessage({ type: "begin", ...settings, calibrate: settings.calibrate && !camera, live: false });
     const side = camera ? 0 : MOST_SIDE;
     const named = frames.map(({ path, time }) => {
       const name = path.slice(path.indexOf("/", 1) + 1);
-      return { name, time, file: sequence.by_path.get(name) };
+      const file = sequence.by_path.get(name) || sequence.by_path.get(name.split("/").pop());  // chosen without its folder
+      return { name, time, file };
     });
     const source = sequence.video ? { kind: "video", file: sequence.video, side } : { kind: "images", frames: named, side };
     this.eyes.postMessage({ type: "read", source });
@@ -60,7 +61,7 @@ class Run {
     this.webcam = await Webcam.open();
     this.mapper.postMessage({ type: "open", folder: "camera", video: "live", files: [] });
     await new Promise((done) => { this.on.opened = () => done(); });
-    this.mapper.postMessage({ type: "begin", ...settings, live: true });
+    this.mapper.postMessage({ type: "begin", ...settings, calibrate: false, live: true });
     this.camera_is_free = true;
     this.stop = () => {
       this.webcam.stop();

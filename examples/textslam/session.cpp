@@ -8,6 +8,7 @@
 #include "io/input_error.hpp"
 #include "io/output_file.hpp"
 #include "textslam/input/make_frame.hpp"
+#include "textslam/report/calibration.hpp"
 #include "textslam/report/outputs.hpp"
 #include "textslam/report/report.hpp"
 
@@ -107,6 +108,7 @@ RunSummary Session::summary() {
   RunSummary summary = summarise(system_, sequence_, sequence_.frames.size());
   if (options_.parameters.mode != Mode::points) summary.detector = options_.detector;
   summary.detected = detected_;
+  summary.calibration = options_.calibration;
   if (!is_aligned(summary)) return summary;
   signs_ = read_true_signs(sequence_);
   summary.text = evaluate_text(system_.map(), signs_, summary.trajectory.alignment);
@@ -117,6 +119,7 @@ void Session::save(const std::string& folder) {
   create_output_folder(folder);
   write_outputs(folder, system_, summary(),
                 [this](int index) { return frame_name(sequence_, static_cast<std::size_t>(index)); });
+  if (options_.calibration) write_file(folder + "/camera.yaml", camera_yaml(sequence_.camera, options_.calibration));
   const std::string page = report();
   if (!page.empty()) write_file(folder + "/report.html", page);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct SessionOptions {
   bool keep_images = true;
   /// Of those kept at most. Frames that come later are not filled in, and not shown.
   std::size_t most_image_bytes = std::numeric_limits<std::size_t>::max();
-  std::string detector = "of the program";  ///< Its name, for the outputs.
-  std::vector<std::string> command;         ///< What the report gives as the command line.
+  std::optional<SelfCalibration> calibration;  ///< Of the camera, where it was estimated.
+  std::string detector = "of the program";     ///< Its name, for the outputs.
+  std::vector<std::string> command;            ///< What the report gives as the command line.
 };
 
 /// The sequence of a host that has nothing but a camera.
@@ -43,7 +45,8 @@ class Session {
   /// Ends the run; twice does nothing.
   void finish();
   bool finished() const { return finished_; }
-  /// Ends the run and writes the files of report/outputs.hpp, the report too unless it would be empty. Throws
+  /// Ends the run and writes the files of report/outputs.hpp, the report too unless it would be empty, and an
+  /// estimated camera as camera.yaml. Throws
   /// std::runtime_error where it cannot.
   void save(const std::string& folder);
   /// Ends the run; the page of report/report.hpp. Empty before the first frame, and without images.

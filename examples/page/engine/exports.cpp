@@ -10,6 +10,10 @@
 #include "io/image_codecs.hpp"
 #include "page_run.hpp"
 
+// clang-format off
+EM_JS(void, page_progress, (int done, int total), { self.calibrating(done, total); })
+// clang-format on
+
 namespace textslam {
 namespace {
 
@@ -89,6 +93,21 @@ EMSCRIPTEN_KEEPALIVE const char* page_open(const char* folder, const char* video
   return answer([&](Module& m) {
     m.run = std::make_unique<PageRun>(folder, video);
     return m.run->sequence();
+  });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* page_keep(double time, int width, int height) {
+  return answer([&](Module& m) {
+    m.run->keep(time, view(m, width, height));
+    return Json::object();
+  });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* page_calibrate(double fov) {
+  return answer([&](Module& m) {
+    return m.run->calibrate(fov, [](std::size_t done, std::size_t total) {
+      page_progress(static_cast<int>(done), static_cast<int>(total));
+    });
   });
 }
 

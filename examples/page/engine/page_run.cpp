@@ -1,6 +1,6 @@
 #include "page_run.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 
 #include "io/input_error.hpp"
@@ -30,6 +30,24 @@ std::string size_text(int width, int height) { return std::to_string(width) + " 
 
 }  // namespace
 
+// The frames that self-calibration maps again and again.
+class KeptFrames : public VideoFile {
+ public:
+  const std::vector<double>& times() const override { return times_; }
+  Image<std::uint8_t> load(std::size_t index) override { return images_.at(index); }
+  Image<std::uint8_t> load_colour(std::size_t) override { return {}; }
+  std::size_t damaged() const override { return 0; }
+  void add(double time, ImageView8 image) {
+    times_.push_back(time);
+    Image<std::uint8_t>& copy = images_.emplace_back(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) std::copy_n(image.row(y), image.width(), copy.row(y));
+  }
+
+ private:
+  std::vector<double> times_;
+  std::vector<Image<std::uint8_t>> images_;
+};
+
 PageRun::PageRun(const std::string& folder, const std::string& video) : sequence_(read(folder, video)) {}
 
 Json PageRun::sequence() const {
@@ -41,13 +59,40 @@ Json PageRun::sequence() const {
           {"truth", sequence_.groundtruth.size()}};
 }
 
+void PageRun::keep(double time, ImageView8 image) {
+  if (!kept_) kept_ = std::make_shared<KeptFrames>();
+  kept_->add(time, image);
+}
+
+Json PageRun::calibrate(double fov, const std::function<void(std::size_t, std::size_t)>& progress) {
+  const Image<std::uint8_t> first = kept_->load(0);
+  assume_camera(first.width(), first.height(), fov);
+  if (fov == kAssumedFov) sequence_.camera_origin = CameraOrigin::assumed;
+  Sequence sequence = sequence_;
+  sequence.video = kept_;
+  sequence.frames.clear();
+  std::vector<std::size_t> frames;
+  for (const double time : kept_->times()) {
+    frames.push_back(frames.size());
+    sequence.frames.push_back({time, sequence.images_file, std::to_string(frames.back()), 0});
+  }
+  calibration_ = take_estimated_camera(&sequence, frames, Parameters(), false, progress);
+  kept_.reset();
+  sequence_.camera = sequence.camera;
+  sequence_.approximate_fov = sequence.approximate_fov;
+  return {{"determined", calibration_->determined}};
+}
+
+void PageRun::assume_camera(int width, int height, double fov) {
+  sequence_.camera = camera_from_fov(fov, width, height);
+  sequence_.camera.shutter = all_at_once(height);
+  sequence_.approximate_fov = fov;
+  sequence_.camera_origin = CameraOrigin::fov;
+}
+
 void PageRun::begin(int width, int height, double fov, const std::string& detector) {
   CameraModel& camera = sequence_.camera;
-  if (camera.width == 0) {
-    camera = camera_from_fov(fov, width, height);
-    sequence_.approximate_fov = fov;
-    sequence_.camera_origin = CameraOrigin::fov;
-  }
+  if (camera.width == 0) assume_camera(width, height, fov);
   if (camera.width != width || camera.height != height)
     throw InputError(sequence_.images_file, 0,
                      "the frames are " + size_text(width, height) + " px, the camera file says " +
@@ -56,6 +101,7 @@ void PageRun::begin(int width, int height, double fov, const std::string& detect
   SessionOptions options;
   options.most_image_bytes = kMostImageBytes;
   options.detector = detector;
+  options.calibration = calibration_;
   options.command = {"textslam", "in", "the", "browser"};
   session_ = std::make_unique<Session>(sequence_, options);
 }

@@ -7,9 +7,10 @@
 "use strict";
 
 let engine = null, eyes = null, run = null;
-const FOLDER_OF_OUTPUTS = "/outputs";
+const FOLDER_OF_OUTPUTS = "/.outputs";
 const FILES = ["report.html", "text_map.json", "text_map.ply", "trajectory.txt", "trajectory_live.txt", "keyframes.txt",
-  "metrics.json", "timing.json", "text_index.json", "covariances.csv"];
+  "camera.yaml", "metrics.json", "timing.json", "text_index.json", "covariances.csv"];
+const CALIBRATED_BY = 900;  // frames, at most: as CalibrationOptions has it
 const MAP_EVERY = 300;  // ms, at least, between two maps for the page
 
 const to_page = (message, moved = []) => self.postMessage(message, moved);
@@ -26,8 +27,8 @@ function open({ folder, video, files }) {
   to_page({ type: "opened", sequence: engine.call("open", `/${folder}`, video) });
 }
 
-function begin({ fov, every, live }) {
-  run = { fov, every, live, size: null, frames: 0, candidate: null, asked: null, answer: null, asked_at: 0,
+function begin({ fov, every, live, calibrate }) {
+  run = { kept: calibrate ? [] : null, fov, every, live, size: null, frames: 0, candidate: null, asked: null, answer: null, asked_at: 0,
     map_at: 0, maps: -1, began: 0 };
 }
 
@@ -58,10 +59,30 @@ async function take_answer(wait) {
   engine.call("add_detections", frame, JSON.stringify(quads), ms);
 }
 
-async function frame({ time, width, height, pixels }) {
+/// Frames wait until the camera is known; it is estimated from the first ones.
+async function frame(message) {
+  if (!run.kept) return track(message);
+  run.kept.push(message);
+  engine.put(message.pixels);
+  engine.call("keep", message.time, message.width, message.height);
+  to_page({ type: "kept", frames: run.kept.length });
+  if (run.kept.length >= CALIBRATED_BY) return calibrate();
+  eyes.postMessage({ type: "more" });
+}
+
+async function calibrate() {
+  const { kept } = run;
+  run.kept = null;
+  engine.call("calibrate", run.fov);
+  for (const [i, message] of kept.entries()) await track(message, i + 1 === kept.length);
+}
+self.calibrating = (done, total) => { if (done % 10 === 0) to_page({ type: "calibrating", done, total }); };
+
+/// `more`: the next frame may come.
+async function track({ time, width, height, pixels }, more = true) {
   if (!run.size) {
-    run.size = { width, height };
     engine.call("begin", width, height, run.fov);
+    run.size = { width, height };
     run.began = performance.now();
   }
   const slot = run.live ? run.frames - run.asked_at >= run.every : run.frames % run.every === 0;
@@ -71,7 +92,7 @@ async function frame({ time, width, height, pixels }) {
   ++run.frames;
   offer(seen, pixels.slice());
   if (slot && run.asked === null) ask();
-  eyes.postMessage({ type: "more" });
+  if (more) eyes.postMessage({ type: "more" });
   const now = performance.now();
   const grown = seen.map_keyframes !== run.maps || now - run.map_at > 5 * MAP_EVERY;
   if (grown && now - run.map_at > MAP_EVERY && seen.map_keyframes > 0) {
@@ -83,6 +104,7 @@ async function frame({ time, width, height, pixels }) {
 }
 
 async function end({ dropped }) {
+  if (run && run.kept && run.kept.length) await calibrate();
   if (!run || !run.frames) throw new Error("no frame came");
   await take_answer(true);
   const ms = performance.now() - run.began;

@@ -129,4 +129,19 @@ SelfCalibration self_calibrate(const Sequence& sequence, const std::vector<std::
   return out;
 }
 
+SelfCalibration take_estimated_camera(Sequence* sequence, const std::vector<std::size_t>& frames, Parameters parameters,
+                                      bool knows_shutter,
+                                      const std::function<void(std::size_t, std::size_t)>& progress) {
+  // What the shutter of a fast camera does passes for a lens: where neither is known they are found together. The run
+  // does not take the readout over: a truth that knows nothing of rows would call it worse (docs/cameras.md).
+  parameters.estimate_readout = sequence->camera_origin != CameraOrigin::file && !knows_shutter;
+  SelfCalibration found = self_calibrate(*sequence, frames, parameters, CalibrationOptions(), progress);
+  if (!found.determined) return found;
+  found.camera.fps = sequence->camera.fps;
+  found.camera.shutter = sequence->camera.shutter;
+  sequence->camera = found.camera;
+  sequence->approximate_fov = 0;
+  return found;
+}
+
 }  // namespace textslam

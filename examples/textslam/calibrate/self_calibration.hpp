@@ -48,6 +48,12 @@ SelfCalibration self_calibrate(const Sequence& sequence, const std::vector<std::
                                const Parameters& parameters, const CalibrationOptions& options,
                                const std::function<void(std::size_t, std::size_t)>& progress);
 
+/// Gives the sequence the camera that its images tell, where they do. `knows_shutter`: the camera's readout is not to
+/// be estimated with it.
+SelfCalibration take_estimated_camera(Sequence* sequence, const std::vector<std::size_t>& frames, Parameters parameters,
+                                      bool knows_shutter,
+                                      const std::function<void(std::size_t, std::size_t)>& progress);
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_CALIBRATE_SELF_CALIBRATION_HPP
