@@ -32,8 +32,6 @@ class LinePlot {
       return value;
     });
     this.svg = svg("svg", { height: PLOT_HEIGHT, role: "img", "aria-label": title });
-    this.where = element("span", "", { className: "where" });
-    caption.append(this.where);
     this.figure.append(caption, this.svg);
     const frame_at = (event) => {
       const box = this.svg.getBoundingClientRect(), t = (event.clientX - box.left - LEFT) / (box.width - LEFT - RIGHT) * this.end;
@@ -66,12 +64,20 @@ class LinePlot {
       dot.style.fill = `var(${line.colour})`;
       dots.push(dot);
     });
-    this.where.textContent = this.time.length ? `frame ${frame}, ${this.time[frame].toFixed(2)} s` : "";
-    if (!this.marker) return;
+    if (!this.marker || !this.time.length) return;
     const place = (mark, at) => { for (const end of ["x1", "x2"]) mark.setAttribute(end, this.x(this.time[at])); };
     place(this.marker, this.frame);
     place(this.cursor, frame);
-    this.dots.replaceChildren(...dots);
+    this.cursor.style.opacity = this.pointed >= 0 ? 1 : 0;
+    this.marks.replaceChildren(...dots, ...(this.pointed >= 0 ? [this.where(frame)] : []));
+  }
+
+  /// The pointer's frame and time, beside its line on the side with more room.
+  where(frame) {
+    const x = this.x(this.time[frame]), right = x < this.middle;
+    const out = svg("text", { x: x + (right ? 6 : -6), y: TOP + 10, "text-anchor": right ? "start" : "end", class: "where" });
+    out.textContent = `frame ${frame}, ${this.time[frame].toFixed(2)} s`;
+    return out;
   }
 
   draw() {
@@ -112,9 +118,9 @@ class LinePlot {
     }
     this.cursor = line(LEFT, TOP, LEFT, base, "stroke: var(--quiet)");
     this.marker = line(LEFT, TOP, LEFT, base, "stroke: var(--camera); stroke-dasharray: 3 2");
-    this.dots = svg("g", {});
-    parts.push(this.dots);
-    Object.assign(this, { x, y });
+    this.marks = svg("g", {});
+    parts.push(this.marks);
+    Object.assign(this, { x, y, middle: (LEFT + wide - RIGHT) / 2 });
     this.svg.setAttribute("viewBox", `0 0 ${wide} ${PLOT_HEIGHT}`);
     this.svg.replaceChildren(...parts);
     this.read();

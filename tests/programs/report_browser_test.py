@@ -14,46 +14,8 @@ import sys
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(next(p for p in pathlib.Path(__file__).parents if p.name == "tests") / "support"))
 from browser import Browser, check, chromium  # noqa: E402
-
-READY = "window.report !== undefined"
-
-
-def colours(browser, canvas):
-    """How many different colours the canvas shows."""
-    return browser.run(f"""(() => {{
-      const from = document.getElementById('{canvas}'), to = document.createElement('canvas');
-      if ('{canvas}' === 'canvas') report.view.draw();
-      to.width = from.width; to.height = from.height;
-      const pen = to.getContext('2d');
-      pen.drawImage(from, 0, 0);
-      return new Set(new Uint32Array(pen.getImageData(0, 0, to.width, to.height).data.buffer)).size;
-    }})()""")
-
-
-def clip(browser):
-    """The matrix of the view, once what was asked for is drawn."""
-    browser.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))).then(() => true)")
-    return browser.run("[...report.view.clip]")
-
-
-def middle(browser, selector):
-    return browser.run(f"""(() => {{ const e = document.querySelector('{selector}'); e.scrollIntoView({{block: 'center'}});
-      const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }})()""")
-
-
-def drag(browser, selector, dx, dy, modifiers=0):
-    x, y = middle(browser, selector)
-    browser.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1, modifiers=modifiers)
-    browser.mouse("mouseMoved", x + dx, y + dy, button="left", buttons=1, modifiers=modifiers)
-    browser.mouse("mouseReleased", x + dx, y + dy, button="left", buttons=0, clickCount=1, modifiers=modifiers)
-
-
-def click(browser, selector):
-    drag(browser, selector, 0, 0)
-
-
-def search_for(browser, word):
-    browser.run(f"(() => {{ const s = document.getElementById('search'); s.value = {json.dumps(word)}; s.dispatchEvent(new Event('input')); }})()")
+from report_page import READY, click, clip, colours, drag, middle, search_for, switch  # noqa: E402
+from report_viewer import test_viewer  # noqa: E402
 
 
 def test_view(browser):
@@ -108,12 +70,12 @@ def test_playback(browser):
     browser.until("report.view.frame > 1", "it does not play")
     click(browser, "#play")
     # The camera moves in 3D: looking through it, another frame is another view.
-    browser.run("[...document.querySelectorAll('#layers label')].find((l) => l.textContent.includes('fly')).click()")
+    switch(browser, "fly")
     browser.run("report.playback.select(0)")
     first = clip(browser)
     browser.run(f"report.playback.select_frame({last})")
     check(clip(browser) != first, "the camera stays where it is")
-    browser.run("[...document.querySelectorAll('#layers label')].find((l) => l.textContent.includes('fly')).click()")
+    switch(browser, "fly")
 
 
 def test_table(browser):
@@ -181,7 +143,7 @@ def main():
     with Browser(program) as browser:
         page = arguments.folder / "map.html"
         browser.open(page, ready=READY)
-        for test in (test_view, test_playback, test_table, test_page):
+        for test in (test_view, test_playback, test_table, test_page, test_viewer):
             test(browser)
             print(f"ok: {test.__name__}")
         for width in (1440, 390):
