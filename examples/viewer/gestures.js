@@ -21,8 +21,8 @@ function listen_gestures(view) {
     say(on ? "One finger turns the map. A tap beside it lets the page scroll again." : "One finger scrolls the page");
   };
   // The browser would take two fingers for the page's.
-  for (const kind of ["touchstart", "touchmove"])
-    box.addEventListener(kind, (event) => { if (event.touches.length > 1 && event.cancelable) event.preventDefault(); }, { passive: false });
+  const keep_two = (event) => { if (event.touches.length > 1 && event.cancelable) event.preventDefault(); };
+  for (const kind of ["touchstart", "touchmove"]) box.addEventListener(kind, keep_two, { passive: false });
   document.addEventListener("pointerdown", (event) => { if (!box.contains(event.target)) activate(false); });
   box.addEventListener("pointerdown", (event) => {
     fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
@@ -49,10 +49,11 @@ function listen_gestures(view) {
   });
   const lift = (event) => {
     const was_here = fingers.delete(event.pointerId);
-    if (event.type === "pointercancel" && event.pointerType === "touch") say("Tap the map to turn it, or use two fingers");
+    const by_finger = event.pointerType === "touch", { left, top } = box.getBoundingClientRect();
+    if (event.type === "pointercancel" && by_finger) say("Tap the map to turn it, or use two fingers");
     if (!was_here || event.type !== "pointerup" || travelled > TAP_PX) return;
-    if (event.pointerType === "touch") activate(true);
-    const place = box.getBoundingClientRect(), text = view.text_at(event.clientX - place.left, event.clientY - place.top);
+    if (by_finger) activate(true);
+    const text = view.text_at(event.clientX - left, event.clientY - top);
     if (text) view.on_choose(text);
   };
   box.addEventListener("pointerup", lift);

@@ -5,9 +5,11 @@ const GRID_REACH = 2, BAR_PX = 130, COMPASS = 36;
 
 /// What lengths of the map are shown in: `factor` of them make one of the map, `why` is where that is known from.
 function unit_of({ summary = {} }) {
-  if (summary.metric) return { factor: 1, name: "m", why: `by the known widths of ${counted(summary.metric.texts, "text")}` };
-  if (summary.scale !== undefined) return { factor: summary.scale, name: "m", why: "by the alignment with the ground truth" };
-  return { factor: 1, name: "map units", why: "one camera knows no metres; 1 is about how far away the first view's points were" };
+  const { metric, scale } = summary;
+  if (metric) return { factor: 1, name: "m", why: `by the known widths of ${counted(metric.texts, "text")}` };
+  if (scale !== undefined) return { factor: scale, name: "m", why: "by the alignment with the ground truth" };
+  const why = "one camera knows no metres; 1 is about how far away the first view's points were";
+  return { factor: 1, name: "map units", why };
 }
 
 /// The largest of 1, 2, 5, 10, ... that is at most `value`.
@@ -24,12 +26,14 @@ function length_text(value, { name }) {
 
 /// Lines of a grid at the foot of `places`: {numbers, step}, the step in the map's unit.
 function ground_grid(places, { centre, radius, up, ahead, right }, unit) {
-  const step = round_length(radius * unit.factor / 2) / unit.factor, heights = places.map((p) => dot(p, up)).sort((a, b) => a - b);
+  const step = round_length(radius * unit.factor / 2) / unit.factor;
+  const heights = places.map((p) => dot(p, up)).sort((a, b) => a - b);
   const foot = heights.length ? heights[Math.floor(0.03 * (heights.length - 1))] : dot(centre, up);
   const reach = Math.ceil(GRID_REACH * radius / step) * step, numbers = [];
   const from = (axis) => Math.round(dot(centre, axis) / step) * step;
   const at = (a, r) => add(add(scaled(ahead, from(ahead) + a), scaled(right, from(right) + r)), scaled(up, foot));
-  for (let k = -reach; k <= reach + step / 2; k += step) numbers.push(...at(k, -reach), ...at(k, reach), ...at(-reach, k), ...at(reach, k));
+  for (let k = -reach; k <= reach + step / 2; k += step)
+    numbers.push(...at(k, -reach), ...at(k, reach), ...at(-reach, k), ...at(reach, k));
   return { numbers, step };
 }
 

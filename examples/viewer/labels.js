@@ -37,8 +37,12 @@ function text_at(texts, clip, px, py) {
   for (const text of texts) {
     const c = text.corners.map((p) => to_clip(clip, p));
     if (c.some((p) => p[2] <= 0)) continue;
-    const side = c.map((p, i) => { const q = c[(i + 1) % 4]; return (q[0] - p[0]) * (py - p[1]) - (q[1] - p[1]) * (px - p[0]); });
-    if ((side.every((s) => s >= 0) || side.every((s) => s <= 0)) && c[0][2] < nearest) [best, nearest] = [text, c[0][2]];
+    const side = c.map((p, i) => {
+      const q = c[(i + 1) % 4];
+      return (q[0] - p[0]) * (py - p[1]) - (q[1] - p[1]) * (px - p[0]);
+    });
+    const inside = side.every((s) => s >= 0) || side.every((s) => s <= 0);
+    if (inside && c[0][2] < nearest) [best, nearest] = [text, c[0][2]];
   }
   return best;
 }

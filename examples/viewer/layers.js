@@ -7,9 +7,12 @@ class MapLayers {
   constructor(scene) {
     this.scene = scene;
     this.grid = scene.add_layer("grid", "--grid", 0, 0.6);
-    [this.outlines, this.normals, this.points, this.keyframes, this.trajectory, this.truth] = [["outlines", "--estimate"],
-      ["normals", "--normal"], ["points", "--point", 3], ["key frames", "--keyframe"], ["trajectory", "--estimate"],
-      ["truth", "--truth"]].map((layer) => scene.add_layer(...layer));
+    this.outlines = scene.add_layer("outlines", "--estimate");
+    this.normals = scene.add_layer("normals", "--normal");
+    this.points = scene.add_layer("points", "--point", 3);
+    this.keyframes = scene.add_layer("key frames", "--keyframe");
+    this.trajectory = scene.add_layer("trajectory", "--estimate");
+    this.truth = scene.add_layer("truth", "--truth");
     this.timed = [this.outlines, this.normals, this.points, this.keyframes, this.trajectory, this.truth];
     this.lit = scene.add_layer("texts in view", "--camera");
     this.rays = scene.add_layer("rays", "--camera", 0, 0.45);
@@ -34,7 +37,7 @@ class MapLayers {
     };
     toggle("texts", "", true, (on) => { view.with_quads = this.outlines.visible = on; });
     toggle("words", "", true, (on) => { view.with_labels = on; });
-    this.toggles = [this.normals, this.points, this.keyframes, this.trajectory, this.truth].map((layer) => of_layer(layer));
+    this.toggles = this.timed.slice(1).map((layer) => of_layer(layer));
     this.rays_toggle = toggle("rays", "--camera", true, (on) => { this.lit.visible = this.rays.visible = on; });
     this.grid_toggle = of_layer(this.grid).label;
     this.so_far_toggle = toggle("map so far", "", true, (on) => { view.so_far = on; view.set_frame(view.frame); });
@@ -46,7 +49,9 @@ class MapLayers {
   fill({ texts, world, camera }, small) {
     const part = (frame, numbers) => ({ frame: frame === undefined ? -Infinity : frame, numbers });
     const lines = (corners) => corners.flatMap((c, i) => [...c, ...corners[(i + 1) % corners.length]]);
-    const path = (poses) => poses.map((p, i) => part(i, i && p && poses[i - 1] ? [...poses[i - 1].slice(0, 3), ...p.slice(0, 3)] : []));
+    const step = (from, to) => (from && to ? [...from.slice(0, 3), ...to.slice(0, 3)] : []);
+    const path = (poses) => poses.map((pose, i) => part(i, step(poses[i - 1], pose)));
+    const arrow = (t) => [...t.centre, ...add(t.centre, scaled(t.normal, 2.5 * small))];
     const { points, point_frames = [], point_greys = [] } = world, dots = [];
     for (let i = 0; 3 * i < points.length; ++i) {
       const grey = point_greys[i] >= 0 ? point_greys[i] / 255 : undefined;
@@ -54,9 +59,10 @@ class MapLayers {
     }
     const every = Math.ceil(world.keyframes.length / MOST_FRUSTA) || 1;
     this.outlines.set_parts(texts.map((t) => part(t.host, lines(t.corners))));
-    this.normals.set_parts(texts.map((t) => part(t.host, [...t.centre, ...add(t.centre, scaled(t.normal, 2.5 * small))])));
+    this.normals.set_parts(texts.map((t) => part(t.host, arrow(t))));
     this.points.set_parts(dots);
-    this.keyframes.set_parts(world.keyframes.filter((_, i) => i % every === 0).map((k) => part(k.frame, frustum(camera, k.pose, small))));
+    const drawn = world.keyframes.filter((_, i) => i % every === 0);
+    this.keyframes.set_parts(drawn.map((k) => part(k.frame, frustum(camera, k.pose, small))));
     this.trajectory.set_parts(path(world.trajectory));
     this.truth.set_parts([...path(world.truth), ...world.signs.map((s) => part(-Infinity, lines(s.corners)))]);
     for (const { layer, label } of this.toggles) {
@@ -101,8 +107,9 @@ class MapLayers {
 
 /// Lines of a camera: its image at `depth`, and the edges from the eye to it.
 function frustum(camera, pose, depth) {
-  const at = (x, y) => moved(pose, [(x - camera.cx) / camera.fx * depth, (y - camera.cy) / camera.fy * depth, depth]);
-  const corners = [at(0, 0), at(camera.width, 0), at(camera.width, camera.height), at(0, camera.height)], eye = pose.slice(0, 3);
+  const { width, height, fx, fy, cx, cy } = camera, eye = pose.slice(0, 3);
+  const at = (x, y) => moved(pose, [(x - cx) / fx * depth, (y - cy) / fy * depth, depth]);
+  const corners = [at(0, 0), at(width, 0), at(width, height), at(0, height)];
   return corners.flatMap((p, i) => [...p, ...corners[(i + 1) % 4], ...eye, ...p]);
 }
 

@@ -1,5 +1,5 @@
-// Plots: numbers over time as SVG, and the angle errors of the signs as bars. All tell their values where the pointer is in
-// one of them, else at the frame that is shown. A click shows the frame, or the text.
+// Plots: numbers over time as SVG, and the angle errors of the signs as bars. All tell their values where the pointer
+// is in one of them, else at the frame that is shown. A click shows the frame, or the text.
 "use strict";
 
 const PLOT_HEIGHT = 170, LEFT = 46, RIGHT = 10, TOP = 8, BOTTOM = 22;
@@ -75,7 +75,8 @@ class LinePlot {
   /// The pointer's frame and time, beside its line on the side with more room.
   where(frame) {
     const x = this.x(this.time[frame]), right = x < this.middle;
-    const out = svg("text", { x: x + (right ? 6 : -6), y: TOP + 10, "text-anchor": right ? "start" : "end", class: "where" });
+    const anchor = right ? "start" : "end";
+    const out = svg("text", { x: x + (right ? 6 : -6), y: TOP + 10, "text-anchor": anchor, class: "where" });
     out.textContent = `frame ${frame}, ${this.time[frame].toFixed(2)} s`;
     return out;
   }

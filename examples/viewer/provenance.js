@@ -30,8 +30,10 @@ function show_notice(data) {
   else if (!s.tracked) words.push("No frame could be tracked, so there is no map: the images show too little, or move too little.");
   if (s.map_frames.length > 1)
     words.push(`The sequence was mapped in ${s.map_frames.length} parts, of ${s.map_frames.join(", ")} frames, which were never joined. This is the first of them.`);
-  if (fov !== undefined)
-    words.push(`The camera is approximate, a pinhole of ${fov}\u00b0 without lens distortion: take angles and shapes with care.`);
+  if (fov !== undefined) {
+    words.push(`The camera is approximate, a pinhole of ${fov}\u00b0 without lens distortion:`);
+    words.push("take angles and shapes with care.");
+  }
   if (s.calibration) words.push(s.calibration);
   by_id("notice").textContent = words.join(" ");
   by_id("notice").hidden = !words.length;

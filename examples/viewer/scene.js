@@ -6,8 +6,8 @@ const SHADERS = {
     in vec3 position; in float shade; uniform mat4 clip; uniform float size; flat out float grey;
     void main() { gl_Position = clip * vec4(position, 1.0); gl_PointSize = size; grey = shade; }`,
   `#version 300 es
-    precision mediump float; flat in float grey; uniform vec3 colour; uniform vec2 greys; uniform float alpha; uniform bool round;
-    out vec4 result;
+    precision mediump float; flat in float grey; out vec4 result;
+    uniform vec3 colour; uniform vec2 greys; uniform float alpha; uniform bool round;
     void main() {
       if (round && length(gl_PointCoord - 0.5) > 0.5) discard;
       result = vec4(grey < 0.0 ? colour : vec3(mix(greys.x, greys.y, grey)), 1.0) * alpha;

@@ -1,5 +1,5 @@
-// Search: texts by a word as `textslam-map query` finds them, also with letters misread. The hits under the field lead to the
-// text; the table shows the same ones.
+// Search: texts by a word as `textslam-map query` finds them, also with letters misread. The hits under the field lead
+// to the text; the table shows the same ones.
 "use strict";
 
 const NO_MATCH = 6, MOST_HITS = 8, UNREAD = "###";
@@ -24,7 +24,8 @@ function word_similarity(a, b) {
   return longer ? Math.max(0, 1 - 2 * edit_distance(a, b) / longer) : 1;
 }
 
-/// 0 is best: the word itself, its beginning, that of a later word in it, a part, a part of another reading, a similar reading.
+/// 0 is best: the word itself, its beginning, that of a later word in it, a part, a part of another reading, a similar
+/// reading.
 function match_rank(text, asked, same_word) {
   const word = text.word.toLowerCase(), readings = (text.readings || [text.word]).map((r) => r.toLowerCase());
   if (word === asked) return 0;
@@ -59,8 +60,9 @@ class Search {
 
   search() {
     const asked = this.field.value.trim().toLowerCase(), { texts, same_word = 0.5 } = this.data;
-    const ranked = texts.map((text) => ({ text, rank: match_rank(text, asked, same_word) })).filter(({ rank }) => rank < NO_MATCH);
-    this.hits = asked ? ranked.sort((a, b) => a.rank - b.rank).map(({ text }) => text) : [];
+    const ranked = texts.map((text) => ({ text, rank: match_rank(text, asked, same_word) }));
+    const found = ranked.filter(({ rank }) => asked && rank < NO_MATCH).sort((a, b) => a.rank - b.rank);
+    this.hits = found.map(({ text }) => text);
     this.at = 0;
     this.on_search(asked ? this.hits : null);
     this.show();

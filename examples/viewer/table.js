@@ -51,8 +51,10 @@ class TextTable {
   }
 
   draw() {
-    const value = this.columns[this.sorted][1], sign = this.rising ? 1 : -1, texts = [...(this.found || this.data.texts)];
-    if (!this.by_rank) texts.sort((a, b) => { const x = value(a), y = value(b); return sign * (x < y ? -1 : x > y ? 1 : a.id - b.id); });
+    const value = this.columns[this.sorted][1], sign = this.rising ? 1 : -1;
+    const before = (a, b) => { const x = value(a), y = value(b); return sign * (x < y ? -1 : x > y ? 1 : a.id - b.id); };
+    const texts = [...(this.found || this.data.texts)];
+    if (!this.by_rank) texts.sort(before);
     const focused = document.activeElement && document.activeElement.dataset ? document.activeElement.dataset.text : undefined;
     const rows = texts.map((text) => {
       const row = element("tr", null, { tabIndex: 0, className: text.id === this.chosen ? "chosen" : "" });
@@ -75,6 +77,7 @@ class TextTable {
       button.textContent = here ? `${name} ${this.rising ? "\u2191" : "\u2193"}` : name;
     });
     const all = this.data.texts.length;
-    by_id("count").textContent = this.found ? `${texts.length} of ${counted(all, "text")}, by the search` : counted(all, "text");
+    const of_all = counted(all, "text");
+    by_id("count").textContent = this.found ? `${texts.length} of ${of_all}, by the search` : of_all;
   }
 }

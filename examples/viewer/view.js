@@ -86,7 +86,8 @@ class View {
   /// Shows the map as it was at frame `frame`, and the camera there with the texts that it sees.
   set_frame(frame) {
     this.frame = frame;
-    const { texts, world, frames } = this.data, end = frames && frames.length ? frames[frames.length - 1].frame : world.trajectory.length - 1;
+    const { texts, world, frames = [] } = this.data;
+    const end = frames.length ? frames[frames.length - 1].frame : world.trajectory.length - 1;
     this.until = this.so_far && frame < end ? frame : Infinity;
     this.shown = texts.filter((text) => text.host === undefined || text.host <= this.until || text.id === this.chosen);
     if (!this.scene) return;

@@ -132,13 +132,17 @@ def test_values(browser):
     here = browser.run("String(report.data.series.points[30])")
     check(browser.run(f"{told}[{points}][0]") == here, "the values of the frame are not told")
     before = browser.run(told)
-    x, y = middle(browser, "#plots svg")
-    browser.mouse("mouseMoved", x + 40, y)
-    browser.until("document.querySelectorAll('#plots .where').length === report.plots.length", "the pointer's frame is not told")
+
+    def pointed():  # the page may still be on its way to the 3D view
+        x, y = middle(browser, "#plots svg")
+        browser.mouse("mouseMoved", x + 40, y)
+        return browser.run("document.querySelectorAll('#plots .where').length === report.plots.length")
+
+    browser.until_true(pointed, "the pointer's frame is not told")
     frame = browser.run("report.plots[0].pointed")
     check(frame != 30 and browser.run(told) != before, "the values stay where the pointer goes")
     check(browser.run(f"{told}[{points}][0] === String(report.data.series.points[{frame}])"), "another plot does not tell the pointer's frame")
-    browser.mouse("mouseMoved", 2, y)
+    browser.mouse("mouseMoved", 2, middle(browser, "#plots svg")[1])
     browser.until(f"JSON.stringify({told}) === {json.dumps(json.dumps(before, separators=(',', ':'), ensure_ascii=False))}",
                   "without the pointer the values are not those of the frame")
 

@@ -50,8 +50,8 @@ int grey_of(const Map& map, const MapPoint& point) {
 Json world_json(const System& system, const Sequence& sequence, const RunSummary& summary,
                 const std::vector<TrueSign>& signs) {
   const Map& map = system.map();
-  Json points = Json::array(), frames = Json::array(), greys = Json::array(), keyframes = Json::array(), trajectory = Json::array(), truth = Json::array(),
-       true_signs = Json::array();
+  Json points = Json::array(), frames = Json::array(), greys = Json::array(), keyframes = Json::array(),
+       trajectory = Json::array(), truth = Json::array(), true_signs = Json::array();
   std::vector<int> good;
   for (std::size_t i = 0; i < map.points.size(); ++i)
     if (!map.points[i].bad) good.push_back(static_cast<int>(i));
@@ -75,13 +75,8 @@ Json world_json(const System& system, const Sequence& sequence, const RunSummary
       true_signs.push_back({{"id", sign.id}, {"word", sign.word}, {"corners", short_corners(corners)}});
     }
   }
-  return {{"points", points},
-          {"point_frames", frames},
-          {"point_greys", greys},
-          {"keyframes", keyframes},
-          {"trajectory", trajectory},
-          {"truth", truth},
-          {"signs", true_signs}};
+  return {{"points", points},         {"point_frames", frames}, {"point_greys", greys}, {"keyframes", keyframes},
+          {"trajectory", trajectory}, {"truth", truth},         {"signs", true_signs}};
 }
 
 Json series_json(const System& system, const Sequence& sequence, const RunSummary& summary) {
