@@ -126,5 +126,6 @@ document.addEventListener("drop", (event) => {
   if (by_id("choose").hidden) return;
   open_files(files_of_drop(event.dataTransfer));
 });
+listen_keys();
 listen_theme(() => { live.view.request(); live.draw(); });
 window.page = { run, live, results };

@@ -60,6 +60,12 @@ function element(tag, text, properties) {
   if (text !== undefined && text !== null) out.textContent = text;
   return Object.assign(out, properties);
 }
+/// An element of SVG.
+function svg(tag, attributes) {
+  const out = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) out.setAttribute(name, value);
+  return out;
+}
 const by_id = (id) => document.getElementById(id);
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const digits = (value, count) => (value === null || value === undefined ? "" : value.toFixed(count));

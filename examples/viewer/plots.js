@@ -1,13 +1,8 @@
-// Plots: numbers over time as SVG, and the angle errors of the signs as bars. A click shows the frame, or the text.
+// Plots: numbers over time as SVG, and the angle errors of the signs as bars. All tell their values where the pointer
+// is in one of them, else at the frame that is shown. A click shows the frame, or the text.
 "use strict";
 
 const PLOT_HEIGHT = 170, LEFT = 46, RIGHT = 10, TOP = 8, BOTTOM = 22;
-
-function svg(tag, attributes) {
-  const out = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) out.setAttribute(name, value);
-  return out;
-}
 
 /// At most about `count` round numbers from low to high.
 function ticks(low, high, count) {
@@ -16,11 +11,17 @@ function ticks(low, high, count) {
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) out.push(i * step);
   return out;
 }
+/// Index of the value nearest to `wanted`.
+function nearest(values, wanted) {
+  let best = 0;
+  values.forEach((value, i) => { if (Math.abs(value - wanted) < Math.abs(values[best] - wanted)) best = i; });
+  return best;
+}
 const short = (v) => String(Number(v.toPrecision(4)));
 
 class LinePlot {
   /// lines: [{name, colour, frames (null: all), values}], null: no value. `low`: where the axis begins, 0 if not given.
-  constructor(data, { title, unit, lines, low = 0 }, on_frame) {
+  constructor(data, { title, unit, lines, low = 0 }, on_frame, on_point) {
     Object.assign(this, { time: data.series.time, state: data.series.state, lines, low });
     this.figure = element("figure");
     const caption = element("figcaption", `${title}${unit ? `, ${unit}` : ""}`);
@@ -34,22 +35,50 @@ class LinePlot {
     this.figure.append(caption, this.svg);
     const frame_at = (event) => {
       const box = this.svg.getBoundingClientRect(), t = (event.clientX - box.left - LEFT) / (box.width - LEFT - RIGHT) * this.end;
-      let best = 0;
-      this.time.forEach((v, i) => { if (Math.abs(v - t) < Math.abs(this.time[best] - t)) best = i; });
-      return best;
+      return nearest(this.time, t);
     };
-    this.svg.addEventListener("pointermove", (event) => this.read(frame_at(event)));
-    this.svg.addEventListener("pointerleave", () => this.read(-1));
+    this.svg.addEventListener("pointermove", (event) => on_point(frame_at(event)));
+    for (const end of ["pointerleave", "pointercancel"]) this.svg.addEventListener(end, () => on_point(-1));
     this.svg.addEventListener("click", (event) => on_frame(frame_at(event)));
     this.frame = 0;
+    this.pointed = -1;
     new ResizeObserver(() => this.draw()).observe(this.figure);
   }
 
-  read(frame) {
+  /// The pointer is at frame `frame` of a plot; -1: at none.
+  point(frame) {
+    this.pointed = frame;
+    this.read();
+  }
+
+  /// Tells the values at the pointer, or at the frame that is shown, and marks them.
+  read() {
+    const frame = this.pointed >= 0 ? this.pointed : this.frame, dots = [];
     this.lines.forEach((line, i) => {
-      const at = line.frames ? line.frames.indexOf(frame) : frame, value = at >= 0 ? line.values[at] : null;
-      this.values[i].textContent = value === null || value === undefined ? "" : short(value);
+      // Not every frame has its picture, from which some numbers are: the nearest that has.
+      const at = line.frames ? nearest(line.frames, frame) : frame, value = line.values[at];
+      const known = value !== null && value !== undefined;
+      this.values[i].textContent = known ? short(value) : "";
+      if (!known || !this.x) return;
+      const dot = svg("circle", { cx: this.x(this.time[line.frames ? line.frames[at] : at]), cy: this.y(value), r: 3 });
+      dot.style.fill = `var(${line.colour})`;
+      dots.push(dot);
     });
+    if (!this.marker || !this.time.length) return;
+    const place = (mark, at) => { for (const end of ["x1", "x2"]) mark.setAttribute(end, this.x(this.time[at])); };
+    place(this.marker, this.frame);
+    place(this.cursor, frame);
+    this.cursor.style.opacity = this.pointed >= 0 ? 1 : 0;
+    this.marks.replaceChildren(...dots, ...(this.pointed >= 0 ? [this.where(frame)] : []));
+  }
+
+  /// The pointer's frame and time, beside its line on the side with more room.
+  where(frame) {
+    const x = this.x(this.time[frame]), right = x < this.middle;
+    const anchor = right ? "start" : "end";
+    const out = svg("text", { x: x + (right ? 6 : -6), y: TOP + 10, "text-anchor": anchor, class: "where" });
+    out.textContent = `frame ${frame}, ${this.time[frame].toFixed(2)} s`;
+    return out;
   }
 
   draw() {
@@ -88,11 +117,14 @@ class LinePlot {
       p.style.stroke = `var(${colour})`;
       parts.push(p);
     }
-    const now = x(this.time[this.frame] || 0);
-    this.marker = line(now, TOP, now, base, "stroke: var(--camera); stroke-dasharray: 3 2");
-    this.x = x;
+    this.cursor = line(LEFT, TOP, LEFT, base, "stroke: var(--quiet)");
+    this.marker = line(LEFT, TOP, LEFT, base, "stroke: var(--camera); stroke-dasharray: 3 2");
+    this.marks = svg("g", {});
+    parts.push(this.marks);
+    Object.assign(this, { x, y, middle: (LEFT + wide - RIGHT) / 2 });
     this.svg.setAttribute("viewBox", `0 0 ${wide} ${PLOT_HEIGHT}`);
     this.svg.replaceChildren(...parts);
+    this.read();
   }
 
   /// Stretches of frames without a pose.
@@ -109,8 +141,7 @@ class LinePlot {
 
   set_frame(frame) {
     this.frame = frame;
-    if (!this.marker) return;
-    for (const end of ["x1", "x2"]) this.marker.setAttribute(end, this.x(this.time[frame]));
+    this.read();
   }
 }
 
@@ -135,7 +166,7 @@ function make_plots(data, run, on_frame, on_choose) {
   const add_plot = (options) => {
     options.lines = options.lines.filter((l) => l.values.some((v) => v !== null));
     if (!options.lines.length) return;
-    const plot = new LinePlot(data, options, on_frame);
+    const plot = new LinePlot(data, options, on_frame, (frame) => plots.forEach((other) => other.point(frame)));
     plots.push(plot);
     box.append(plot.figure);
   };

@@ -25,11 +25,15 @@ function show_tiles(data) {
 }
 
 function show_notice(data) {
-  const s = data.summary, words = [];
+  const s = data.summary, fov = data.camera.approximate_fov_deg, words = [];
   if (!data.series.time.length) words.push("No frame was processed.");
   else if (!s.tracked) words.push("No frame could be tracked, so there is no map: the images show too little, or move too little.");
   if (s.map_frames.length > 1)
     words.push(`The sequence was mapped in ${s.map_frames.length} parts, of ${s.map_frames.join(", ")} frames, which were never joined. This is the first of them.`);
+  if (fov !== undefined) {
+    words.push(`The camera is approximate, a pinhole of ${fov}\u00b0 without lens distortion:`);
+    words.push("take angles and shapes with care.");
+  }
   if (s.calibration) words.push(s.calibration);
   by_id("notice").textContent = words.join(" ");
   by_id("notice").hidden = !words.length;
@@ -53,8 +57,9 @@ function show_provenance(data, run) {
   const fov = c.approximate_fov_deg;
   const guess = fov === undefined ? "" : `: approximate, a pinhole of ${fov}\u00b0 (--fov), not calibrated`;
   facts.push(["Camera", `${c.width} x ${c.height} px, fx ${c.fx}, fy ${c.fy}, cx ${c.cx}, cy ${c.cy}${guess}`]);
-  if (data.summary.scale !== undefined) facts.push(["Unit of the map", `${data.summary.scale} m, by the alignment with the ground truth`]);
-  for (const [name, value] of facts) by_id("provenance").append(element("dt", name), element("dd", value));
+  const { factor, name, why } = unit_of(data);
+  facts.push(["Unit of the map", name === "m" ? `${factor} m, ${why}` : `not known: ${why}`]);
+  for (const [fact, value] of facts) by_id("provenance").append(element("dt", fact), element("dd", value));
   by_id("command").textContent = run.command.map(quoted).join(" ");
 
   const sections = new Map();

@@ -1,13 +1,17 @@
-// Scene: the map as buffers of WebGL 2. Layers of lines and points in one colour each, and the texts as textured quads.
+// Scene: the map as buffers of WebGL 2. Layers of lines and points, and the texts as textured quads.
 "use strict";
 
 const SHADERS = {
   plain: [`#version 300 es
-    in vec3 position; uniform mat4 clip; uniform float size;
-    void main() { gl_Position = clip * vec4(position, 1.0); gl_PointSize = size; }`,
+    in vec3 position; in float shade; uniform mat4 clip; uniform float size; flat out float grey;
+    void main() { gl_Position = clip * vec4(position, 1.0); gl_PointSize = size; grey = shade; }`,
   `#version 300 es
-    precision mediump float; uniform vec3 colour; uniform bool round; out vec4 result;
-    void main() { if (round && length(gl_PointCoord - 0.5) > 0.5) discard; result = vec4(colour, 1.0); }`],
+    precision mediump float; flat in float grey; out vec4 result;
+    uniform vec3 colour; uniform vec2 greys; uniform float alpha; uniform bool round;
+    void main() {
+      if (round && length(gl_PointCoord - 0.5) > 0.5) discard;
+      result = vec4(grey < 0.0 ? colour : vec3(mix(greys.x, greys.y, grey)), 1.0) * alpha;
+    }`],
   textured: [`#version 300 es
     in vec3 position; in vec2 at; uniform mat4 clip; out vec2 uv;
     void main() { gl_Position = clip * vec4(position, 1.0); uv = at; }`,
@@ -16,6 +20,47 @@ const SHADERS = {
     void main() { result = vec4(texture(image, uv).rgb, 1.0); }`],
 };
 const QUAD_CELLS = 6;  // a side: the picture is bilinear in the corners, a pair of triangles is not
+
+/// Vertices of one colour, or each of its grey value. Each part of a layer is there from a frame on.
+class Layer {
+  constructor(gl, properties) {
+    Object.assign(this, properties, { gl, visible: true, count: 0, begins: [], ends: [] });
+    this.array = gl.createVertexArray();
+    this.buffer = gl.createBuffer();
+    gl.bindVertexArray(this.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    for (const [at, size, offset] of [[0, 3, 0], [2, 1, 12]]) {
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, size, gl.FLOAT, false, 16, offset);
+    }
+  }
+
+  /// parts: [{frame, numbers: [x, y, z, ...], grey: 0 to 1, or none for the colour of the layer}].
+  set_parts(parts) {
+    const vertices = [];
+    this.begins = [];
+    this.ends = [];
+    for (const { frame, numbers, grey = -1 } of [...parts].sort((a, b) => a.frame - b.frame)) {
+      for (let i = 0; i < numbers.length; i += 3) vertices.push(numbers[i], numbers[i + 1], numbers[i + 2], grey);
+      this.begins.push(frame);
+      this.ends.push(vertices.length / 4);
+    }
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffer);
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, new Float32Array(vertices), this.gl.DYNAMIC_DRAW);
+    this.until(Infinity);
+  }
+
+  /// What is always there.
+  set(numbers) { this.set_parts([{ frame: -Infinity, numbers }]); }
+
+  /// Shows what is there at frame `frame`.
+  until(frame) {
+    const later = this.begins.findIndex((begin) => begin > frame), parts = later < 0 ? this.ends.length : later;
+    this.count = parts ? this.ends[parts - 1] : 0;
+  }
+
+  get empty() { return !this.ends.length || !this.ends[this.ends.length - 1]; }
+}
 
 class Scene {
   /// Throws where there is no WebGL 2.
@@ -42,28 +87,19 @@ class Scene {
     }
     gl.bindAttribLocation(program, 0, "position");
     gl.bindAttribLocation(program, 1, "at");
+    gl.bindAttribLocation(program, 2, "shade");
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
     const place = (name) => gl.getUniformLocation(program, name);
-    return { program, clip: place("clip"), size: place("size"), colour: place("colour"), round: place("round") };
+    const out = { program };
+    for (const name of ["clip", "size", "colour", "round", "greys", "alpha"]) out[name] = place(name);
+    return out;
   }
 
-  /// A layer of lines (pairs of vertices) or points; `colour` is a CSS variable. set() gives it its vertices.
-  add_layer(name, colour, points = 0) {
-    const gl = this.gl, layer = { name, colour, points, visible: true, count: 0 };
-    layer.array = gl.createVertexArray();
-    layer.buffer = gl.createBuffer();
-    gl.bindVertexArray(layer.array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, layer.buffer);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
-    layer.set = (numbers) => {
-      gl.bindBuffer(gl.ARRAY_BUFFER, layer.buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.DYNAMIC_DRAW);
-      layer.count = numbers.length / 3;
-    };
-    this.layers.push(layer);
-    return layer;
+  /// A layer of lines (pairs of vertices) or of points of so many px; `colour` is a CSS variable.
+  add_layer(name, colour, points = 0, alpha = 1) {
+    this.layers.push(new Layer(this.gl, { name, colour, points, alpha }));
+    return this.layers[this.layers.length - 1];
   }
 
   /// The texts as quads with their pictures; `ready` is called when another can be drawn. A picture that a text had
@@ -141,6 +177,7 @@ class Scene {
       gl.useProgram(this.programs.textured.program);
       gl.uniformMatrix4fv(this.programs.textured.clip, false, clip);
       for (const quad of this.quads) {
+        if (quad.hidden) continue;
         gl.bindVertexArray(quad.array);
         gl.bindTexture(gl.TEXTURE_2D, quad.texture);
         gl.drawArrays(gl.TRIANGLES, 0, quad.count);
@@ -149,13 +186,21 @@ class Scene {
     const plain = this.programs.plain, ratio = window.devicePixelRatio || 1;
     gl.useProgram(plain.program);
     gl.uniformMatrix4fv(plain.clip, false, clip);
+    // Not the whole range: a point must not have the colour of what is behind it.
+    gl.uniform2f(plain.greys, Number(css("--grey-low")), Number(css("--grey-high")));
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     for (const layer of this.layers) {
       if (!layer.visible || !layer.count) continue;
       gl.bindVertexArray(layer.array);
       gl.uniform3fv(plain.colour, rgb(css(layer.colour)));
+      gl.uniform1f(plain.alpha, layer.alpha);
       gl.uniform1f(plain.size, layer.points * ratio);
       gl.uniform1i(plain.round, layer.points ? 1 : 0);
+      gl.depthMask(layer.alpha === 1);
       gl.drawArrays(layer.points ? gl.POINTS : gl.LINES, 0, layer.count);
     }
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
   }
 }

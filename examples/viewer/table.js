@@ -1,4 +1,4 @@
-// Table: the text map, searched by word and sorted by any column. A row centres the view on its text.
+// Table: the text map, or what the search found of it, sorted by any column. A row shows its text in the 3D view.
 "use strict";
 
 class TextTable {
@@ -16,6 +16,7 @@ class TextTable {
     if (known) this.columns.push(["Angle error", (t) => (t.sign < 0 ? 1e9 : t.angle_deg), (t) => (t.sign < 0 ? "no such sign" : `${digits(t.angle_deg, 2)}\u00b0`)]);
     this.data = data;
     this.on_choose = on_choose;
+    this.found = null;  // by the search, the best first
     this.sorted = 0;
     this.rising = true;
     this.chosen = -1;
@@ -25,6 +26,7 @@ class TextTable {
       button.addEventListener("click", () => {
         this.rising = this.sorted === i ? !this.rising : true;
         this.sorted = i;
+        this.by_rank = false;
         this.draw();
       });
       cell.append(button);
@@ -33,7 +35,13 @@ class TextTable {
     });
     document.querySelector("#texts thead").append(head);
     this.body = document.querySelector("#texts tbody");
-    by_id("search").addEventListener("input", () => this.draw());
+    this.draw();
+  }
+
+  /// Shows these texts, in their order until a column is asked for; null: all.
+  show(found) {
+    this.found = found;
+    this.by_rank = found !== null;
     this.draw();
   }
 
@@ -43,9 +51,10 @@ class TextTable {
   }
 
   draw() {
-    const asked = by_id("search").value.trim().toLowerCase(), value = this.columns[this.sorted][1], sign = this.rising ? 1 : -1;
-    const texts = this.data.texts.filter((t) => text_name(t).toLowerCase().includes(asked));
-    texts.sort((a, b) => { const x = value(a), y = value(b); return sign * (x < y ? -1 : x > y ? 1 : a.id - b.id); });
+    const value = this.columns[this.sorted][1], sign = this.rising ? 1 : -1;
+    const before = (a, b) => { const x = value(a), y = value(b); return sign * (x < y ? -1 : x > y ? 1 : a.id - b.id); };
+    const texts = [...(this.found || this.data.texts)];
+    if (!this.by_rank) texts.sort(before);
     const focused = document.activeElement && document.activeElement.dataset ? document.activeElement.dataset.text : undefined;
     const rows = texts.map((text) => {
       const row = element("tr", null, { tabIndex: 0, className: text.id === this.chosen ? "chosen" : "" });
@@ -63,11 +72,12 @@ class TextTable {
     this.body.replaceChildren(...rows);
     if (focused !== undefined) rows.filter((row) => row.dataset.text === focused).forEach((row) => row.focus({ preventScroll: true }));
     this.heads.forEach(({ cell, button, name }, i) => {
-      const here = i === this.sorted;
+      const here = i === this.sorted && !this.by_rank;
       cell.setAttribute("aria-sort", here ? (this.rising ? "ascending" : "descending") : "none");
       button.textContent = here ? `${name} ${this.rising ? "\u2191" : "\u2193"}` : name;
     });
     const all = this.data.texts.length;
-    by_id("count").textContent = texts.length === all ? counted(all, "text") : `${texts.length} of ${counted(all, "text")}`;
+    const of_all = counted(all, "text");
+    by_id("count").textContent = this.found ? `${texts.length} of ${of_all}, by the search` : of_all;
   }
 }

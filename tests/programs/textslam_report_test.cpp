@@ -1,4 +1,6 @@
 // report.html of whole runs, and --json-lines. Leaves map.html and no-map.html for the test in the browser.
+#include <set>
+
 #include "io/image_file.hpp"
 #include "io/text_file.hpp"
 #include "programs/textslam_support.hpp"
@@ -55,6 +57,20 @@ class TextslamReport : public testing::Test {
     }
   }
 
+  // Each point has the key frame that saw it first, and a grey value; a room has light and dark ones.
+  static void expect_points_are_told(const Json& world) {
+    const std::size_t count = world.at("points").size() / 3;
+    ASSERT_EQ(world.at("point_frames").size(), count);
+    ASSERT_EQ(world.at("point_greys").size(), count);
+    std::set<int> keyframes, greys;
+    for (const Json& keyframe : world.at("keyframes")) keyframes.insert(keyframe.at("frame").get<int>());
+    for (const Json& frame : world.at("point_frames")) EXPECT_EQ(keyframes.count(frame.get<int>()), 1u) << frame;
+    for (const Json& grey : world.at("point_greys")) greys.insert(grey.get<int>());
+    EXPECT_GT(greys.size(), 20u);
+    EXPECT_GE(*greys.begin(), 0);
+    EXPECT_LE(*greys.rbegin(), 255);
+  }
+
   static TemporaryFolder* folder_;
   static ProgramResult* run_;
 };
@@ -79,12 +95,15 @@ TEST_F(TextslamReport, HoldsTheRun) {
     EXPECT_EQ(text.at("word"), map[i].at("text"));
     EXPECT_EQ(text.at("image").get<std::string>().compare(0, 23, "data:image/jpeg;base64,"), 0);
     EXPECT_TRUE(text.contains("angle_deg"));
+    const Json& readings = text.at("readings");
+    EXPECT_NE(std::find(readings.begin(), readings.end(), text.at("word")), readings.end());
     for (std::size_t k = 0; k < 12; ++k) {
       const double exact = map[i].at("corners")[k / 3][k % 3];
       EXPECT_NEAR(text.at("corners")[k / 3][k % 3].get<double>(), exact, 1e-5 * (1 + std::abs(exact)));
     }
   }
   EXPECT_EQ(data.at("world").at("points").size(), 3 * metrics.at("points").get<std::size_t>());
+  expect_points_are_told(data.at("world"));
   EXPECT_EQ(data.at("world").at("keyframes").size(), metrics.at("keyframes").get<std::size_t>());
   EXPECT_EQ(data.at("world").at("trajectory").size(), static_cast<std::size_t>(kFrames));
   EXPECT_EQ(run.at("command").back(), "--json-lines");

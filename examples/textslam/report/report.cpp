@@ -31,6 +31,7 @@ Json data_json(const ReportInput& in) {
           {"camera", camera_json(in.sequence)},
           {"min_zncc", in.parameters.text.min_zncc},
           {"cull_zncc", in.parameters.text.cull_zncc},
+          {"same_word", in.parameters.text.same_word},
           {"start", in.system.records().empty() ? Json(nullptr) : Json(in.system.records().front().timestamp)},
           {"texts", page_texts(in.system, in.summary)},
           {"world", world_json(in.system, in.sequence, in.summary, in.signs)},

@@ -1,5 +1,6 @@
 #include "textslam/report/report_data.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "textslam/common/algorithms.hpp"
@@ -31,18 +32,35 @@ double reprojection(const Map& map, const std::vector<SeenPoint>& seen, const SE
   return count > 0 ? std::sqrt(sum / count) : std::nan("");
 }
 
+// The grey value of the point where the first key frame with an image saw it, -1 where none has.
+int grey_of(const Map& map, const MapPoint& point) {
+  for (const PointObservation& seen : point.observations) {
+    const std::shared_ptr<const Pyramid>& image = map.keyframe(seen.keyframe).frame.image;
+    if (!image) continue;
+    const ImageView8& pixels = image->level(0);
+    const int x = std::clamp(static_cast<int>(std::lround(seen.px.x())), 0, pixels.width() - 1);
+    const int y = std::clamp(static_cast<int>(std::lround(seen.px.y())), 0, pixels.height() - 1);
+    return pixels(x, y);
+  }
+  return -1;
+}
+
 }  // namespace
 
 Json world_json(const System& system, const Sequence& sequence, const RunSummary& summary,
                 const std::vector<TrueSign>& signs) {
   const Map& map = system.map();
-  Json points = Json::array(), keyframes = Json::array(), trajectory = Json::array(), truth = Json::array(),
-       true_signs = Json::array();
+  Json points = Json::array(), frames = Json::array(), greys = Json::array(), keyframes = Json::array(),
+       trajectory = Json::array(), truth = Json::array(), true_signs = Json::array();
   std::vector<int> good;
   for (std::size_t i = 0; i < map.points.size(); ++i)
     if (!map.points[i].bad) good.push_back(static_cast<int>(i));
-  for (const int id : evenly_spaced(good, kReportPoints))
-    for (const double value : map.point(id).p_w) points.push_back(short_number(value));
+  for (const int id : evenly_spaced(good, kReportPoints)) {
+    const MapPoint& point = map.point(id);
+    for (const double value : point.p_w) points.push_back(short_number(value));
+    frames.push_back(point.observations.empty() ? -1 : map.keyframe(point.observations.front().keyframe).frame.index);
+    greys.push_back(grey_of(map, point));
+  }
   for (const int id : map.keyframe_ids())
     keyframes.push_back({{"frame", map.keyframe(id).frame.index}, {"pose", short_pose(map.keyframe(id).T_w_c)}});
   for (const FrameRecord& record : system.records())
@@ -57,11 +75,8 @@ Json world_json(const System& system, const Sequence& sequence, const RunSummary
       true_signs.push_back({{"id", sign.id}, {"word", sign.word}, {"corners", short_corners(corners)}});
     }
   }
-  return {{"points", points},
-          {"keyframes", keyframes},
-          {"trajectory", trajectory},
-          {"truth", truth},
-          {"signs", true_signs}};
+  return {{"points", points},         {"point_frames", frames}, {"point_greys", greys}, {"keyframes", keyframes},
+          {"trajectory", trajectory}, {"truth", truth},         {"signs", true_signs}};
 }
 
 Json series_json(const System& system, const Sequence& sequence, const RunSummary& summary) {

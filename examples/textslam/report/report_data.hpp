@@ -13,8 +13,10 @@ namespace textslam {
 
 constexpr std::size_t kReportPoints = 20000;  ///< Map points shown; of more, evenly spaced.
 
-/// {"points":[x,y,z,...], "keyframes":[{"frame","pose"}], "trajectory":[pose or null by frame], "truth":[[x,y,z] or
-/// null by frame], "signs":[{"id","word","corners"}]}. Truth and signs are empty if unknown.
+/// {"points":[x,y,z,...], "point_frames":[the frame of the key frame that saw it first, below 0 where that is none of
+/// this run], "point_greys":[0 to 255, -1 where no image is left], "keyframes":[{"frame","pose"}], "trajectory":[pose
+/// or null by frame], "truth":[[x,y,z] or null by frame], "signs":[{"id","word","corners"}]}. Truth and signs are empty
+/// if unknown.
 Json world_json(const System& system, const Sequence& sequence, const RunSummary& summary,
                 const std::vector<TrueSign>& signs);
 

@@ -16,7 +16,7 @@ namespace textslam {
 /// The image of a frame that was processed; the frame's index counts from the run's first.
 using ImageSource = std::function<std::shared_ptr<const Pyramid>(int)>;
 
-// Bounds on the size of the report. A frame takes up to 4/3 kFrameBytes and 10 kB of marks, a map point 30 B.
+// Bounds on the size of the report. A frame takes up to 4/3 kFrameBytes and 10 kB of marks, a map point 40 B.
 constexpr std::size_t kReportFrames = 300;      ///< Pictures; of a longer run, evenly spaced.
 constexpr int kFrameSide = 320;                 ///< px, the longer side of a picture at most.
 constexpr std::size_t kFrameBytes = 22 << 10;   ///< Of a picture's JPEG.

@@ -69,7 +69,7 @@ void add_counts(Fields& fields, const RunSummary& s) {
   fields.add("map_frames", "map_frames", s.map_frames);
   add_loops(fields, s.loops);
   if (s.metric) {
-    fields.add("metric", nullptr, Json{{"sigma_share", s.metric->sigma}, {"texts", s.metric->texts}});
+    fields.add("metric", "metric", Json{{"sigma_share", s.metric->sigma}, {"texts", s.metric->texts}});
     fields.row("scale", "metres to %.2f %%, by %d %s", 100 * s.metric->sigma, s.metric->texts,
                s.metric->texts == 1 ? "text" : "texts");
   }

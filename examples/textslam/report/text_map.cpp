@@ -56,7 +56,9 @@ Json page_texts(const System& system, const RunSummary& summary) {
   std::size_t bytes = 0;
   for (const TextObject& text : map.texts) {
     if (text.state != TextState::mapped) continue;
-    Json entry = describe(map, text).page;
+    Json entry = describe(map, text).page, readings = Json::array();
+    for (const auto& [reading, votes] : text.votes) readings.push_back(reading);
+    entry["readings"] = readings;
     const std::string picture = text_jpeg(map, text);
     bytes += picture.size();
     entry["image"] = bytes <= kTextureBytes ? Json(jpeg_uri(picture)) : Json(nullptr);
