@@ -84,10 +84,12 @@ Connection::Connection(const std::string& database) : name_("server") {
   if (!connection_) refuse("out of memory");
   if (PQstatus(connection_.get()) != CONNECTION_OK) fail();
   name_ = std::string("server, database ") + PQdb(connection_.get());
-  // Notices are not for whoever calls the program. Another writer is waited for, but not for ever.
+  // Notices are not for whoever calls the program.
   PQsetNoticeProcessor(
       connection_.get(), [](void*, const char*) {}, nullptr);
-  run("set lock_timeout = '60s'");
+  // Another writer is waited for, but not for ever, and the server finds out soon where one is gone.
+  run("set lock_timeout = '10min'");
+  run("set tcp_keepalives_idle = 60");
 }
 
 void Connection::refuse(const std::string& message) const { throw InputError(name_, 0, message); }
