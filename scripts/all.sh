@@ -107,5 +107,10 @@ all_stages() {
   checked mutants-drawn "$root/tests/mutants/run" --drawn 300 --least 90 --build "$root/build/mutants-drawn"
   if needs fuzz-fast clang++; then checked fuzz-fast "$root/tests/fuzz/run" --fast --seconds "$fuzz_seconds"; fi
   if needs fuzz clang++; then checked fuzz "$root/tests/fuzz/run" --seconds "$fuzz_seconds"; fi
+  # Debian keeps the server's programs out of PATH, in a folder for each version.
+  set -- /usr/lib/postgresql/*/bin/initdb
+  if needs map-server "$1" "$root/build/dev/bin/textslam-map"; then
+    checked map-server "$root/tests/map_server/run" --build "$root/build/dev"
+  fi
   if needs soak "$root/build/dev/bin/textslam"; then checked soak "$root/tests/soak/run" --build "$root/build/dev"; fi
 }

@@ -16,9 +16,10 @@
 namespace textslam {
 
 struct CommonPlace {
-  Similarity S_a_b;                        ///< World of b to world of a.
-  double scale_sigma = 0;                  ///< Of its scale, as a share.
-  std::vector<std::pair<int, int>> texts;  ///< Ids in a and in b of what is one sign.
+  Similarity S_a_b;                              ///< World of b to world of a.
+  double scale_sigma = 0;                        ///< Of its scale, as a share.
+  std::vector<std::pair<int, int>> texts;        ///< Ids in a and in b of what is one sign.
+  std::vector<std::pair<int, int>> points = {};  ///< Of what is one point; signs alone do not tell.
 };
 
 /// What is known of the scale beforehand: as a share, where both maps are in metres.

@@ -13,6 +13,7 @@
 #include "textslam_map/file_commands.hpp"
 #include "textslam_map/image_commands.hpp"
 #include "textslam_map/map_queries.hpp"
+#include "textslam_map/server_commands.hpp"
 #include "textslam_map/text_query.hpp"
 
 namespace {
@@ -84,10 +85,12 @@ int execute(int argc, char** argv) {
   angles->add_option("--within", within, "Degrees: exit code 1 where two normals are farther apart")
       ->check(textslam::within(0, 180));
   textslam::FileCommands file(app);
+  textslam::ServerCommands server(app);
   textslam::FindCommand find(app);
   textslam::ImportCommand importer(app);
   if (const auto code = textslam::parse_command_line(app, "textslam-map", argc, argv)) return *code;
   if (const auto code = file.run()) return *code;
+  if (const auto code = server.run()) return *code;
   if (find.parsed()) return find.run();
   if (importer.parsed()) return importer.run();
   const std::vector<textslam::IndexedText> texts = read_texts(folder);

@@ -83,6 +83,7 @@ LoadedMap merge_maps(LoadedMap a, LoadedMap b, const CommonPlace& place, const P
   MapLink link;
   link.S_a_b = place.S_a_b;
   link.texts = place.texts;
+  link.points = place.points;
   // Velocities of rows, planes and lengths of one map take the unit of the other; what is left is a motion.
   if (!a.record.scale_sigma && b.record.scale_sigma) {
     scale_map(1 / place.S_a_b.scale, &a.map);

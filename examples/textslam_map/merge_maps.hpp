@@ -15,7 +15,7 @@ std::optional<CommonPlace> common_place(const LoadedMap& a, const LoadedMap& b, 
 
 /// Everything of b in a, whose world, camera and ids stay; b's ids follow a's. A sign of both is one text: votes and
 /// observations are added, and the plane, with its host and pixels, is that of the smaller uncertainty. Points stay
-/// two. Where only b is in metres, a is brought to them.
+/// two but those that the place names. Where only b is in metres, a is brought to them.
 LoadedMap merge_maps(LoadedMap a, LoadedMap b, const CommonPlace& place, const Parameters& parameters);
 
 /// Joins the map files `a` and `b` into `output` in one transaction, and says what was joined in a line. Empty:

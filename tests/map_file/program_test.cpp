@@ -96,9 +96,21 @@ TEST_F(MapProgram, Merge) {
   expect_refused(run("merge " + a + " " + a + " --output " + out), 2, a + ": it holds the session of");
 }
 
+// Where the program was built without PostgreSQL it says that.
+TEST_F(MapProgram, AServerThatIsNotThereIsOneLine) {
+  save();
+  const std::string before = read_file(file), none = folder.path("none.db");
+  const Result push = run("push " + file + " 'host=/nowhere dbname=maps'"),
+               pull = run("pull postgresql://127.0.0.1:1/maps " + none);
+  expect_refused(push, 2, push.said.find("built without") == std::string::npos ? "server: connection" : "push: this");
+  expect_refused(pull, 2, pull.said.find("built without") == std::string::npos ? "server: connection" : "pull: this");
+  EXPECT_EQ(read_file(file), before);
+  EXPECT_FALSE(std::filesystem::exists(none));
+}
+
 TEST_F(MapProgram, HelpNamesTheCommands) {
   const std::string help = run("--help").said;
-  for (const char* command : {"query", "angles", "info", "check", "export", "prune", "merge"})
+  for (const char* command : {"query", "angles", "info", "check", "export", "prune", "merge", "push", "pull"})
     EXPECT_NE(help.find(std::string("  ") + command), std::string::npos) << command;
 }
 

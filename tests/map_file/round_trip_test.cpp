@@ -178,7 +178,7 @@ TEST_F(MapFileTest, AnOlderMapIsBroughtUpToDateWhenItIsSaved) {
   save();
   {
     Database database(file, Access::write);
-    database.execute("alter table map drop column scale_sigma; pragma user_version = 1");
+    database.execute("drop table origins; alter table map drop column scale_sigma; pragma user_version = 1");
   }
   const std::string before = read_file(file);
   LoadedMap loaded = load();

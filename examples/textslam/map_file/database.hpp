@@ -69,6 +69,13 @@ class Statement {
   bool next();
   /// Back to before the first row, without values.
   void reset();
+  /// Values one by one, `at` from 1; what is not bound is NULL.
+  void bind(int at, double value);
+  void bind(int at, std::int64_t value);
+  void bind(int at, int value) { bind(at, static_cast<std::int64_t>(value)); }
+  void bind(int at, const std::string& value);
+  void bind(int at, std::string_view bytes);
+  void bind(int at, std::nullptr_t);
 
   /// Columns of the row, from 0.
   bool is_null(int column) const;
@@ -82,12 +89,6 @@ class Statement {
   struct Finalise {
     void operator()(sqlite3_stmt* statement) const;
   };
-  void bind(int at, double value);
-  void bind(int at, std::int64_t value);
-  void bind(int at, int value) { bind(at, static_cast<std::int64_t>(value)); }
-  void bind(int at, const std::string& value);
-  void bind(int at, std::string_view bytes);
-  void bind(int at, std::nullptr_t);
 
   Database& database_;
   std::unique_ptr<sqlite3_stmt, Finalise> statement_;

@@ -7,6 +7,10 @@ namespace textslam {
 LoadedMap load_map(const std::string& path, const Parameters& parameters) {
   Database database = open_map(path);
   database.execute("begin");  // one state of the file, whoever writes meanwhile
+  return load_tables(database, parameters);
+}
+
+LoadedMap load_tables(Database& database, const Parameters& parameters) {
   if (Statement(database, "pragma foreign_key_check").next())
     database.refuse("damaged: rows refer to rows that are gone");
   LoadedMap loaded;

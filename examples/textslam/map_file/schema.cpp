@@ -86,8 +86,13 @@ create virtual table text_boxes using rtree (id, min_x, max_x, min_y, max_y, min
 // A map in metres says how well they are known.
 constexpr const char* kMetres = "alter table map add column scale_sigma real";
 
+// What a file has in common with maps on servers (textslam_map/server/origins.hpp): it holds all that revision
+// `revision` of the map `server_map` held, and was saved `saved` times when they were the same.
+constexpr const char* kOrigins =
+    "create table origins (server_map text primary key, revision integer not null, saved integer not null)";
+
 // Step i makes version i + 1 of version i.
-constexpr std::array<const char*, 2> kSteps = {kFirst, kMetres};
+constexpr std::array<const char*, 3> kSteps = {kFirst, kMetres, kOrigins};
 
 bool is_map(Database& database) { return database.integer("pragma application_id") == kMapApplication; }
 

@@ -23,6 +23,9 @@ void load_keyframes(Database& database, const Parameters& parameters, MapRecord*
 void load_points(Database& database, Map* map);
 void load_texts(Database& database, Map* map);
 
+/// All of them, in the caller's transaction: a map that is not committed yet can be looked at, too.
+LoadedMap load_tables(Database& database, const Parameters& parameters);
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_MAP_FILE_TABLES_HPP
