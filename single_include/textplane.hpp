@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: d7e0902067ffd350
+// Hash of these files: 1598e238d17b9365
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 d7e0902067ffd350"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 1598e238d17b9365"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -5649,6 +5649,9 @@ TEXTPLANE_SIMD_INLINE void fetch_four_words(const std::uint8_t* upper, const std
 //
 // Each has in mind what an engine makes of it on x86-64, where some instructions of WebAssembly are many: truncation,
 // bytes picked by a variable, and shuffles of two vectors that are no interleaving.
+//
+// With -mrelaxed-simd (Clang 17 and later) the engine may take instructions of the CPU where these differ in what they
+// make of rounding, or of numbers that are out of range: madd() then rounds once where the CPU can.
 
 // --- floats ---
 constexpr int kLanes = 4;
@@ -5694,8 +5697,13 @@ TEXTPLANE_SIMD_INLINE vf gather(const float* p, const int* at) noexcept {
 }
 
 // --- float arithmetic ---
+#ifdef __wasm_relaxed_simd__
+TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return __builtin_wasm_relaxed_madd_f32x4(a, b, c); }
+TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return __builtin_wasm_relaxed_nmadd_f32x4(a, b, c); }
+#else
 TEXTPLANE_SIMD_INLINE vf madd(vf a, vf b, vf c) noexcept { return a * b + c; }
 TEXTPLANE_SIMD_INLINE vf nmadd(vf a, vf b, vf c) noexcept { return c - a * b; }
+#endif
 // These are "the second where it is less (greater) than the first, else the first".
 TEXTPLANE_SIMD_INLINE vf min_(vf a, vf b) noexcept { return as_float(wasm_f32x4_pmin(as_int(b), as_int(a))); }
 TEXTPLANE_SIMD_INLINE vf max_(vf a, vf b) noexcept { return as_float(wasm_f32x4_pmax(as_int(b), as_int(a))); }
@@ -5705,7 +5713,13 @@ TEXTPLANE_SIMD_INLINE vf abs_(vf a) noexcept { return as_float(wasm_f32x4_abs(as
 TEXTPLANE_SIMD_INLINE vf floor_(vf a) noexcept { return as_float(wasm_f32x4_floor(as_int(a))); }
 
 // --- conversions ---
+#ifdef __wasm_relaxed_simd__
+TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept {
+  return reinterpret_cast<vi>(__builtin_wasm_relaxed_trunc_s_i32x4_f32x4(a));
+}
+#else
 TEXTPLANE_SIMD_INLINE vi to_int(vf a) noexcept { return wasm_i32x4_trunc_sat_f32x4(as_int(a)); }
+#endif
 TEXTPLANE_SIMD_INLINE vf to_float(vi a) noexcept { return as_float(wasm_f32x4_convert_i32x4(a)); }
 
 // --- int32 arithmetic ---
