@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "simd/rounding_support.hpp"
 #include "support/targets.hpp"
 #include "textplane/simd/ops.hpp"
 
@@ -54,6 +55,15 @@ inline float fused_sum(float a, float b, float c) {
 }
 
 constexpr int kMost = 16;  // lanes
+
+/// Whether madd() of the target whose scope is open rounds once.
+inline bool is_fused(simd::Target target) {
+  if (rounding(target) != as_the_engine_does) return rounding(target) == rounds_once;
+  const float a[kMost] = {1 + std::ldexp(1.0f, -12)}, c[kMost] = {-1 - std::ldexp(1.0f, -11)};
+  float out[19 * kMost];
+  float_operations(a, a, c, out);
+  return out[4 * simd::lanes(target)] != 0;
+}
 
 template <class Body>
 void on_each_target(Body body) {

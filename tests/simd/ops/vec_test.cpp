@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "simd/ops/vec_support.hpp"
-#include "simd/rounding_support.hpp"
 
 namespace vec_test {
 
@@ -44,15 +43,6 @@ int wrap(std::int64_t value) {
   int result = 0;
   std::memcpy(&result, &low, sizeof result);
   return result;
-}
-
-// Whether madd() of the target whose scope is open rounds once.
-bool is_fused(Target target) {
-  if (rounding(target) != as_the_engine_does) return rounding(target) == rounds_once;
-  const float a[kMost] = {1 + std::ldexp(1.0f, -12)}, c[kMost] = {-1 - std::ldexp(1.0f, -11)};
-  float out[19 * kMost];
-  float_operations(a, a, c, out);
-  return out[4 * simd::lanes(target)] != 0;
 }
 
 void expect_float_operations(Target target, const float* a, const float* b, const float* c) {
