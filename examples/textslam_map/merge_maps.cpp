@@ -113,6 +113,8 @@ std::string merge_map_files(const std::string& file_a, const std::string& file_b
   const std::int64_t revision = revision_for(output, file_a, a.record.revision, file_b, b.record.revision);
   LoadedMap merged = merge_maps(std::move(a), std::move(b), *place, parameters);
   merged.record.revision = revision;
+  std::error_code ignored;
+  merged.record.same_ids = !std::filesystem::equivalent(output, file_b, ignored);  // they have those of the first
   save_map(output, merged.map, merged.record);
   std::size_t texts = 0;
   for (const TextObject& text : merged.map.texts) texts += text.state == TextState::mapped ? 1u : 0u;

@@ -159,5 +159,20 @@ TEST_F(Merge, TheOutputMayBeOneOfTheTwo) {
   EXPECT_EQ(result().record.sessions.size(), 2u);
 }
 
+// The merged key frames have the ids of the first map, the file has images by those of the second.
+TEST_F(Merge, ImagesGoWithTheirKeyFrames) {
+  const Image<std::uint8_t> plain(map.width, map.height, 77);
+  const std::shared_ptr<const Pyramid> of_b = std::make_shared<const Pyramid>(plain.view(), parameters.pyramid_levels);
+  for (const int id : {0, 2}) other.map.keyframe(id).frame.image = of_b;
+  save_both();
+  out = b;
+  ASSERT_NE(merged(), "");
+  const LoadedMap found = result();
+  for (const int id : {0, 2}) {
+    EXPECT_EQ(found.map.keyframe(id).frame.image->level(0)(17, 23), map.keyframe(id).frame.image->level(0)(17, 23));
+    EXPECT_EQ(found.map.keyframe(id + 3).frame.image->level(0)(17, 23), 77);
+  }
+}
+
 }  // namespace merge_test
 }  // namespace textslam

@@ -41,6 +41,7 @@ struct MapRecord {
   std::map<int, KeyFrameSource> sources;  ///< Of the key frames, by their ids.
   std::optional<double> scale_sigma;      ///< Lengths are metres, with this standard deviation as a share of them.
   std::int64_t revision = 0;              ///< Saves so far; 0: it comes from no file.
+  bool same_ids = true;                   ///< Key frames have the ids that they have in that revision.
 };
 
 struct LoadedMap {

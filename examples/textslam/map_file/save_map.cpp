@@ -27,8 +27,10 @@ void save_map(const std::string& path, const Map& map, const MapRecord& record) 
   if (record.revision > 0 && record.revision != now)
     database.refuse("another session was saved into this map in the meantime: it stays as that left it");
   database.execute(kEmpty);
+  // Images of the file stay where its key frames do: coded again, they would lose a little each time.
+  if (record.revision == 0 || !record.same_ids) database.execute("delete from images");
   // Another map takes the place of what was there, and is none of what was pushed or pulled.
-  if (record.revision == 0) database.execute("delete from images; delete from origins");
+  if (record.revision == 0) database.execute("delete from origins");
   save_sessions(database, record);
   save_keyframes(database, map, record);
   save_points(database, map);
