@@ -2,7 +2,7 @@
 import json
 
 from browser import check
-from report_page import READY, click, clip, colours, middle, search_for, switch
+from report_page import READY, click, clip, colours, middle, rest, search_for, switch
 
 LAYERS = "report.view.layers"
 COUNTS = f"[{LAYERS}.points, {LAYERS}.keyframes, {LAYERS}.trajectory, {LAYERS}.truth].map((layer) => layer.count)"
@@ -114,6 +114,7 @@ def test_search(browser):
 def in_sight(browser, what):
     browser.until("""(() => { const box = document.getElementById('view').getBoundingClientRect();
       return box.top >= -box.height / 4 && box.bottom <= innerHeight + box.height / 4; })()""", f"{what} does not bring the 3D view into sight")
+    rest(browser)
 
 
 def test_row(browser):
@@ -132,17 +133,13 @@ def test_values(browser):
     here = browser.run("String(report.data.series.points[30])")
     check(browser.run(f"{told}[{points}][0]") == here, "the values of the frame are not told")
     before = browser.run(told)
-
-    def pointed():  # the page may still be on its way to the 3D view
-        x, y = middle(browser, "#plots svg")
-        browser.mouse("mouseMoved", x + 40, y)
-        return browser.run("document.querySelectorAll('#plots .where').length === report.plots.length")
-
-    browser.until_true(pointed, "the pointer's frame is not told")
+    x, y = middle(browser, "#plots svg")
+    browser.mouse("mouseMoved", x + 40, y)
+    browser.until("document.querySelectorAll('#plots .where').length === report.plots.length", "the pointer's frame is not told")
     frame = browser.run("report.plots[0].pointed")
     check(frame != 30 and browser.run(told) != before, "the values stay where the pointer goes")
     check(browser.run(f"{told}[{points}][0] === String(report.data.series.points[{frame}])"), "another plot does not tell the pointer's frame")
-    browser.mouse("mouseMoved", 2, middle(browser, "#plots svg")[1])
+    browser.mouse("mouseMoved", 2, y)
     browser.until(f"JSON.stringify({told}) === {json.dumps(json.dumps(before, separators=(',', ':'), ensure_ascii=False))}",
                   "without the pointer the values are not those of the frame")
 
@@ -195,6 +192,7 @@ def test_fingers(browser, page):
     browser.until(f"scrollY > {scrolled} + 60", "one finger on the 3D view does not scroll the page")
     check(clip(browser) == before, "a finger that scrolls turns the map")
     check(browser.run("document.querySelector('.touch-hint').textContent"), "it is not said how a finger turns the map")
+    rest(browser)
     x, y = middle(browser, "#view")
     scrolled = browser.run("scrollY")
     slide(((x - 30, y), (x - 60, y + 50)), ((x + 30, y), (x + 60, y + 50)))

@@ -45,3 +45,10 @@ def search_for(browser, word):
 def switch(browser, layer):
     """Clicks the checkbox below the 3D view whose name begins so."""
     browser.run(f"[...document.querySelectorAll('#layers label')].find((l) => l.textContent.startsWith({json.dumps(layer)})).click()")
+
+
+def rest(browser):
+    """Waits until the page scrolls no further."""
+    browser.run("""new Promise((done) => { let last = -1, same = 0; const look = () => {
+      same = scrollY === last ? same + 1 : 0; last = scrollY;
+      if (same > 10) done(true); else requestAnimationFrame(look); }; look(); })""")
