@@ -16,16 +16,12 @@ namespace {
 
 using IdPairs = std::vector<std::pair<int, int>>;  // ids in a and in b of what is one
 
-std::tuple<std::string, std::string, std::string> key_of(const SavedSession& session) {
-  return {session.started, session.sequence, session.command};
-}
-
 // Sessions of b that are in a: by b's number, a's.
 std::map<int, int> common_sessions(const MapRecord& a, const MapRecord& b) {
   std::map<int, int> common;
   for (const SavedSession& of_a : a.sessions)
     for (const SavedSession& of_b : b.sessions)
-      if (key_of(of_a) == key_of(of_b)) common[of_b.id] = of_a.id;
+      if (is_same_session(of_a, of_b)) common[of_b.id] = of_a.id;
   return common;
 }
 

@@ -43,10 +43,6 @@ void add_record(const MapRecord& b, int first_keyframe, MapRecord* a) {
     a->sources[first_keyframe + id] = {first_session + source.session, source.image};
 }
 
-bool is_same(const SavedSession& a, const SavedSession& b) {
-  return a.started == b.started && a.sequence == b.sequence && a.command == b.command;
-}
-
 void check_mergeable(const LoadedMap& a, const std::string& file_a, const LoadedMap& b, const std::string& file_b) {
   if (!is_same_camera(a.record.camera, b.record.camera))
     throw InputError(
@@ -54,22 +50,22 @@ void check_mergeable(const LoadedMap& a, const std::string& file_a, const Loaded
         "its camera is not that of " + file_a + ": a map has one camera, with the same numbers in all sessions");
   for (const SavedSession& of_a : a.record.sessions)
     for (const SavedSession& of_b : b.record.sessions)
-      if (is_same(of_a, of_b))
+      if (is_same_session(of_a, of_b))
         throw InputError(file_b, 0,
                          "it holds the session of " + of_b.started + " (" + of_b.sequence + "), as " + file_a +
                              " does: merged, it would count twice");
 }
 
-// The output may be one of the two: then it is replaced as it was read.
-std::int64_t revision_for(const std::string& output, const std::string& a, std::int64_t of_a, const std::string& b,
-                          std::int64_t of_b) {
+bool is_one_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
-  if (std::filesystem::equivalent(output, a, ignored)) return of_a;
-  if (std::filesystem::equivalent(output, b, ignored)) return of_b;
-  return 0;
+  return std::filesystem::equivalent(a, b, ignored);
 }
 
 }  // namespace
+
+bool is_same_session(const SavedSession& a, const SavedSession& b) {
+  return a.started == b.started && a.sequence == b.sequence && a.command == b.command;
+}
 
 std::optional<CommonPlace> common_place(const LoadedMap& a, const LoadedMap& b, const Parameters& parameters) {
   KnownScale scale_sigma;
@@ -110,11 +106,12 @@ std::string merge_map_files(const std::string& file_a, const std::string& file_b
   check_mergeable(a, file_a, b, file_b);
   const auto place = common_place(a, b, parameters);
   if (!place) return "";
-  const std::int64_t revision = revision_for(output, file_a, a.record.revision, file_b, b.record.revision);
+  // The output may be one of the two: then it is replaced as it was read. The ids are those of the first.
+  const bool in_a = is_one_file(output, file_a), in_b = !in_a && is_one_file(output, file_b);
+  const std::int64_t revision = in_a ? a.record.revision : in_b ? b.record.revision : 0;
   LoadedMap merged = merge_maps(std::move(a), std::move(b), *place, parameters);
   merged.record.revision = revision;
-  std::error_code ignored;
-  merged.record.same_ids = !std::filesystem::equivalent(output, file_b, ignored);  // they have those of the first
+  merged.record.same_ids = !in_b;
   save_map(output, merged.map, merged.record);
   std::size_t texts = 0;
   for (const TextObject& text : merged.map.texts) texts += text.state == TextState::mapped ? 1u : 0u;

@@ -10,6 +10,9 @@
 
 namespace textslam {
 
+/// Whether both are records of one session.
+bool is_same_session(const SavedSession& a, const SavedSession& b);
+
 /// Where map b lies in map a; nothing where that has no proof.
 std::optional<CommonPlace> common_place(const LoadedMap& a, const LoadedMap& b, const Parameters& parameters);
 

@@ -66,18 +66,10 @@ Json live_frame(const System& system) {
       for (const float value : {point.px.x(), point.px.y()}) seen.push_back(std::lround(value));
     quads = quads_in(map, system.final_pose(record).inverse());
   }
-  const bool is_keyframe = record.live && map.keyframe(record.keyframe).frame.index == static_cast<int>(index);
-  return {{"frame", index},
-          {"state", to_string(record.state)},
-          {"points", record.points},
-          {"texts", record.texts},
-          {"keyframe", is_keyframe},
-          {"map_keyframes", map.keyframe_ids().size()},
-          {"pose", record.live ? short_pose(record.T_w_c_live) : Json(nullptr)},
-          {"track_ms", record.track_ms},
-          {"map_ms", record.map_ms},
-          {"seen", seen},
-          {"quads", quads}};
+  Json frame = frame_json(static_cast<int>(index), record, map);
+  frame["seen"] = seen;
+  frame["quads"] = quads;
+  return frame;
 }
 
 }  // namespace textslam

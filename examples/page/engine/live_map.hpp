@@ -29,8 +29,7 @@ class TextPictures {
 /// {"camera", "texts", "world"}: see report.hpp; truth and signs are empty.
 Json live_map(const System& system, const Sequence& sequence, TextPictures& pictures);
 
-/// Of the newest frame: {"frame", "state", "points", "texts", "keyframe", "map_keyframes", "pose", "seen": [x, y, ...],
-/// "quads": [[x1, y1, ...], ...]}, px; the pose is that of the live world, or null.
+/// Of the newest frame: frame_json() with {"seen": [x, y, ...], "quads": [[x1, y1, ...], ...]}, px.
 Json live_frame(const System& system);
 
 }  // namespace textslam

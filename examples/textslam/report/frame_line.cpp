@@ -35,20 +35,24 @@ const char* to_string(FrameState state) {
   return state == FrameState::tracked ? "tracked" : state == FrameState::lost ? "lost" : "waiting";
 }
 
-std::string frame_line(int index, const FrameRecord& record, const Map& map, const Similarity& live_world) {
+Json frame_json(int index, const FrameRecord& record, const Map& map) {
   const bool is_keyframe = record.live && map.keyframe(record.keyframe).frame.index == index;
-  Json line{{"frame", index},
-            {"timestamp", record.timestamp},
-            {"state", to_string(record.state)},
-            {"found_by", to_string(record.by)},
-            {"points", record.points},
-            {"texts", record.texts},
-            {"keyframe", is_keyframe},
-            {"map_keyframes", map.keyframe_ids().size()},
-            {"pose", record.live ? short_pose(record.T_w_c_live) : Json(nullptr)},
-            {"position_sigma", record.live ? Json(record.position_sigma) : Json(nullptr)},
-            {"ms", line_timing(record)}};
-  if (is_keyframe) line["map"] = seen_by(map, record.keyframe, live_world);
+  return {{"frame", index},
+          {"timestamp", record.timestamp},
+          {"state", to_string(record.state)},
+          {"found_by", to_string(record.by)},
+          {"points", record.points},
+          {"texts", record.texts},
+          {"keyframe", is_keyframe},
+          {"map_keyframes", map.keyframe_ids().size()},
+          {"pose", record.live ? short_pose(record.T_w_c_live) : Json(nullptr)},
+          {"position_sigma", record.live ? Json(record.position_sigma) : Json(nullptr)},
+          {"ms", line_timing(record)}};
+}
+
+std::string frame_line(int index, const FrameRecord& record, const Map& map, const Similarity& live_world) {
+  Json line = frame_json(index, record, map);
+  if (line["keyframe"]) line["map"] = seen_by(map, record.keyframe, live_world);
   return line.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
