@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 1598e238d17b9365
+// Hash of these files: 928bcf13b2de9b55
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 1598e238d17b9365"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 928bcf13b2de9b55"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -35958,6 +35958,7 @@ struct TextNotes {
   std::vector<Vector3<double>> inside;                ///< Known points in the quad, in the host.
   Vector3<double> guess = Vector3<double>::Zero();    ///< A plane by the depths about it, or zero.
   int age = 0;                                        ///< Key frames since.
+  int conflicts = 0;                                  ///< Key frames in a row before which it mostly disagreed.
   int mapped_by = -1;                                 ///< The key frame that made it a mapped text.
   std::size_t refined_views = 0;                      ///< Views at the last refinement.
 };
@@ -36203,7 +36204,8 @@ TEXTPLANE_END_NAMESPACE
 //
 // A text becomes an object when key frames show it from different sides. A frame's pose is refined where the texts in
 // view know it clearly better than the points do, and the points do not contradict; else the host's own pose comes
-// back, to the bit. What is hidden, blurred, uncertain or wrong counts less, or not at all: TextFit tells.
+// back, to the bit. What is hidden, blurred, uncertain or wrong counts less, or not at all: TextFit tells. What keeps
+// disagreeing with all the rest is dropped.
 //
 // All poses are of world to camera. Images, quads and points are as the camera takes them. Not thread-safe; no thread
 // of its own; the same calls give the same results. Throws nothing but std::bad_alloc.
@@ -36220,6 +36222,7 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP
 #define TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -36851,6 +36854,12 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
+/// How often a text disagreed with all the rest in the frames since the last key frame.
+struct TextConflict {
+  int id = -1;      ///< Of the text.
+  int balance = 0;  ///< Frames in which it disagreed, less those in which it took part.
+};
+
 /// The objects of a TextMap, and their life from key frame to key frame.
 TEXTPLANE_DEFERRED
 class BasicTextMapping {
@@ -36864,6 +36873,19 @@ class BasicTextMapping {
         finder_(options_, store_) {}
 
   const std::vector<TextObject>& objects() const noexcept { return objects_; }  ///< None is dropped. By their ids.
+
+  /// Before a key frame: what the frames since the last one say of the texts. One that disagreed with all the rest in
+  /// most of the frames that it was compared in, through max_failures key frames in a row, is dropped.
+  void judge(const std::vector<TextConflict>& conflicts) {
+    for (const TextConflict& conflict : conflicts) {
+      const int index = index_of(conflict.id);
+      if (index < 0) continue;
+      int& count = notes_[static_cast<std::size_t>(index)].conflicts;
+      count = conflict.balance > 0 ? count + 1 : 0;
+      if (count >= options_.max_failures) drop(objects_[static_cast<std::size_t>(index)]);
+    }
+    erase_dropped();
+  }
 
   /// After key frame `id` was added to the store.
   void update(int id, const std::vector<TextDetection>& detections, const std::vector<TextPoint>& points) {
@@ -36891,13 +36913,12 @@ class BasicTextMapping {
 
   /// A plane from elsewhere: see TextMap::set_plane(). The text's index in objects(), or -1 where it was refused.
   int set_plane(int id, const Vector3<double>& theta) {
-    const auto text = std::lower_bound(objects_.begin(), objects_.end(), id,
-                                       [](const TextObject& other, int wanted) { return other.id < wanted; });
-    if (text == objects_.end() || text->id != id || !text->has_plane() || !all_finite(theta) ||
-        !is_plausible_plane(options_, text->patch.camera, text->patch.quad, theta))
-      return -1;
-    text->theta = theta;
-    return static_cast<int>(text - objects_.begin());
+    const int index = index_of(id);
+    if (index < 0 || !all_finite(theta)) return -1;
+    TextObject& text = objects_[static_cast<std::size_t>(index)];
+    if (!text.has_plane() || !is_plausible_plane(options_, text.patch.camera, text.patch.quad, theta)) return -1;
+    text.theta = theta;
+    return index;
   }
 
   /// A text of an earlier map. Its host is in the store. False, and nothing changed, where it has no plane or pixels,
@@ -36921,6 +36942,13 @@ class BasicTextMapping {
   }
 
  private:
+  // Place in objects_, or -1.
+  int index_of(int id) const {
+    const auto text = std::lower_bound(objects_.begin(), objects_.end(), id,
+                                       [](const TextObject& other, int wanted) { return other.id < wanted; });
+    return text != objects_.end() && text->id == id ? static_cast<int>(text - objects_.begin()) : -1;
+  }
+
   // The largest whole view becomes the host. False where there is none with an image.
   bool find_host(TextObject& text) {
     if (text.state != TextState::mapped) return false;
@@ -37090,6 +37118,13 @@ TEXTPLANE_END_NAMESPACE
 // c_i is the robust photometric cost (residual.hpp), sigma_i^2 = 2 (1 - ZNCC) what the text differs by in this very
 // image, v_i its variance factor (TextObject). Each theta_i is eliminated by the Schur complement, so a plane that is
 // hardly known says little, and in no direction more than it knows. s is the scale of the points' residuals.
+//
+// A text may be wrong by more than its covariance says: it moved, or its key frames drifted. Its terms (H_i, b_i) and
+// those of all the rest (H_r, b_r) have minima of their own, which differ by
+//
+//   d = H_i^-1 b_i - H_r^-1 b_r     chi2 = d^T (H_i^-1 + H_r^-1)^-1 d
+//
+// as both are taken at one pose. chi2 has as many degrees of freedom as the text determines of the pose.
 #ifndef TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
 #define TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
 
@@ -44599,6 +44634,7 @@ struct FrameText {
   SE3d T_w_h;                          ///< Of its host.
   int scale_shift = 0;                 ///< Of photometric_input().
   bool used = false;                   ///< Whether it takes part.
+  double trust = 1;                    ///< Factor of its weight.
   double zncc = 0;                     ///< Result: at the pose found.
   double share = 0;                    ///< Result: of the information on the camera's position, 0 to 1.
 };
@@ -44677,15 +44713,57 @@ class BasicTextPose {
   /// Of the last solve: inverse of the covariance of the pose, xi left.
   const FixedMatrix<double, 6, 6>& information() const noexcept { return information_; }
 
+  /// Weighs the texts anew by how much each disagrees with all the rest after the last solve, r = sqrt(chi2 / degrees
+  /// of freedom): trust min(1, huber / r), and the worst one with r > most leaves. True where that asks for another
+  /// solve.
+  bool weigh(std::vector<FrameText>& texts, double huber, double most) {
+    bool changed = false;
+    FrameText* worst = nullptr;
+    double largest = most;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const double r = disagreement(eliminated_[i], texts[i].trust);
+      const double trust = r > huber ? huber / r : 1;
+      changed |= std::abs(trust - texts[i].trust) > kTrust;
+      texts[i].trust = trust;
+      if (r <= largest) continue;
+      largest = r;
+      worst = &texts[i];
+    }
+    if (worst) worst->used = false;
+    return changed || worst;
+  }
+
  private:
   struct Eliminated {
     bool in = false;
+    FixedMatrix<double, 6, 6> H;  // of the pose, after the plane is eliminated; weight included, trust not
+    Vector6<double> b;
     FixedMatrix<double, 6, 3> B;
     Matrix3<double> C_inverse;
     Vector3<double> h;
   };
 
-  static constexpr double kStep = 0.01;  // standard deviations
+  static constexpr double kStep = 0.01;   // standard deviations
+  static constexpr double kTrust = 0.05;  // a smaller change of trust is none
+  static constexpr double kWeak = 1e-3;   // a direction of which a text knows less than this share is not its own
+
+  // r of weigh(); 0 where the rest does not determine the pose.
+  double disagreement(const Eliminated& text, double trust) const noexcept {
+    if (!text.in) return 0;
+    const FixedMatrix<double, 6, 6> rest = information_ - trust * text.H;
+    const Ldlt<double, 6> others(rest, 1e-12);
+    if (!others.ok()) return 0;
+    const Ldlt<double, 6> own(FixedMatrix<double, 6, 6>(text.H + kWeak * rest), 1e-14);
+    if (!own.ok()) return 0;
+    const FixedMatrix<double, 6, 6> own_covariance = own.inverse(), others_covariance = others.inverse();
+    const Ldlt<double, 6> both(FixedMatrix<double, 6, 6>(own_covariance + others_covariance), 1e-14);
+    if (!both.ok()) return 0;
+    // All terms sum up to b = 0: that of the rest is -trust b_i.
+    const Vector6<double> apart = own_covariance * text.b + trust * (others_covariance * text.b);
+    const double freedom = 6 - kWeak * (rest * own_covariance).trace();
+    const double chi2 = apart.dot(both.solve(apart));
+    return chi2 > 0 && freedom > 0.5 ? std::sqrt(chi2 / freedom) : 0;
+  }
 
   void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, detail::PoseSystem& system) {
     Eliminated& out = eliminated_[i];
@@ -44710,10 +44788,11 @@ class BasicTextPose {
     out.h = weight * n.b.template tail<3>() + known * (theta_[i] - object.theta);
     out.in = true;
     const FixedMatrix<double, 6, 3> K = out.B * out.C_inverse;
-    const FixedMatrix<double, 6, 6> effective = A - K * out.B.transpose();
-    system.H += effective;
-    system.b += weight * n.b.template head<6>() - K * out.h;
-    text.share = effective.template topLeftCorner<3, 3>().trace();
+    out.H = A - K * out.B.transpose();
+    out.b = weight * n.b.template head<6>() - K * out.h;
+    system.H += text.trust * out.H;
+    system.b += text.trust * out.b;
+    text.share = text.trust * out.H.template topLeftCorner<3, 3>().trace();
   }
 
   std::vector<double> errors_;
@@ -44765,7 +44844,11 @@ struct TextMapOptions {
   double least_gain = 0.1;    ///< Of TextFit::gain; with less the host's pose stays as it is.
   double least_sigma = 0.25;  ///< px: points are not taken to be better.
   double most_shift = 2;      ///< Factor by which texts may raise the scale of the points' residuals.
-  int max_images = 100;       ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
+  /// Standard deviations by which a text may disagree with all the rest at full weight: by chance, one of twenty
+  /// disagrees by more, of those that determine four degrees of freedom.
+  double text_huber = 1.5;
+  double most_disagreement = 4;  ///< The same: one that disagrees by more does not take part.
+  int max_images = 100;  ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
 };
 
 /// Tracks the texts of a TextMap; keeps its memory. For one thread at a time.
@@ -44798,20 +44881,11 @@ class BasicTextTracking {
 
     SE3d both = by_points;
     if (pose_.judge(visible_, image, both) < options_.near_zncc) approach(image, scale, &both);
-    for (FrameText& text : visible_) text.used = text.zncc >= options_.min_zncc;
-    bool ok = pose_.solve(points_, scale, visible_, image, &both);
-    bool changed = false;
-    for (FrameText& text : visible_) {
-      const bool good = text.used && text.zncc >= options_.min_zncc;
-      changed |= good != text.used;
-      text.used = good;
-    }
-    if (ok && changed) ok = pose_.solve(points_, scale, visible_, image, &both);
-    for (const FrameText& text : visible_) {
-      fit.texts += text.used ? 1 : 0;
-      fit.reports.push_back({text.object->id, text.used ? TextUse::used : TextUse::dissimilar, text.zncc, text.share});
-    }
+    const bool ok = solve_together(image, scale, &both, fit);
     if (!ok || fit.texts == 0) {
+      if (std::any_of(fit.reports.begin(), fit.reports.end(),
+                      [](const auto& r) { return r.use == TextUse::disagrees; }))
+        fit.status = Status::diverged;
       fit.texts = 0;
       return fit;
     }
@@ -44834,6 +44908,10 @@ class BasicTextTracking {
 
   double point_scale() const noexcept { return point_scale_; }  ///< As TextMap has it.
 
+  /// Of each text that took part or disagreed since the last forget_conflicts(), by increasing id.
+  const std::vector<TextConflict>& conflicts() const noexcept { return conflicts_; }
+  void forget_conflicts() noexcept { conflicts_.clear(); }  ///< Begins to count anew.
+
  private:
   // No result yet, in the memory of the last one.
   TextFit& begin_fit(const SE3d& T_c_w) {
@@ -44843,6 +44921,49 @@ class BasicTextTracking {
     fresh.reports.clear();
     fit_ = std::move(fresh);
     return fit_;
+  }
+
+  // The pose by the points and the texts that look right and agree, and what each text did. False where they do not
+  // determine it.
+  bool solve_together(const TextImage& image, double scale, SE3d* both, TextFit& fit) {
+    for (FrameText& text : visible_) text.used = text.zncc >= options_.min_zncc;
+    bool ok = pose_.solve(points_, scale, visible_, image, both);
+    bool changed = false;
+    for (FrameText& text : visible_) {
+      const bool good = text.used && text.zncc >= options_.min_zncc;
+      changed |= good != text.used;
+      text.used = good;
+    }
+    if (ok && changed) ok = pose_.solve(points_, scale, visible_, image, both);
+    for (const FrameText& text : visible_)
+      fit.reports.push_back({text.object->id, text.used ? TextUse::used : TextUse::dissimilar, 0, 0});
+    for (int round = 0; round < kRounds && ok; ++round) {
+      if (!pose_.weigh(visible_, options_.text_huber, options_.most_disagreement)) break;
+      ok = pose_.solve(points_, scale, visible_, image, both);
+    }
+    for (std::size_t i = 0; i < visible_.size(); ++i) {
+      const FrameText& text = visible_[i];
+      TextReport& report = fit.reports[i];
+      fit.texts += text.used ? 1 : 0;
+      report.zncc = text.zncc;
+      report.share = text.share;
+      if (report.use == TextUse::dissimilar) continue;
+      if (!text.used) report.use = TextUse::disagrees;
+      if (ok) count(report.id, !text.used);
+    }
+    return ok;
+  }
+
+  // Of a text that was compared in this frame.
+  void count(int id, bool disagrees) {
+    const auto at = std::lower_bound(conflicts_.begin(), conflicts_.end(), id,
+                                     [](const TextConflict& one, int wanted) { return one.id < wanted; });
+    const int change = disagrees ? 1 : -1;
+    if (at != conflicts_.end() && at->id == id) {
+      at->balance += change;
+    } else {
+      conflicts_.insert(at, {id, change});
+    }
   }
 
   void find_visible(const TextImage& image, const SE3d& T_c_w) {
@@ -44873,6 +44994,8 @@ class BasicTextTracking {
     for (std::size_t i = 0; i < visible_.size(); ++i) visible_[i].zncc = static_cast<double>(zncc_[i]);
   }
 
+  static constexpr int kRounds = 5;  // of weighing the texts by their agreement; each may leave one out
+
   const TextMapOptions& options_;
   const TextMapping& mapping_;
   const TextBounds& bounds_;
@@ -44884,6 +45007,7 @@ class BasicTextTracking {
   std::vector<PoseTextTerm> terms_;
   std::vector<FrameText> visible_;
   std::vector<float> zncc_;
+  std::vector<TextConflict> conflicts_;
 };
 using TextTracking = BasicTextTracking<>;  ///< It is compiled only where it is used.
 
@@ -44904,8 +45028,9 @@ class BasicTextMap {
   BasicTextMap& operator=(const BasicTextMap&) = delete;
 
   /// The pose of a frame, from the host's `T_c_w` (by its points, or predicted), by the mapped texts in view and the
-  /// points with p_w. Without points the texts decide alone. Nothing of the map changes. The result is the map's, and
-  /// valid until the next call, which allocates nothing where this one saw as much: copy what is to be kept.
+  /// points with p_w. Without points the texts decide alone. Nothing of the map changes before the next key frame,
+  /// which drops what kept disagreeing. The result is the map's, and valid until the next call, which allocates nothing
+  /// where this one saw as much: copy what is to be kept.
   const TextFit& track(const PyramidView& pyramid, const SE3d& T_c_w, const std::vector<TextPoint>& points) {
     return track(image_of(pyramid), T_c_w, points);
   }
@@ -45019,6 +45144,8 @@ class BasicTextMap {
       if (all_finite(quad.quad) && is_finite(quad.score)) finite_quads.push_back(quad);
     for (const TextPoint& point : points)
       if (all_finite(point.px) && all_finite(point.p_w) && is_finite(point.depth)) finite_points.push_back(point);
+    mapping_.judge(tracking_.conflicts());
+    tracking_.forget_conflicts();
     mapping_.update(id, finite_quads, finite_points);
     store_.forget_oldest(options_.max_images, [this](int other) { return mapping_.needs(other); });
     bounds_.update(mapping_.objects(), store_);

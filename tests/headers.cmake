@@ -1,8 +1,9 @@
 # What including a header must not do (header_rules_test.py) and must include (header_includes_test.py); what must not
 # compile; that every adapter compiles alone and twice if its library is there; that a unit with a fixed SIMD target has
-# the kernels of no other.
+# the kernels of no other. And that the texts that tests/mutants changes still stand in the headers.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND AND NOT CMAKE_CROSSCOMPILING)
+  add_test(NAME mutants.texts COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/mutants/run --check)
   add_test(NAME headers.rules COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/header_rules_test.py ${PROJECT_SOURCE_DIR})
   textplane_label(headers.rules first_look sanitizers)
   add_test(NAME headers.includes COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/header_includes_test.py ${PROJECT_SOURCE_DIR})

@@ -73,20 +73,22 @@ tp::TextMapOptions options_of(Input& in) {
   text.min_zncc = 0.5;
   options.max_images = in.integer(-1, 12);
   options.least_gain = in.tame(-1, 0.3);
-  double* const reals[] = {&text.overlap,          &text.min_area,       &text.confirm_iou,      &text.min_parallax,
-                           &text.plane_outlier,    &text.detected_share, &text.min_zncc,         &text.cull_zncc,
-                           &text.max_slant,        &text.seen_border,    &text.seen_area,        &text.min_share,
-                           &text.clear_noise,      &text.rehost_area,    &text.rehost_slant,     &text.refine_area,
-                           &text.refine_scale,     &text.refine_margin,  &text.blur_variance,    &text.blur_spread,
-                           &text.refine_most_bend, &text.same_word,      &text.refine_max_sigma, &text.merge_angle,
-                           &text.merge_depth,      &text.merge_sigmas,   &text.merge_overlap,    &options.min_zncc,
-                           &options.least_sigma,   &options.most_shift,  &options.least_gain,    &text.plane_min_error};
+  // clang-format off
+  double* const reals[] = {
+      &text.overlap, &text.min_area, &text.confirm_iou, &text.min_parallax, &text.plane_outlier, &text.detected_share,
+      &text.min_zncc, &text.cull_zncc, &text.max_slant, &text.seen_border, &text.seen_area, &text.min_share,
+      &text.clear_noise, &text.rehost_area, &text.rehost_slant, &text.refine_area, &text.refine_scale,
+      &text.refine_margin, &text.blur_variance, &text.blur_spread, &text.refine_most_bend, &text.same_word,
+      &text.refine_max_sigma, &text.merge_angle, &text.merge_depth, &text.merge_sigmas, &text.merge_overlap,
+      &options.min_zncc, &options.least_sigma, &options.most_shift, &options.least_gain, &text.plane_min_error,
+      &options.text_huber, &options.most_disagreement};
+  // clang-format on
   int* const integers[] = {&text.min_pixels,         &text.levels,        &text.min_corners,  &text.plane_rounds,
                            &text.min_observations,   &text.views,         &text.max_failures, &text.refine_hosts,
                            &text.refine_views,       &text.refine_pixels, &text.refine_reach, &text.max_readings,
                            &text.tentative_patience, &text.max_pixels};
   for (int changes = in.integer(0, 7) - 4; changes > 0; --changes) {
-    *reals[in.integer(0, 31)] = in.number(-1, 4);
+    *reals[in.integer(0, 33)] = in.number(-1, 4);
     *integers[in.integer(0, 13)] = in.integer(-2, 20);
   }
   return options;

@@ -23,7 +23,7 @@ class TextPoseTest : public TextMapTest {
     std::vector<textplane::FrameText> texts;
     for (TextObject& object : objects) {
       object.covariance *= times;
-      texts.push_back({&object, map.keyframes().text_keyframe(object.host).T_w_c, 0, true, 0, 0});
+      texts.push_back({&object, map.keyframes().text_keyframe(object.host).T_w_c, 0, true, 1, 0, 0});
     }
     SE3d T = textplane::se3_exp<double>(Random(4).twist(0.003, 0.001)) * truth;
     EXPECT_TRUE(solver.solve({}, 1, texts, view, &T, iterations));
@@ -50,6 +50,23 @@ TEST_F(TextPoseTest, MoreIterationsComeToTheSamePose) {
   const SE3d few = solved(1, 10), many = solved(1, 60);
   EXPECT_LT(shift(few, many), 1e-5);
   EXPECT_LT(shift(many, pose(5.5)), 2e-3);
+}
+
+// Two texts and no points: how far the one is from the other is how far the other is from it.
+TEST_F(TextPoseTest, TwoTextsDisagreeWithOneAnotherByTheSame) {
+  scene.signs[1].T_w_h.t.x() += 0.003;
+  textplane::TextImage view;
+  const Pyramid frame = image(pose(5.5));
+  view.pyramid = frame;
+  view.camera = scene.camera;
+  std::vector<textplane::FrameText> texts;
+  for (std::size_t i = 1; i < 3; ++i)
+    texts.push_back({&objects[i], map.keyframes().text_keyframe(objects[i].host).T_w_c, 0, true, 1, 0, 0});
+  SE3d T = pose(5.5);
+  ASSERT_TRUE(solver.solve({}, 1, texts, view, &T, 60));
+  EXPECT_TRUE(solver.weigh(texts, 1e-3, 1e6));
+  EXPECT_LT(texts[0].trust, 1);
+  EXPECT_NEAR(texts[0].trust / texts[1].trust, 1, 0.02);
 }
 
 }  // namespace text_map_test

@@ -22,6 +22,7 @@ struct TextNotes {
   std::vector<Vector3<double>> inside;                ///< Known points in the quad, in the host.
   Vector3<double> guess = Vector3<double>::Zero();    ///< A plane by the depths about it, or zero.
   int age = 0;                                        ///< Key frames since.
+  int conflicts = 0;                                  ///< Key frames in a row before which it mostly disagreed.
   int mapped_by = -1;                                 ///< The key frame that made it a mapped text.
   std::size_t refined_views = 0;                      ///< Views at the last refinement.
 };

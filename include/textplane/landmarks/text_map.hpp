@@ -8,7 +8,8 @@
 //
 // A text becomes an object when key frames show it from different sides. A frame's pose is refined where the texts in
 // view know it clearly better than the points do, and the points do not contradict; else the host's own pose comes
-// back, to the bit. What is hidden, blurred, uncertain or wrong counts less, or not at all: TextFit tells.
+// back, to the bit. What is hidden, blurred, uncertain or wrong counts less, or not at all: TextFit tells. What keeps
+// disagreeing with all the rest is dropped.
 //
 // All poses are of world to camera. Images, quads and points are as the camera takes them. Not thread-safe; no thread
 // of its own; the same calls give the same results. Throws nothing but std::bad_alloc.
@@ -36,8 +37,9 @@ class BasicTextMap {
   BasicTextMap& operator=(const BasicTextMap&) = delete;
 
   /// The pose of a frame, from the host's `T_c_w` (by its points, or predicted), by the mapped texts in view and the
-  /// points with p_w. Without points the texts decide alone. Nothing of the map changes. The result is the map's, and
-  /// valid until the next call, which allocates nothing where this one saw as much: copy what is to be kept.
+  /// points with p_w. Without points the texts decide alone. Nothing of the map changes before the next key frame,
+  /// which drops what kept disagreeing. The result is the map's, and valid until the next call, which allocates nothing
+  /// where this one saw as much: copy what is to be kept.
   const TextFit& track(const PyramidView& pyramid, const SE3d& T_c_w, const std::vector<TextPoint>& points) {
     return track(image_of(pyramid), T_c_w, points);
   }
@@ -151,6 +153,8 @@ class BasicTextMap {
       if (all_finite(quad.quad) && is_finite(quad.score)) finite_quads.push_back(quad);
     for (const TextPoint& point : points)
       if (all_finite(point.px) && all_finite(point.p_w) && is_finite(point.depth)) finite_points.push_back(point);
+    mapping_.judge(tracking_.conflicts());
+    tracking_.forget_conflicts();
     mapping_.update(id, finite_quads, finite_points);
     store_.forget_oldest(options_.max_images, [this](int other) { return mapping_.needs(other); });
     bounds_.update(mapping_.objects(), store_);

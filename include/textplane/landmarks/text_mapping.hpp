@@ -17,6 +17,12 @@
 
 TEXTPLANE_BEGIN_NAMESPACE
 
+/// How often a text disagreed with all the rest in the frames since the last key frame.
+struct TextConflict {
+  int id = -1;      ///< Of the text.
+  int balance = 0;  ///< Frames in which it disagreed, less those in which it took part.
+};
+
 /// The objects of a TextMap, and their life from key frame to key frame.
 TEXTPLANE_DEFERRED
 class BasicTextMapping {
@@ -30,6 +36,19 @@ class BasicTextMapping {
         finder_(options_, store_) {}
 
   const std::vector<TextObject>& objects() const noexcept { return objects_; }  ///< None is dropped. By their ids.
+
+  /// Before a key frame: what the frames since the last one say of the texts. One that disagreed with all the rest in
+  /// most of the frames that it was compared in, through max_failures key frames in a row, is dropped.
+  void judge(const std::vector<TextConflict>& conflicts) {
+    for (const TextConflict& conflict : conflicts) {
+      const int index = index_of(conflict.id);
+      if (index < 0) continue;
+      int& count = notes_[static_cast<std::size_t>(index)].conflicts;
+      count = conflict.balance > 0 ? count + 1 : 0;
+      if (count >= options_.max_failures) drop(objects_[static_cast<std::size_t>(index)]);
+    }
+    erase_dropped();
+  }
 
   /// After key frame `id` was added to the store.
   void update(int id, const std::vector<TextDetection>& detections, const std::vector<TextPoint>& points) {
@@ -57,13 +76,12 @@ class BasicTextMapping {
 
   /// A plane from elsewhere: see TextMap::set_plane(). The text's index in objects(), or -1 where it was refused.
   int set_plane(int id, const Vector3<double>& theta) {
-    const auto text = std::lower_bound(objects_.begin(), objects_.end(), id,
-                                       [](const TextObject& other, int wanted) { return other.id < wanted; });
-    if (text == objects_.end() || text->id != id || !text->has_plane() || !all_finite(theta) ||
-        !is_plausible_plane(options_, text->patch.camera, text->patch.quad, theta))
-      return -1;
-    text->theta = theta;
-    return static_cast<int>(text - objects_.begin());
+    const int index = index_of(id);
+    if (index < 0 || !all_finite(theta)) return -1;
+    TextObject& text = objects_[static_cast<std::size_t>(index)];
+    if (!text.has_plane() || !is_plausible_plane(options_, text.patch.camera, text.patch.quad, theta)) return -1;
+    text.theta = theta;
+    return index;
   }
 
   /// A text of an earlier map. Its host is in the store. False, and nothing changed, where it has no plane or pixels,
@@ -87,6 +105,13 @@ class BasicTextMapping {
   }
 
  private:
+  // Place in objects_, or -1.
+  int index_of(int id) const {
+    const auto text = std::lower_bound(objects_.begin(), objects_.end(), id,
+                                       [](const TextObject& other, int wanted) { return other.id < wanted; });
+    return text != objects_.end() && text->id == id ? static_cast<int>(text - objects_.begin()) : -1;
+  }
+
   // The largest whole view becomes the host. False where there is none with an image.
   bool find_host(TextObject& text) {
     if (text.state != TextState::mapped) return false;

@@ -8,6 +8,13 @@
 // c_i is the robust photometric cost (residual.hpp), sigma_i^2 = 2 (1 - ZNCC) what the text differs by in this very
 // image, v_i its variance factor (TextObject). Each theta_i is eliminated by the Schur complement, so a plane that is
 // hardly known says little, and in no direction more than it knows. s is the scale of the points' residuals.
+//
+// A text may be wrong by more than its covariance says: it moved, or its key frames drifted. Its terms (H_i, b_i) and
+// those of all the rest (H_r, b_r) have minima of their own, which differ by
+//
+//   d = H_i^-1 b_i - H_r^-1 b_r     chi2 = d^T (H_i^-1 + H_r^-1)^-1 d
+//
+// as both are taken at one pose. chi2 has as many degrees of freedom as the text determines of the pose.
 #ifndef TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
 #define TEXTPLANE_LANDMARKS_TEXT_POSE_HPP
 
@@ -30,6 +37,7 @@ struct FrameText {
   SE3d T_w_h;                          ///< Of its host.
   int scale_shift = 0;                 ///< Of photometric_input().
   bool used = false;                   ///< Whether it takes part.
+  double trust = 1;                    ///< Factor of its weight.
   double zncc = 0;                     ///< Result: at the pose found.
   double share = 0;                    ///< Result: of the information on the camera's position, 0 to 1.
 };
@@ -108,15 +116,57 @@ class BasicTextPose {
   /// Of the last solve: inverse of the covariance of the pose, xi left.
   const FixedMatrix<double, 6, 6>& information() const noexcept { return information_; }
 
+  /// Weighs the texts anew by how much each disagrees with all the rest after the last solve, r = sqrt(chi2 / degrees
+  /// of freedom): trust min(1, huber / r), and the worst one with r > most leaves. True where that asks for another
+  /// solve.
+  bool weigh(std::vector<FrameText>& texts, double huber, double most) {
+    bool changed = false;
+    FrameText* worst = nullptr;
+    double largest = most;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const double r = disagreement(eliminated_[i], texts[i].trust);
+      const double trust = r > huber ? huber / r : 1;
+      changed |= std::abs(trust - texts[i].trust) > kTrust;
+      texts[i].trust = trust;
+      if (r <= largest) continue;
+      largest = r;
+      worst = &texts[i];
+    }
+    if (worst) worst->used = false;
+    return changed || worst;
+  }
+
  private:
   struct Eliminated {
     bool in = false;
+    FixedMatrix<double, 6, 6> H;  // of the pose, after the plane is eliminated; weight included, trust not
+    Vector6<double> b;
     FixedMatrix<double, 6, 3> B;
     Matrix3<double> C_inverse;
     Vector3<double> h;
   };
 
-  static constexpr double kStep = 0.01;  // standard deviations
+  static constexpr double kStep = 0.01;   // standard deviations
+  static constexpr double kTrust = 0.05;  // a smaller change of trust is none
+  static constexpr double kWeak = 1e-3;   // a direction of which a text knows less than this share is not its own
+
+  // r of weigh(); 0 where the rest does not determine the pose.
+  double disagreement(const Eliminated& text, double trust) const noexcept {
+    if (!text.in) return 0;
+    const FixedMatrix<double, 6, 6> rest = information_ - trust * text.H;
+    const Ldlt<double, 6> others(rest, 1e-12);
+    if (!others.ok()) return 0;
+    const Ldlt<double, 6> own(FixedMatrix<double, 6, 6>(text.H + kWeak * rest), 1e-14);
+    if (!own.ok()) return 0;
+    const FixedMatrix<double, 6, 6> own_covariance = own.inverse(), others_covariance = others.inverse();
+    const Ldlt<double, 6> both(FixedMatrix<double, 6, 6>(own_covariance + others_covariance), 1e-14);
+    if (!both.ok()) return 0;
+    // All terms sum up to b = 0: that of the rest is -trust b_i.
+    const Vector6<double> apart = own_covariance * text.b + trust * (others_covariance * text.b);
+    const double freedom = 6 - kWeak * (rest * own_covariance).trace();
+    const double chi2 = apart.dot(both.solve(apart));
+    return chi2 > 0 && freedom > 0.5 ? std::sqrt(chi2 / freedom) : 0;
+  }
 
   void add_text(FrameText& text, std::size_t i, const TextImage& image, const SE3d& T_c_w, detail::PoseSystem& system) {
     Eliminated& out = eliminated_[i];
@@ -141,10 +191,11 @@ class BasicTextPose {
     out.h = weight * n.b.template tail<3>() + known * (theta_[i] - object.theta);
     out.in = true;
     const FixedMatrix<double, 6, 3> K = out.B * out.C_inverse;
-    const FixedMatrix<double, 6, 6> effective = A - K * out.B.transpose();
-    system.H += effective;
-    system.b += weight * n.b.template head<6>() - K * out.h;
-    text.share = effective.template topLeftCorner<3, 3>().trace();
+    out.H = A - K * out.B.transpose();
+    out.b = weight * n.b.template head<6>() - K * out.h;
+    system.H += text.trust * out.H;
+    system.b += text.trust * out.b;
+    text.share = text.trust * out.H.template topLeftCorner<3, 3>().trace();
   }
 
   std::vector<double> errors_;

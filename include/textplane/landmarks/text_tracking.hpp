@@ -2,6 +2,7 @@
 #ifndef TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP
 #define TEXTPLANE_LANDMARKS_TEXT_TRACKING_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -47,7 +48,11 @@ struct TextMapOptions {
   double least_gain = 0.1;    ///< Of TextFit::gain; with less the host's pose stays as it is.
   double least_sigma = 0.25;  ///< px: points are not taken to be better.
   double most_shift = 2;      ///< Factor by which texts may raise the scale of the points' residuals.
-  int max_images = 100;       ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
+  /// Standard deviations by which a text may disagree with all the rest at full weight: by chance, one of twenty
+  /// disagrees by more, of those that determine four degrees of freedom.
+  double text_huber = 1.5;
+  double most_disagreement = 4;  ///< The same: one that disagrees by more does not take part.
+  int max_images = 100;  ///< Key frames whose images are kept; of older ones the poses stay where texts need them.
 };
 
 /// Tracks the texts of a TextMap; keeps its memory. For one thread at a time.
@@ -80,20 +85,11 @@ class BasicTextTracking {
 
     SE3d both = by_points;
     if (pose_.judge(visible_, image, both) < options_.near_zncc) approach(image, scale, &both);
-    for (FrameText& text : visible_) text.used = text.zncc >= options_.min_zncc;
-    bool ok = pose_.solve(points_, scale, visible_, image, &both);
-    bool changed = false;
-    for (FrameText& text : visible_) {
-      const bool good = text.used && text.zncc >= options_.min_zncc;
-      changed |= good != text.used;
-      text.used = good;
-    }
-    if (ok && changed) ok = pose_.solve(points_, scale, visible_, image, &both);
-    for (const FrameText& text : visible_) {
-      fit.texts += text.used ? 1 : 0;
-      fit.reports.push_back({text.object->id, text.used ? TextUse::used : TextUse::dissimilar, text.zncc, text.share});
-    }
+    const bool ok = solve_together(image, scale, &both, fit);
     if (!ok || fit.texts == 0) {
+      if (std::any_of(fit.reports.begin(), fit.reports.end(),
+                      [](const auto& r) { return r.use == TextUse::disagrees; }))
+        fit.status = Status::diverged;
       fit.texts = 0;
       return fit;
     }
@@ -116,6 +112,10 @@ class BasicTextTracking {
 
   double point_scale() const noexcept { return point_scale_; }  ///< As TextMap has it.
 
+  /// Of each text that took part or disagreed since the last forget_conflicts(), by increasing id.
+  const std::vector<TextConflict>& conflicts() const noexcept { return conflicts_; }
+  void forget_conflicts() noexcept { conflicts_.clear(); }  ///< Begins to count anew.
+
  private:
   // No result yet, in the memory of the last one.
   TextFit& begin_fit(const SE3d& T_c_w) {
@@ -125,6 +125,49 @@ class BasicTextTracking {
     fresh.reports.clear();
     fit_ = std::move(fresh);
     return fit_;
+  }
+
+  // The pose by the points and the texts that look right and agree, and what each text did. False where they do not
+  // determine it.
+  bool solve_together(const TextImage& image, double scale, SE3d* both, TextFit& fit) {
+    for (FrameText& text : visible_) text.used = text.zncc >= options_.min_zncc;
+    bool ok = pose_.solve(points_, scale, visible_, image, both);
+    bool changed = false;
+    for (FrameText& text : visible_) {
+      const bool good = text.used && text.zncc >= options_.min_zncc;
+      changed |= good != text.used;
+      text.used = good;
+    }
+    if (ok && changed) ok = pose_.solve(points_, scale, visible_, image, both);
+    for (const FrameText& text : visible_)
+      fit.reports.push_back({text.object->id, text.used ? TextUse::used : TextUse::dissimilar, 0, 0});
+    for (int round = 0; round < kRounds && ok; ++round) {
+      if (!pose_.weigh(visible_, options_.text_huber, options_.most_disagreement)) break;
+      ok = pose_.solve(points_, scale, visible_, image, both);
+    }
+    for (std::size_t i = 0; i < visible_.size(); ++i) {
+      const FrameText& text = visible_[i];
+      TextReport& report = fit.reports[i];
+      fit.texts += text.used ? 1 : 0;
+      report.zncc = text.zncc;
+      report.share = text.share;
+      if (report.use == TextUse::dissimilar) continue;
+      if (!text.used) report.use = TextUse::disagrees;
+      if (ok) count(report.id, !text.used);
+    }
+    return ok;
+  }
+
+  // Of a text that was compared in this frame.
+  void count(int id, bool disagrees) {
+    const auto at = std::lower_bound(conflicts_.begin(), conflicts_.end(), id,
+                                     [](const TextConflict& one, int wanted) { return one.id < wanted; });
+    const int change = disagrees ? 1 : -1;
+    if (at != conflicts_.end() && at->id == id) {
+      at->balance += change;
+    } else {
+      conflicts_.insert(at, {id, change});
+    }
   }
 
   void find_visible(const TextImage& image, const SE3d& T_c_w) {
@@ -155,6 +198,8 @@ class BasicTextTracking {
     for (std::size_t i = 0; i < visible_.size(); ++i) visible_[i].zncc = static_cast<double>(zncc_[i]);
   }
 
+  static constexpr int kRounds = 5;  // of weighing the texts by their agreement; each may leave one out
+
   const TextMapOptions& options_;
   const TextMapping& mapping_;
   const TextBounds& bounds_;
@@ -166,6 +211,7 @@ class BasicTextTracking {
   std::vector<PoseTextTerm> terms_;
   std::vector<FrameText> visible_;
   std::vector<float> zncc_;
+  std::vector<TextConflict> conflicts_;
 };
 using TextTracking = BasicTextTracking<>;  ///< It is compiled only where it is used.
 

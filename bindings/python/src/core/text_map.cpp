@@ -187,6 +187,8 @@ void bind_options_of_map(py::module_& m) {
   option(o, "least_gain", &O::least_gain, "float: Of TextFit.gain; with less the pose stays as it is.");
   option(o, "least_sigma", &O::least_sigma, "float: px: points are not taken to be better.");
   option(o, "most_shift", &O::most_shift, "float: Factor by which texts may raise the points' residuals.");
+  option(o, "text_huber", &O::text_huber, "float: Standard deviations by which a text may disagree at full weight.");
+  option(o, "most_disagreement", &O::most_disagreement, "float: The same: beyond it a text takes no part.");
   option(o, "max_images", &O::max_images, "int: Key frames whose images are kept.");
 }
 
