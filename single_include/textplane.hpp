@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 928bcf13b2de9b55
+// Hash of these files: 73cb901a172c574b
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 928bcf13b2de9b55"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 73cb901a172c574b"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -44720,6 +44720,7 @@ class BasicTextPose {
     bool changed = false;
     FrameText* worst = nullptr;
     double largest = most;
+    huber = (std::max)(huber, 0.0);
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const double r = disagreement(eliminated_[i], texts[i].trust);
       const double trust = r > huber ? huber / r : 1;

@@ -56,6 +56,20 @@ TEST_F(TextAgreementTest, ATextThatMovedTakesNoPart) {
   EXPECT_LT(shift(fit.T_c_w, T), 0.3 * shift(all.T_c_w, T));
 }
 
+TEST_F(TextAgreementTest, TheOnlyTextLeavesThePoseWhereItDisagrees) {
+  TextMap one(scene.camera);
+  for (int id = 0; id <= 6; ++id)
+    ASSERT_EQ(one.add_keyframe(id, image(pose(id)), pose(id), {quads(pose(id))[0]}, points(pose(id), 0.1)), Status::ok);
+  ASSERT_EQ(mapped(one), 1);
+  const SE3d T = pose(5.5);
+  EXPECT_EQ(one.track(image(T), T, points(T, 0.2)).reports[0].use, textplane::TextUse::used);
+  slide(0.02);
+  const TextFit fit = one.track(image(T), T, points(T, 0.2));
+  EXPECT_EQ(fit.reports[0].use, textplane::TextUse::disagrees);
+  EXPECT_EQ(fit.status, Status::diverged);
+  EXPECT_TRUE(same_bits(fit.T_c_w, T));
+}
+
 TEST_F(TextAgreementTest, ATextThatDisagreesALittleCountsLess) {
   const SE3d T = pose(5.5);
   const auto share = [&] { return report_of(map.track(image(T), T, points(T, 0.5)), id_of_first()).share; };

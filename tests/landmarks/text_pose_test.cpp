@@ -52,8 +52,8 @@ TEST_F(TextPoseTest, MoreIterationsComeToTheSamePose) {
   EXPECT_LT(shift(many, pose(5.5)), 2e-3);
 }
 
-// Two texts and no points: how far the one is from the other is how far the other is from it.
-TEST_F(TextPoseTest, TwoTextsDisagreeWithOneAnotherByTheSame) {
+// Two texts and no points: each alone has a pose and a covariance, and these say how far the two are apart.
+TEST_F(TextPoseTest, TextsDisagreeByTheDistanceOfTheirOwnPoses) {
   scene.signs[1].T_w_h.t.x() += 0.003;
   textplane::TextImage view;
   const Pyramid frame = image(pose(5.5));
@@ -62,11 +62,24 @@ TEST_F(TextPoseTest, TwoTextsDisagreeWithOneAnotherByTheSame) {
   std::vector<textplane::FrameText> texts;
   for (std::size_t i = 1; i < 3; ++i)
     texts.push_back({&objects[i], map.keyframes().text_keyframe(objects[i].host).T_w_c, 0, true, 1, 0, 0});
-  SE3d T = pose(5.5);
-  ASSERT_TRUE(solver.solve({}, 1, texts, view, &T, 60));
+  SE3d T[2];
+  textplane::FixedMatrix<double, 6, 6> covariance[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    texts[i].used = true;
+    texts[1 - i].used = false;
+    T[i] = pose(5.5);
+    ASSERT_TRUE(solver.solve({}, 1, texts, view, &T[i], 60));
+    covariance[i] = textplane::Ldlt<double, 6>(solver.information(), 1e-14).inverse();
+  }
+  const Vec6 apart = textplane::se3_log<double>(T[0] * T[1].inverse());
+  const textplane::FixedMatrix<double, 6, 6> sum = covariance[0] + covariance[1];
+  const double r = std::sqrt(apart.dot(textplane::Ldlt<double, 6>(sum, 1e-14).solve(apart)) / 6);
+
+  texts[0].used = texts[1].used = true;
+  SE3d both = pose(5.5);
+  ASSERT_TRUE(solver.solve({}, 1, texts, view, &both, 60));
   EXPECT_TRUE(solver.weigh(texts, 1e-3, 1e6));
-  EXPECT_LT(texts[0].trust, 1);
-  EXPECT_NEAR(texts[0].trust / texts[1].trust, 1, 0.02);
+  for (const auto& text : texts) EXPECT_NEAR(1e-3 / text.trust, r, 0.05 * r);
 }
 
 }  // namespace text_map_test

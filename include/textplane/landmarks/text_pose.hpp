@@ -123,6 +123,7 @@ class BasicTextPose {
     bool changed = false;
     FrameText* worst = nullptr;
     double largest = most;
+    huber = (std::max)(huber, 0.0);
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const double r = disagreement(eliminated_[i], texts[i].trust);
       const double trust = r > huber ? huber / r : 1;
