@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "landmarks/text_map_support.hpp"
@@ -14,6 +15,12 @@ class TextAgreementTest : public TextMapTest {
 
   // The first sign slides along its wall, and its points with it.
   void slide(double metres) { scene.signs[0].T_w_h.t.x() += metres; }
+  // No text is ever doubted.
+  static textplane::TextMapOptions trusting() {
+    textplane::TextMapOptions options;
+    options.text_huber = options.most_disagreement = 1e6;
+    return options;
+  }
   int id_of_first() const { return map.objects()[0].id; }
   static const textplane::TextReport& report_of(const TextFit& fit, int id) {
     return *std::find_if(fit.reports.begin(), fit.reports.end(), [id](const auto& one) { return one.id == id; });
@@ -25,9 +32,9 @@ class TextAgreementTest : public TextMapTest {
   // Three frames and a key frame without detections; the points are as true as they can be.
   void live() {
     const SE3d T = pose(5.4 + 0.1 * next_);
-    const Pyramid frame = image(T);
+    Pyramid frame = image(T);
     for (int k = 0; k < 3; ++k) map.track(frame, T, points(T, 0.5));
-    ASSERT_EQ(map.add_keyframe(next_++, image(T), T, {}, points(T, 0.1)), Status::ok);
+    ASSERT_EQ(map.add_keyframe(next_++, std::move(frame), T, {}, points(T, 0.1)), Status::ok);
   }
 
   TextMap map;
@@ -37,9 +44,7 @@ class TextAgreementTest : public TextMapTest {
 };
 
 TEST_F(TextAgreementTest, ATextThatMovedTakesNoPart) {
-  textplane::TextMapOptions trusting;
-  trusting.text_huber = trusting.most_disagreement = 1e6;
-  TextMap other(scene.camera, trusting);
+  TextMap other(scene.camera, trusting());
   walk(other, 6);
   slide(0.01);
   const SE3d T = pose(5.5);
@@ -81,9 +86,7 @@ TEST_F(TextAgreementTest, ATextThatDisagreesALittleCountsLess) {
 }
 
 TEST_F(TextAgreementTest, TextsThatAgreeKeepTheirWeight) {
-  textplane::TextMapOptions trusting;
-  trusting.text_huber = trusting.most_disagreement = 1e6;
-  TextMap other(scene.camera, trusting);
+  TextMap other(scene.camera, trusting());
   walk(other, 6);
   int same = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {

@@ -17,18 +17,29 @@ class TextPoseTest : public TextMapTest {
   SE3d solved(double times, int iterations) {
     const SE3d truth = pose(5.5);
     const Pyramid frame = image(truth);
-    textplane::TextImage view;
-    view.pyramid = frame;
-    view.camera = scene.camera;
+    const textplane::TextImage view = view_of(frame);
     std::vector<textplane::FrameText> texts;
     for (TextObject& object : objects) {
       object.covariance *= times;
-      texts.push_back({&object, map.keyframes().text_keyframe(object.host).T_w_c, 0, true, 1, 0, 0});
+      texts.push_back(used(object));
     }
     SE3d T = textplane::se3_exp<double>(Random(4).twist(0.003, 0.001)) * truth;
     EXPECT_TRUE(solver.solve({}, 1, texts, view, &T, iterations));
     for (TextObject& object : objects) object.covariance /= times;
     return T;
+  }
+  textplane::TextImage view_of(const Pyramid& frame) const {
+    textplane::TextImage view;
+    view.pyramid = frame;
+    view.camera = scene.camera;
+    return view;
+  }
+  textplane::FrameText used(const TextObject& object) const {
+    textplane::FrameText text;
+    text.object = &object;
+    text.T_w_h = map.keyframes().text_keyframe(object.host).T_w_c;
+    text.used = true;
+    return text;
   }
   double position_information() const { return solver.information().template topLeftCorner<3, 3>().trace(); }
 
@@ -55,13 +66,9 @@ TEST_F(TextPoseTest, MoreIterationsComeToTheSamePose) {
 // Two texts and no points: each alone has a pose and a covariance, and these say how far the two are apart.
 TEST_F(TextPoseTest, TextsDisagreeByTheDistanceOfTheirOwnPoses) {
   scene.signs[1].T_w_h.t.x() += 0.003;
-  textplane::TextImage view;
   const Pyramid frame = image(pose(5.5));
-  view.pyramid = frame;
-  view.camera = scene.camera;
-  std::vector<textplane::FrameText> texts;
-  for (std::size_t i = 1; i < 3; ++i)
-    texts.push_back({&objects[i], map.keyframes().text_keyframe(objects[i].host).T_w_c, 0, true, 1, 0, 0});
+  const textplane::TextImage view = view_of(frame);
+  std::vector<textplane::FrameText> texts = {used(objects[1]), used(objects[2])};
   SE3d T[2];
   textplane::FixedMatrix<double, 6, 6> covariance[2];
   for (std::size_t i = 0; i < 2; ++i) {
