@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 73cb901a172c574b
+// Hash of these files: 8a163a9c1fc55183
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 73cb901a172c574b"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 8a163a9c1fc55183"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -138,10 +138,12 @@
 
 // Deferred functions and classes. An inline function is compiled in every file that includes its header, and Eigen's
 // templates take long. A function after TEXTPLANE_DEFERRED is compiled only where it is called; callers do not see the
-// template parameter. A class after it has a using-declaration of its old name. A program with compiled kernels
-// (simd/targets.hpp) compiles a function once: TEXTPLANE_INSTANCE(signature) at the end of the header defines it in the
-// one file that defines the kernels, and declares it in all others. In other programs it does nothing.
-#define TEXTPLANE_DEFERRED template <class = void>
+// template parameter. A class after it has a using-declaration of its old name. Real is double: compilers leave an
+// expression of Vector3<Real> alone until the function is called, while one of Vector3<double> costs Eigen's templates
+// wherever the header is included. A program with compiled kernels (simd/targets.hpp) compiles a function once:
+// TEXTPLANE_INSTANCE(signature), with `name<>`, at the end of the header defines it in the one file that defines the
+// kernels, and declares it in all others. In other programs it does nothing.
+#define TEXTPLANE_DEFERRED template <class Real = double>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
 #undef TEXTPLANE_EXTERN_KERNELS
 #define TEXTPLANE_EXTERN_KERNELS
@@ -11078,8 +11080,8 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
   }
 }
 
-TEXTPLANE_INSTANCE(void track_klt<void>(const PyramidView&, const PyramidView&, const Vector2<float>*,
-                                        const Vector2<float>*, int, const KltOptions&, KltResult*) noexcept);
+TEXTPLANE_INSTANCE(void track_klt<>(const PyramidView&, const PyramidView&, const Vector2<float>*,
+                                    const Vector2<float>*, int, const KltOptions&, KltResult*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 
@@ -14610,12 +14612,12 @@ TextPatch make_patch(const ImageView8& host, const CameraView& camera, const Qua
   return make_patch(pyramid.view(), camera, quad, options);
 }
 
-TEXTPLANE_INSTANCE(Status select_pixels<void>(const ImageView8&, const Quad<double>&, const SelectOptions&,
-                                              std::vector<Vector2<float>>&));
-TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const PyramidView&, const CameraView&, const Quad<double>&,
-                                              const SelectOptions&));
-TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const ImageView8&, const CameraView&, const Quad<double>&,
-                                              const SelectOptions&));
+TEXTPLANE_INSTANCE(Status select_pixels<>(const ImageView8&, const Quad<double>&, const SelectOptions&,
+                                          std::vector<Vector2<float>>&));
+TEXTPLANE_INSTANCE(TextPatch make_patch<>(const PyramidView&, const CameraView&, const Quad<double>&,
+                                          const SelectOptions&));
+TEXTPLANE_INSTANCE(TextPatch make_patch<>(const ImageView8&, const CameraView&, const Quad<double>&,
+                                          const SelectOptions&));
 
 TEXTPLANE_END_NAMESPACE
 
@@ -30759,14 +30761,12 @@ PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta
   return detail::refine_plane(patch, theta, &one, 1, camera, options, workspace);
 }
 
-TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
-                                                      const CameraView&, const PlaneOptions&,
-                                                      PlaneWorkspace&) noexcept);
-TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
-                                                      int, const CameraView&, const PlaneOptions&,
-                                                      PlaneWorkspace&) noexcept);
-TEXTPLANE_INSTANCE(PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                     const PyramidView&, const CameraView&, const PlaneOptions&));
+TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
+                                                  const CameraView&, const PlaneOptions&, PlaneWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*, int,
+                                                  const CameraView&, const PlaneOptions&, PlaneWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PlaneRefinement align_plane<>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                 const PyramidView&, const CameraView&, const PlaneOptions&));
 
 TEXTPLANE_END_NAMESPACE
 
@@ -44605,22 +44605,20 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
-TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
-                                             const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
-                                             float*) noexcept);
-TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
-                                             const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
-                                             float*) noexcept);
-TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCamera*,
-                                             int, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
-                                             float*) noexcept);
-TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCameraF*,
-                                             int, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
-                                             float*) noexcept);
-TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidView&, const CameraView&, const PoseOptions&));
-TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidViewF&, const CameraView&, const PoseOptions&));
+TEXTPLANE_INSTANCE(PoseFit refine_pose<>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
+                                         const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
+                                         float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
+                                         const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
+                                         float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCamera*, int,
+                                         const SE3d&, const PoseOptions&, PoseWorkspace&, float*, float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCameraF*, int,
+                                         const SE3d&, const PoseOptions&, PoseWorkspace&, float*, float*) noexcept);
+TEXTPLANE_INSTANCE(PoseAlignment align_pose<>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
+                                              const CameraView&, const PoseOptions&));
+TEXTPLANE_INSTANCE(PoseAlignment align_pose<>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                              const PyramidViewF&, const CameraView&, const PoseOptions&));
 
 TEXTPLANE_END_NAMESPACE
 
@@ -47211,9 +47209,9 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
   return search.best();
 }
 
-TEXTPLANE_INSTANCE(SE3d search_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
-                                          const CameraView&, const SearchOptions&, PhotometricWorkspace&,
-                                          const TemplatePatch*, float*) noexcept);
+TEXTPLANE_INSTANCE(SE3d search_pose<>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
+                                      const CameraView&, const SearchOptions&, PhotometricWorkspace&,
+                                      const TemplatePatch*, float*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 

@@ -94,10 +94,12 @@
 
 // Deferred functions and classes. An inline function is compiled in every file that includes its header, and Eigen's
 // templates take long. A function after TEXTPLANE_DEFERRED is compiled only where it is called; callers do not see the
-// template parameter. A class after it has a using-declaration of its old name. A program with compiled kernels
-// (simd/targets.hpp) compiles a function once: TEXTPLANE_INSTANCE(signature) at the end of the header defines it in the
-// one file that defines the kernels, and declares it in all others. In other programs it does nothing.
-#define TEXTPLANE_DEFERRED template <class = void>
+// template parameter. A class after it has a using-declaration of its old name. Real is double: compilers leave an
+// expression of Vector3<Real> alone until the function is called, while one of Vector3<double> costs Eigen's templates
+// wherever the header is included. A program with compiled kernels (simd/targets.hpp) compiles a function once:
+// TEXTPLANE_INSTANCE(signature), with `name<>`, at the end of the header defines it in the one file that defines the
+// kernels, and declares it in all others. In other programs it does nothing.
+#define TEXTPLANE_DEFERRED template <class Real = double>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
 #undef TEXTPLANE_EXTERN_KERNELS
 #define TEXTPLANE_EXTERN_KERNELS

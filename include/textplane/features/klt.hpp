@@ -156,8 +156,8 @@ void track_klt(const PyramidView& from, const PyramidView& to, const Vector2<flo
   }
 }
 
-TEXTPLANE_INSTANCE(void track_klt<void>(const PyramidView&, const PyramidView&, const Vector2<float>*,
-                                        const Vector2<float>*, int, const KltOptions&, KltResult*) noexcept);
+TEXTPLANE_INSTANCE(void track_klt<>(const PyramidView&, const PyramidView&, const Vector2<float>*,
+                                    const Vector2<float>*, int, const KltOptions&, KltResult*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 

@@ -256,12 +256,12 @@ TextPatch make_patch(const ImageView8& host, const CameraView& camera, const Qua
   return make_patch(pyramid.view(), camera, quad, options);
 }
 
-TEXTPLANE_INSTANCE(Status select_pixels<void>(const ImageView8&, const Quad<double>&, const SelectOptions&,
-                                              std::vector<Vector2<float>>&));
-TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const PyramidView&, const CameraView&, const Quad<double>&,
-                                              const SelectOptions&));
-TEXTPLANE_INSTANCE(TextPatch make_patch<void>(const ImageView8&, const CameraView&, const Quad<double>&,
-                                              const SelectOptions&));
+TEXTPLANE_INSTANCE(Status select_pixels<>(const ImageView8&, const Quad<double>&, const SelectOptions&,
+                                          std::vector<Vector2<float>>&));
+TEXTPLANE_INSTANCE(TextPatch make_patch<>(const PyramidView&, const CameraView&, const Quad<double>&,
+                                          const SelectOptions&));
+TEXTPLANE_INSTANCE(TextPatch make_patch<>(const ImageView8&, const CameraView&, const Quad<double>&,
+                                          const SelectOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

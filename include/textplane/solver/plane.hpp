@@ -106,14 +106,12 @@ PlaneRefinement align_plane(const TextPatch& patch, const Vector3<double>& theta
   return detail::refine_plane(patch, theta, &one, 1, camera, options, workspace);
 }
 
-TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
-                                                      const CameraView&, const PlaneOptions&,
-                                                      PlaneWorkspace&) noexcept);
-TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<void>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*,
-                                                      int, const CameraView&, const PlaneOptions&,
-                                                      PlaneWorkspace&) noexcept);
-TEXTPLANE_INSTANCE(PlaneRefinement align_plane<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                     const PyramidView&, const CameraView&, const PlaneOptions&));
+TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<>(const TextPatch&, const Vector3<double>&, const PlaneTarget*, int,
+                                                  const CameraView&, const PlaneOptions&, PlaneWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PlaneRefinement refine_plane<>(const TextPatch&, const Vector3<double>&, const PlaneTargetF*, int,
+                                                  const CameraView&, const PlaneOptions&, PlaneWorkspace&) noexcept);
+TEXTPLANE_INSTANCE(PlaneRefinement align_plane<>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                                 const PyramidView&, const CameraView&, const PlaneOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

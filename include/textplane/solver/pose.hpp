@@ -272,22 +272,20 @@ PoseAlignment align_pose(const TextPatch& patch, const Vector3<double>& theta, c
   return detail::align_pose(patch, theta, T_t_h, target, camera, options);
 }
 
-TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
-                                             const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
-                                             float*) noexcept);
-TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
-                                             const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
-                                             float*) noexcept);
-TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCamera*,
-                                             int, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
-                                             float*) noexcept);
-TEXTPLANE_INSTANCE(PoseFit refine_pose<void>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCameraF*,
-                                             int, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
-                                             float*) noexcept);
-TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidView&, const CameraView&, const PoseOptions&));
-TEXTPLANE_INSTANCE(PoseAlignment align_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&,
-                                                  const PyramidViewF&, const CameraView&, const PoseOptions&));
+TEXTPLANE_INSTANCE(PoseFit refine_pose<>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidView&,
+                                         const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
+                                         float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<>(const PoseTextTerm*, int, const PosePointTerm*, int, const PyramidViewF&,
+                                         const CameraView&, const SE3d&, const PoseOptions&, PoseWorkspace&, float*,
+                                         float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCamera*, int,
+                                         const SE3d&, const PoseOptions&, PoseWorkspace&, float*, float*) noexcept);
+TEXTPLANE_INSTANCE(PoseFit refine_pose<>(const PoseTextTerm*, int, const PosePointTerm*, int, const PoseCameraF*, int,
+                                         const SE3d&, const PoseOptions&, PoseWorkspace&, float*, float*) noexcept);
+TEXTPLANE_INSTANCE(PoseAlignment align_pose<>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
+                                              const CameraView&, const PoseOptions&));
+TEXTPLANE_INSTANCE(PoseAlignment align_pose<>(const TextPatch&, const Vector3<double>&, const SE3d&,
+                                              const PyramidViewF&, const CameraView&, const PoseOptions&));
 
 TEXTPLANE_END_NAMESPACE
 

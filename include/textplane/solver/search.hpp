@@ -126,9 +126,9 @@ SE3d search_pose(const TextPatch& patch, const Vector3<double>& theta, const SE3
   return search.best();
 }
 
-TEXTPLANE_INSTANCE(SE3d search_pose<void>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
-                                          const CameraView&, const SearchOptions&, PhotometricWorkspace&,
-                                          const TemplatePatch*, float*) noexcept);
+TEXTPLANE_INSTANCE(SE3d search_pose<>(const TextPatch&, const Vector3<double>&, const SE3d&, const PyramidView&,
+                                      const CameraView&, const SearchOptions&, PhotometricWorkspace&,
+                                      const TemplatePatch*, float*) noexcept);
 
 TEXTPLANE_END_NAMESPACE
 
