@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 8a163a9c1fc55183
+// Hash of these files: bf2f49bdfd06094e
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 8a163a9c1fc55183"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 bf2f49bdfd06094e"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -15576,6 +15576,7 @@ inline bool words_agree(const std::string& a, const std::string& b, const TextOp
 }
 
 /// Adds a reading's score to its votes. Beyond max_readings, the older reading with the fewest votes is forgotten.
+TEXTPLANE_DEFERRED
 inline void vote(std::map<std::string, double>* votes, const std::string& word, double score,
                  const TextOptions& options = {}) {
   (*votes)[word] += score;
@@ -15588,6 +15589,7 @@ inline void vote(std::map<std::string, double>* votes, const std::string& word, 
 
 /// The reading most similar to all readings, weighed by their votes (a weighted median of strings): letters misread
 /// here and there do not split the votes. The first in order among equals, kUnreadText without readings.
+TEXTPLANE_DEFERRED
 inline std::string consensus(const std::map<std::string, double>& votes) {
   std::string best = kUnreadText;
   double most = 0;
@@ -15746,8 +15748,10 @@ struct TextImage : ImageNoise {
 struct TextKeyframe : TextImage {
   SE3d T_w_c;  ///< Camera to world.
 
+  TEXTPLANE_DEFERRED
   SE3d T_c_w() const noexcept { return T_w_c.inverse(); }  ///< World to camera.
   /// Motion of points of key frame `host` to this one.
+  TEXTPLANE_DEFERRED
   SE3d from(const TextKeyframe& host) const noexcept { return T_c_w() * host.T_w_c; }
 };
 
@@ -15785,7 +15789,8 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// Key frames in the order of their ids. An image is a view of the host's, or the store's own.
-class KeyframeStore {
+TEXTPLANE_DEFERRED
+class BasicKeyframeStore {
  public:
   /// False, and nothing changed, for an id that is in use. `own`: what holds the image of `keyframe`, or null where the
   /// host does.
@@ -15850,6 +15855,7 @@ class KeyframeStore {
   };
   std::map<int, Entry> all_;
 };
+using KeyframeStore = BasicKeyframeStore<>;  ///< It is compiled only where it is used.
 
 TEXTPLANE_END_NAMESPACE
 
@@ -30793,26 +30799,27 @@ constexpr std::size_t kBendMinPixels = 8;
 constexpr double kBendOfTurn = 4;
 
 // A text's own coordinates: (u, v) in [-1, 1] along and across its lines.
+TEXTPLANE_DEFERRED
 struct TextAxes {
-  Vector2<double> centre;
-  FixedMatrix<double, 2, 2> to_uv;  // of px about the centre
-  Vector2<double> slope;  // turn of the normal from end to end (tangent), for a relative inverse depth of u^2 or v^2
+  Vector2<Real> centre;
+  FixedMatrix<Real, 2, 2> to_uv;  // of px about the centre
+  Vector2<Real> slope;  // turn of the normal from end to end (tangent), for a relative inverse depth of u^2 or v^2
 };
 
 TEXTPLANE_DEFERRED
-inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, const Pinhole<double>& camera,
-                    TextAxes* axes) {
+inline bool axes_of(const Quad<Real>& quad, const Vector3<Real>& theta, const Pinhole<Real>& camera,
+                    TextAxes<Real>* axes) {
   const auto& c = quad.corner;
-  FixedMatrix<double, 2, 2> half;
+  FixedMatrix<Real, 2, 2> half;
   half.col(0) = 0.25 * (c[1] - c[0] + c[2] - c[3]);
   half.col(1) = 0.25 * (c[3] - c[0] + c[2] - c[1]);
   if (!(std::abs(half.determinant()) > 1)) return false;
   axes->centre = centroid(quad);
   axes->to_uv = half.inverse();
-  const Vector3<double> normal = plane_normal(theta);
-  const Vector3<double> p = plane_point(theta, camera.unproject(axes->centre));
+  const Vector3<Real> normal = plane_normal(theta);
+  const Vector3<Real> p = plane_point(theta, camera.unproject(axes->centre));
   for (int k = 0; k < 2; ++k) {
-    const Vector3<double> q = plane_point(theta, camera.unproject(Vector2<double>(axes->centre + half.col(k))));
+    const Vector3<Real> q = plane_point(theta, camera.unproject(Vector2<Real>(axes->centre + half.col(k))));
     // The surface leaves the plane by -p u^2 along the ray.
     axes->slope[k] = 4 * std::abs(normal.dot(p)) / (q - p).norm();
   }
@@ -30821,20 +30828,20 @@ inline bool axes_of(const Quad<double>& quad, const Vector3<double>& theta, cons
 
 // Planes of inverse depth 1, du, dv times that of the text's centre become planes theta.
 TEXTPLANE_DEFERRED
-inline Vector3<double> plane_of(const TextAxes& axes, const Pinhole<double>& camera, double rho, double at_centre,
-                                const Vector2<double>& by_uv) {
-  const Vector2<double> by_px = axes.to_uv.transpose() * by_uv;
+inline Vector3<Real> plane_of(const TextAxes<Real>& axes, const Pinhole<Real>& camera, double rho, double at_centre,
+                              const Vector2<Real>& by_uv) {
+  const Vector2<Real> by_px = axes.to_uv.transpose() * by_uv;
   const double constant = at_centre - by_px.dot(axes.centre);
-  return rho * Vector3<double>(by_px.x() * camera.fx, by_px.y() * camera.fy,
-                               constant + by_px.x() * camera.cx + by_px.y() * camera.cy);
+  return rho * Vector3<Real>(by_px.x() * camera.fx, by_px.y() * camera.fy,
+                             constant + by_px.x() * camera.cx + by_px.y() * camera.cy);
 }
 
 // d theta of a part / d (theta, bends): in each part the quadratic form is its tangent plane.
 TEXTPLANE_DEFERRED
-inline FixedMatrix<double, 3, 6> part_jacobian(const TextAxes& axes, const Pinhole<double>& camera, double rho,
-                                               const Vector2<double>& at) {
-  FixedMatrix<double, 3, 6> J;
-  J.leftCols<3>().setIdentity();
+inline FixedMatrix<Real, 3, 6> part_jacobian(const TextAxes<Real>& axes, const Pinhole<Real>& camera, double rho,
+                                             const Vector2<Real>& at) {
+  FixedMatrix<Real, 3, 6> J;
+  J.template leftCols<3>().setIdentity();
   const double u = at.x(), v = at.y();
   J.col(3) = plane_of(axes, camera, rho, -u * u, {2 * u, 0}) / axes.slope.x();
   J.col(4) = plane_of(axes, camera, rho, -v * v, {0, 2 * v}) / axes.slope.y();
@@ -30842,6 +30849,7 @@ inline FixedMatrix<double, 3, 6> part_jacobian(const TextAxes& axes, const Pinho
   return -J;
 }
 
+TEXTPLANE_DEFERRED
 inline void append(const PatchLevel& from, std::size_t i, PatchLevel* to) {
   to->x.push_back(from.x[i]);
   to->y.push_back(from.y[i]);
@@ -30851,7 +30859,7 @@ inline void append(const PatchLevel& from, std::size_t i, PatchLevel* to) {
 }
 
 TEXTPLANE_DEFERRED
-inline std::array<TextPatch, kBendParts> parts_of(const TextPatch& patch, const TextAxes& axes) {
+inline std::array<TextPatch, kBendParts> parts_of(const TextPatch& patch, const TextAxes<Real>& axes) {
   std::array<TextPatch, kBendParts> parts;
   for (TextPatch& part : parts) {
     part.quad = patch.quad;
@@ -30862,8 +30870,8 @@ inline std::array<TextPatch, kBendParts> parts_of(const TextPatch& patch, const 
   }
   const PatchLevel& all = patch.levels.front();
   for (std::size_t i = 0; i < all.x.size(); ++i) {
-    const Vector2<double> px(static_cast<double>(all.x[i]), static_cast<double>(all.y[i]));
-    const Vector2<double> uv = axes.to_uv * (px - axes.centre);
+    const Vector2<Real> px(static_cast<double>(all.x[i]), static_cast<double>(all.y[i]));
+    const Vector2<Real> uv = axes.to_uv * (px - axes.centre);
     const auto cell = [](double at, int n) {
       return static_cast<std::size_t>(std::clamp(static_cast<int>(0.5 * (at + 1) * n), 0, n - 1));
     };
@@ -30881,33 +30889,33 @@ inline std::array<TextPatch, kBendParts> parts_of(const TextPatch& patch, const 
 TEXTPLANE_DEFERRED
 bool bend_of(const TextPatch& patch, const Vector3<double>& theta, const std::vector<PlaneTarget>& targets,
              const Pinhole<double>& camera, double sigmas, PhotometricWorkspace& workspace, Bend* bend) {
-  detail::TextAxes axes;
+  detail::TextAxes<Real> axes;
   if (patch.levels.empty() || !detail::axes_of(patch.quad, theta, camera, &axes)) return false;
-  const double rho = inverse_depth<double>(theta, camera.unproject(axes.centre));
+  const double rho = inverse_depth<Real>(theta, camera.unproject(axes.centre));
   std::vector<std::array<TextPatch, detail::kBendParts>> parts;
   for (const PlaneTarget& target : targets)
     parts.push_back(detail::parts_of(target.patch ? *target.patch : patch, axes));
 
-  Vector6<double> x = Vector6<double>::Zero(), information = Vector6<double>::Zero();
-  information.tail<3>().setConstant(1 / (detail::kBendPriorSigma * detail::kBendPriorSigma));
+  Vector6<Real> x = Vector6<Real>::Zero(), information = Vector6<Real>::Zero();
+  information.template tail<3>().setConstant(1 / (detail::kBendPriorSigma * detail::kBendPriorSigma));
   std::vector<GroupEquations<6>> views;
   double flat = 0, error = 0;
   for (int iteration = 0; iteration <= detail::kBendIterations; ++iteration) {
     views.assign(targets.size(), {});
     error = 0;
-    FixedMatrix<double, 6, 6> H = information.asDiagonal();
-    Vector6<double> b = information.cwiseProduct(x);
+    FixedMatrix<Real, 6, 6> H = information.asDiagonal();
+    Vector6<Real> b = information.cwiseProduct(x);
     for (std::size_t t = 0; t < targets.size(); ++t) {
       for (int k = 0; k < detail::kBendParts; ++k) {
         const TextPatch& part = parts[t][static_cast<std::size_t>(k)];
         if (part.levels.front().x.size() < detail::kBendMinPixels) continue;
-        const Vector2<double> at((2.0 * (k % detail::kBendColumns) + 1) / detail::kBendColumns - 1,
-                                 (2.0 * (k / detail::kBendColumns) + 1) / detail::kBendRows - 1);
-        const FixedMatrix<double, 3, 6> J = detail::part_jacobian(axes, camera, rho, at);
+        const Vector2<Real> at((2.0 * (k % detail::kBendColumns) + 1) / detail::kBendColumns - 1,
+                               (2.0 * (k / detail::kBendColumns) + 1) / detail::kBendRows - 1);
+        const FixedMatrix<Real, 3, 6> J = detail::part_jacobian(axes, camera, rho, at);
         const auto input =
             photometric_input(part, 0, targets[t].image, targets[t].camera ? *targets[t].camera : CameraView(camera));
         const auto sums = linearise<Parameters::plane>(
-            ResidualRequest{input, Vector3<double>(theta + J * x), targets[t].T_t_h}, workspace);
+            ResidualRequest{input, Vector3<Real>(theta + J * x), targets[t].T_t_h}, workspace);
         if (!is_ok(sums.status)) continue;
         error += sums.visible * sums.error;
         views[t].H += sums.visible * J.transpose() * sums.H * J;
@@ -30917,21 +30925,21 @@ bool bend_of(const TextPatch& patch, const Vector3<double>& theta, const std::ve
       b += views[t].b;
     }
     if (iteration == 0) flat = error;
-    const Ldlt<double, 6> system(H, 1e-12);
+    const Ldlt<Real, 6> system(H, 1e-12);
     if (!system.ok()) return false;
     if (iteration < detail::kBendIterations) x -= system.solve(b);
     if (!all_finite(x)) return false;
   }
-  views.push_back({FixedMatrix<double, 6, 6>(information.asDiagonal()), information.cwiseProduct(x)});
-  const FixedMatrix<double, 6, 6> covariance = jackknife_covariance(views);
+  views.push_back({FixedMatrix<Real, 6, 6>(information.asDiagonal()), information.cwiseProduct(x)});
+  const FixedMatrix<Real, 6, 6> covariance = jackknife_covariance(views);
   bend->explained = flat > 0 ? 1 - error / flat : 0;
-  bend->value = x.segment<2>(3);
-  bend->sigma = covariance.diagonal().segment<2>(3).cwiseMax(0.0).cwiseSqrt();
+  bend->value = x.template segment<2>(3);
+  bend->sigma = covariance.diagonal().template segment<2>(3).cwiseMax(0.0).cwiseSqrt();
   bend->doubt.setZero();
   for (int k = 0; k < 2; ++k) {
     const double excess = (std::max)(0.0, std::abs(bend->value[k]) - sigmas * bend->sigma[k]) / detail::kBendOfTurn;
-    const Vector3<double> turned =
-        excess * detail::kBendOfTurn / axes.slope[k] * detail::plane_of(axes, camera, rho, 0, Vector2<double>::Unit(k));
+    const Vector3<Real> turned = excess * detail::kBendOfTurn / axes.slope[k] *
+                                 detail::plane_of(axes, camera, rho, 0, Vector2<Real>(Vector2<Real>::Unit(k)));
     bend->doubt += turned * turned.transpose();
   }
   return true;
@@ -31001,7 +31009,8 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// The spheres of the mapped texts of a TextMap, and the poses of their hosts.
-class TextBounds {
+TEXTPLANE_DEFERRED
+class BasicTextBounds {
  public:
   /// Of the texts from `first` on anew, all by default: after a change of theirs or of their hosts' poses.
   void update(const std::vector<TextObject>& texts, const KeyframeStore& keyframes, std::size_t first = 0) {
@@ -31040,7 +31049,7 @@ class TextBounds {
   static constexpr std::size_t kBlock = 16;
 
   struct Sphere {
-    Vector3<double> centre;  // in the world
+    Vector3<Real> centre;  // in the world
     double radius = 0;
   };
   struct Text {
@@ -31049,14 +31058,14 @@ class TextBounds {
   };
 
   static Sphere sphere_about(const TextObject& text, const SE3d& T_w_h) {
-    std::array<Vector3<double>, 4> corners;
+    std::array<Vector3<Real>, 4> corners;
     // A text without a place in its host counts as everywhere.
     if (!is_ok(quad_points(text.patch.quad, text.patch.camera, text.theta, &corners)))
-      return {Vector3<double>::Zero(), std::numeric_limits<double>::infinity()};
-    Vector3<double> centre = Vector3<double>::Zero();
-    for (const Vector3<double>& corner : corners) centre += 0.25 * corner;
+      return {Vector3<Real>::Zero(), std::numeric_limits<double>::infinity()};
+    Vector3<Real> centre = Vector3<Real>::Zero();
+    for (const Vector3<Real>& corner : corners) centre += 0.25 * corner;
     double radius = 0;
-    for (const Vector3<double>& corner : corners) radius = (std::max)(radius, (corner - centre).norm());
+    for (const Vector3<Real>& corner : corners) radius = (std::max)(radius, (corner - centre).norm());
     return {T_w_h * centre, radius};
   }
 
@@ -31076,24 +31085,24 @@ class TextBounds {
   // and a tenth wider), and the half space before the camera.
   class View {
    public:
-    View(const TextImage& image, const SE3d& T_c_w) noexcept {
-      const Pinhole<double>& camera = image.camera.pinhole;
+    View(const TextImage& image, const SE3<Real>& T_c_w) noexcept {
+      const Pinhole<Real>& camera = image.camera.pinhole;
       double left = camera.cx + 1, right = image.width() - camera.cx, top = camera.cy + 1,
              bottom = image.height() - camera.cy;
       sides_ = !image.camera.lens || widen(image, &left, &right, &top, &bottom) ? kSides : 1;
-      const Vector3<double> inward[] = {
+      const Vector3<Real> inward[] = {
           {0, 0, 1}, {camera.fx, 0, left}, {-camera.fx, 0, right}, {0, camera.fy, top}, {0, -camera.fy, bottom}};
       for (std::size_t k = 0; k < sides_; ++k) {
-        const Vector3<double> n = inward[k].normalized();
+        const Vector3<Real> n = inward[k].normalized();
         normal_[k] = T_c_w.R.transpose() * n;
         offset_[k] = n.dot(T_c_w.t);
       }
     }
 
     bool misses(const Sphere& sphere) const noexcept {
-      const Vector3<double>& c = sphere.centre;
+      const Vector3<Real>& c = sphere.centre;
       for (std::size_t k = 0; k < sides_; ++k) {
-        const Vector3<double>& n = normal_[k];
+        const Vector3<Real>& n = normal_[k];
         if (n[0] * c[0] + n[1] * c[1] + n[2] * c[2] + offset_[k] < -sphere.radius) return true;
       }
       return false;
@@ -31103,12 +31112,12 @@ class TextBounds {
     // How far the undistorted image reaches from the principal point, px. False where a ray of the border has no place
     // in it.
     static bool widen(const TextImage& image, double* left, double* right, double* top, double* bottom) noexcept {
-      const Pinhole<double>& camera = image.camera.pinhole;
+      const Pinhole<Real>& camera = image.camera.pinhole;
       *left = *right = *top = *bottom = 0;
       for (int k = 0; k < 9; ++k) {
         if (k == 4) continue;
-        Vector3<double> ray;
-        const Vector2<double> px(0.5 * (k % 3) * (image.width() - 1), 0.5 * (k / 3) * (image.height() - 1));
+        Vector3<Real> ray;
+        const Vector2<Real> px(0.5 * (k % 3) * (image.width() - 1), 0.5 * (k / 3) * (image.height() - 1));
         if (!is_ok(image.camera.unproject(px, &ray))) return false;
         constexpr double kWider = 1.1;
         *left = (std::max)(*left, -kWider * camera.fx * ray.x());
@@ -31121,13 +31130,14 @@ class TextBounds {
 
     static constexpr std::size_t kSides = 5;
     std::size_t sides_ = kSides;
-    Vector3<double> normal_[kSides];
+    Vector3<Real> normal_[kSides];
     double offset_[kSides];
   };
 
   std::vector<Sphere> spheres_, blocks_;  // a block is of kBlock spheres
   std::vector<Text> texts_;
 };
+using TextBounds = BasicTextBounds<>;  ///< It is compiled only where it is used.
 
 TEXTPLANE_END_NAMESPACE
 
@@ -31197,8 +31207,8 @@ TEXTPLANE_DEFERRED
 inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4>* out) noexcept {
   const TextPatch& patch = text.patch;
   if (!patch.rows.active()) return quad_points(patch.quad, patch.camera, text.theta, out);
-  const Matrix3<double> C = host_row_warp(patch.rows, text.theta, patch.camera.unproject(centroid(patch.quad)));
-  std::array<Vector3<double>, 4> p;
+  const Matrix3<Real> C = host_row_warp(patch.rows, text.theta, patch.camera.unproject(centroid(patch.quad)));
+  std::array<Vector3<Real>, 4> p;
   for (std::size_t i = 0; i < 4; ++i) {
     const Status status = plane_point(text.theta, product(C, patch.camera.unproject(patch.quad.corner[i])), &p[i]);
     if (!is_ok(status)) return status;
@@ -31212,32 +31222,32 @@ inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4
 TEXTPLANE_DEFERRED
 inline bool project_text(const TextObject& text, const SE3d& T_t_h, const CameraView& camera,
                          Quad<double>* quad) noexcept {
-  const Matrix3<double> H = plane_homography(text.theta, T_t_h);
+  const Matrix3<Real> H = plane_homography(text.theta, T_t_h);
   const bool rolling = camera.rows || text.patch.rows.active();
-  Matrix3<double> C;
+  Matrix3<Real> C;
   if (rolling) C = host_row_warp(text.patch.rows, text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
   for (std::size_t i = 0; i < 4; ++i) {
-    Vector3<double> m = text.patch.camera.unproject(text.patch.quad.corner[i]);
+    Vector3<Real> m = text.patch.camera.unproject(text.patch.quad.corner[i]);
     if (rolling) m = product(C, m);
-    const Vector3<double> q = H * m;
+    const Vector3<Real> q = H * m;
     if (camera.rows) {
-      const RowProjection seen = project_rows(*camera.rows, camera, Vector3<double>(q / text.theta.dot(m)));
+      const RowProjection seen = project_rows(*camera.rows, camera, Vector3<Real>(q / text.theta.dot(m)));
       if (!is_ok(seen.status)) return false;
       quad->corner[i] = seen.px;
       continue;
     }
     if (!(q.z() > 1e-6) || !camera.in_domain(q)) return false;
-    quad->corner[i] = camera.pixel(Vector2<double>(q.x() / q.z(), q.y() / q.z()));
+    quad->corner[i] = camera.pixel(Vector2<Real>(q.x() / q.z(), q.y() / q.z()));
   }
   return true;
 }
 
 /// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
 TEXTPLANE_DEFERRED
-inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
-  const Vector3<double> m = text.patch.camera.unproject(centroid(text.patch.quad));
-  const Vector3<double> centre = T_t_h * plane_point(text.theta, m);
-  const Vector3<double> normal = T_t_h.R * plane_normal(text.theta);
+inline double facing(const TextObject& text, const SE3<Real>& T_t_h) noexcept {
+  const Vector3<Real> m = text.patch.camera.unproject(centroid(text.patch.quad));
+  const Vector3<Real> centre = T_t_h * plane_point(text.theta, m);
+  const Vector3<Real> normal = T_t_h.R * plane_normal(text.theta);
   return -normal.dot(centre.normalized());
 }
 
@@ -31267,11 +31277,11 @@ inline bool text_in_view(const TextOptions& options, const TextObject& text, con
 
 /// Does the plane lie in front of its host, not too slanted, over the whole quad?
 TEXTPLANE_DEFERRED
-inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>& camera, const Quad<double>& quad,
+inline bool is_plausible_plane(const TextOptions& options, const Pinhole<Real>& camera, const Quad<double>& quad,
                                const Vector3<double>& theta) noexcept {
-  const Vector3<double> ray = camera.unproject(centroid(quad)).normalized();
+  const Vector3<Real> ray = camera.unproject(centroid(quad)).normalized();
   if (is_too_slanted(options, -plane_normal(theta).dot(ray))) return false;
-  return std::all_of(quad.corner.begin(), quad.corner.end(), [&](const Vector2<double>& corner) {
+  return std::all_of(quad.corner.begin(), quad.corner.end(), [&](const Vector2<Real>& corner) {
     return inverse_depth<double>(theta, camera.unproject(corner)) > 0;
   });
 }
@@ -31285,9 +31295,9 @@ inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcep
 /// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.
 TEXTPLANE_DEFERRED
 inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& covariance) noexcept {
-  const Vector3<double> n = plane_normal(theta);
-  const Matrix3<double> J = (Matrix3<double>::Identity() - n * n.transpose()) / theta.norm();
-  const Matrix3<double> of_normal = J * covariance * J.transpose();
+  const Vector3<Real> n = plane_normal(theta);
+  const Matrix3<Real> J = (Matrix3<Real>::Identity() - n * n.transpose()) / theta.norm();
+  const Matrix3<Real> of_normal = J * covariance * J.transpose();
   return std::sqrt((std::max)(0.0, symmetric_eigen<double, 3>(of_normal).values[2]));
 }
 /// The same of a text.
@@ -31546,14 +31556,14 @@ double text_zncc_limit(const TextOptions& options, double limit, const TextPatch
     return is_ok(stats.status) ? stats.s / std::sqrt(stats.n) : 0;
   };
   const PatchLevel& pixels = patch.levels[static_cast<std::size_t>(level)];
-  const Matrix3<double> H = plane_homography(theta, T_t_h);
-  const Pinhole<double> from = patch.camera.at_level(level);
+  const Matrix3<Real> H = plane_homography(theta, T_t_h);
+  const Pinhole<Real> from = patch.camera.at_level(level);
   const CameraView to = target.camera.at_level(level);
   std::vector<float> seen;
   for (std::size_t i = 0; i < pixels.x.size(); ++i) {
-    const Vector3<double> q = H * from.unproject({static_cast<double>(pixels.x[i]), static_cast<double>(pixels.y[i])});
+    const Vector3<Real> q = H * from.unproject({static_cast<double>(pixels.x[i]), static_cast<double>(pixels.y[i])});
     if (!(q.z() > 1e-6) || !to.in_domain(q)) continue;
-    const Vector2<double> px = to.pixel({q.x() / q.z(), q.y() / q.z()});
+    const Vector2<Real> px = to.pixel({q.x() / q.z(), q.y() / q.z()});
     float value = 0;
     if (sample_bilinear(target.pyramid.level[static_cast<std::size_t>(level)], static_cast<float>(px.x()),
                         static_cast<float>(px.y()), &value))
@@ -31582,13 +31592,13 @@ TextPatch make_text_patch(const TextOptions& options, const TextImage& image, co
 /// with outliers removed by transfer error. False with fewer than min_corners or too little parallax (min_parallax), or
 /// where the plane is not in front of the host at `centre` (m~); *theta may then hold anything.
 TEXTPLANE_DEFERRED
-bool plane_from_text_matches(const TextOptions& options, std::vector<Vector3<double>> host,
-                             std::vector<Vector3<double>> target, const SE3d& T_t_h, double fx,
+bool plane_from_text_matches(const TextOptions& options, std::vector<Vector3<Real>> host,
+                             std::vector<Vector3<Real>> target, const SE3d& T_t_h, double fx,
                              const Vector3<double>& centre, Vector3<double>* theta) {
   const auto too_few = [&](const auto& rays) { return static_cast<int>(rays.size()) < options.min_corners; };
   std::vector<double> parallax;
   for (std::size_t i = 0; i < host.size(); ++i) {
-    const Vector3<double> turned = T_t_h.R * host[i];
+    const Vector3<Real> turned = T_t_h.R * host[i];
     parallax.push_back(detail::degrees_between(turned, target[i]));
   }
   *theta = Vector3<double>::Zero();
@@ -31597,10 +31607,10 @@ bool plane_from_text_matches(const TextOptions& options, std::vector<Vector3<dou
     const auto fit = plane_from_matches(host.data(), target.data(), static_cast<int>(host.size()), T_t_h);
     if (!is_ok(fit.status)) return false;
     *theta = fit.value;
-    const Matrix3<double> H = plane_homography(*theta, T_t_h);
+    const Matrix3<Real> H = plane_homography(*theta, T_t_h);
     std::vector<double> errors;
     for (std::size_t i = 0; i < host.size(); ++i) {
-      const Vector3<double> q = H * host[i];
+      const Vector3<Real> q = H * host[i];
       const bool ahead = q.z() > 1e-6;
       errors.push_back(ahead ? fx * (q.hnormalized() - target[i].hnormalized()).norm() : 1e9);
     }
@@ -31632,7 +31642,7 @@ bool refine_text_plane(const TextOptions& options, const KeyframeLookup& keyfram
   for (const int id : ids) {
     const TextKeyframe keyframe = keyframes(id);
     const SE3d T_t_h = keyframe.from(host);
-    Quad<double> quad;
+    Quad<Real> quad;
     const int shift = project_text(guess, T_t_h, keyframe.camera, &quad) ? scale_shift(text, quad) : 0;
     CameraView& camera = cameras[targets.size()];
     camera = keyframe.camera;
@@ -31664,8 +31674,8 @@ inline PhotometricCost compare_text(const TextObject& text, int level, const Tex
 /// Moves a plane with its covariance to another frame. False, and both as they were, where that sees its back.
 TEXTPLANE_DEFERRED
 inline bool transport_plane(const SE3d& T_to_from, Vector3<double>* theta, Matrix3<double>* covariance) noexcept {
-  Vector3<double> moved;
-  Matrix3<double> J;
+  Vector3<Real> moved;
+  Matrix3<Real> J;
   if (!is_ok(reanchor_plane<double>(*theta, T_to_from, &moved, &J))) return false;
   *theta = moved;
   *covariance = J * *covariance * J.transpose();
@@ -31680,6 +31690,7 @@ TEXTPLANE_END_NAMESPACE
 #define TEXTPLANE_LANDMARKS_TEXT_PROPOSAL_HPP
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -31736,18 +31747,18 @@ TEXTPLANE_DEFERRED
 std::vector<SurfacePoint> points_beside(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h,
                                         const TextObject& text) {
   std::vector<SurfacePoint> beside_it;
-  std::array<Vector3<double>, 4> c;
+  std::array<Vector3<Real>, 4> c;
   if (!is_ok(text_corners(text, &c))) return beside_it;
-  const Vector3<double> normal = plane_normal(text.theta), centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
-  const Vector3<double> across = 0.5 * (c[1] - c[0] + c[2] - c[3]), down = 0.5 * (c[3] - c[0] + c[2] - c[1]);
-  const Vector3<double> right = across.normalized(), below = normal.cross(right);
+  const Vector3<Real> normal = plane_normal(text.theta), centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+  const Vector3<Real> across = 0.5 * (c[1] - c[0] + c[2] - c[3]), down = 0.5 * (c[3] - c[0] + c[2] - c[1]);
+  const Vector3<Real> right = across.normalized(), below = normal.cross(right);
   const double reach = options.surface_reach * (std::max)(across.norm(), down.norm());
 
   const SE3d T_h_w = T_w_h.inverse();
   for (int i = 0; i < points.count(); ++i) {
-    Vector3<double> p_w;
+    Vector3<Real> p_w;
     if (!points.position(i, &p_w)) continue;
-    const Vector3<double> p = T_h_w * p_w, offset = p - centre;
+    const Vector3<Real> p = T_h_w * p_w, offset = p - centre;
     const double beside = std::hypot((std::max)(0.0, std::abs(right.dot(offset)) - 0.5 * across.norm()),
                                      (std::max)(0.0, std::abs(below.dot(offset)) - 0.5 * down.norm()));
     if (!(p.z() > 0) || !(beside <= reach) || !(std::abs(normal.dot(offset)) <= reach)) continue;
@@ -31763,12 +31774,12 @@ constexpr double kMinPivot = 1e-12;  // a plane known much better in one directi
 
 // Covariance of theta where the plane goes through a point and its normal is known to sigma, radians.
 TEXTPLANE_DEFERRED
-inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<double>& point, double sigma) {
-  const Vector3<double> n = plane_normal(theta), side = n.unitOrthogonal(), other = n.cross(side);
+inline Matrix3<Real> turned_about(const Vector3<Real>& theta, const Vector3<Real>& point, double sigma) {
+  const Vector3<Real> n = plane_normal(theta), side = n.unitOrthogonal(), other = n.cross(side);
   const double distance = n.dot(point);
-  Matrix3<double> covariance = Matrix3<double>::Zero();
-  for (const Vector3<double>& turn : {side, other}) {
-    const Vector3<double> d = sigma / distance * (turn - turn.dot(point) / distance * n);  // theta = n / (n^T point)
+  Matrix3<Real> covariance = Matrix3<Real>::Zero();
+  for (const Vector3<Real>& turn : {side, other}) {
+    const Vector3<Real> d = sigma / distance * (turn - turn.dot(point) / distance * n);  // theta = n / (n^T point)
     covariance += d * d.transpose();
   }
   return covariance;
@@ -31776,8 +31787,7 @@ inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<
 
 // Where a plane is known by a guess alone: its slant in radians, its distance as a share.
 TEXTPLANE_DEFERRED
-inline Matrix3<double> guessed(const Vector3<double>& theta, const Vector3<double>& centre, double turn,
-                               double distance) {
+inline Matrix3<Real> guessed(const Vector3<Real>& theta, const Vector3<Real>& centre, double turn, double distance) {
   return turned_about(theta, centre, turn) + distance * distance * theta * theta.transpose();
 }
 }  // namespace detail
@@ -31788,31 +31798,32 @@ inline Matrix3<double> guessed(const Vector3<double>& theta, const Vector3<doubl
 TEXTPLANE_DEFERRED
 bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vector3<double>& centre, const TextOptions& options,
                     Vector3<double>* theta, Matrix3<double>* covariance) {
-  const Ldlt<double, 3> prior(*covariance, detail::kMinPivot);
+  const Ldlt<Real, 3> prior(*covariance, detail::kMinPivot);
   if (!prior.ok()) return false;
-  const Matrix3<double> known = prior.inverse();
-  const Matrix3<double> bend = detail::turned_about(*theta, centre, detail::radians(options.surface_bend));
-  Vector3<double> x = *theta;
-  Matrix3<double> C = *covariance;
+  const Matrix3<Real> known = prior.inverse();
+  const Matrix3<Real> bend = detail::turned_about(*theta, centre, detail::radians(options.surface_bend));
+  Vector3<Real> x = *theta;
+  Matrix3<Real> C = *covariance;
   const double sigmas = options.surface_sigmas;
   double used = 0;
   for (int round = 0; round < options.surface_rounds; ++round) {
-    Matrix3<double> information = Matrix3<double>::Zero();
-    Vector3<double> gradient = Vector3<double>::Zero();
+    Matrix3<Real> information = Matrix3<Real>::Zero();
+    Vector3<Real> gradient = Vector3<Real>::Zero();
     used = 0;
     for (const SurfacePoint& point : points) {
-      const double error = 1 - x.dot(point.p), variance = x.squaredNorm() * point.sigma * point.sigma;
-      const double squared = error * error / (sigmas * sigmas * (variance + point.p.dot(C * point.p)));
+      const Vector3<Real>& p = point.p;
+      const double error = 1 - x.dot(p), variance = x.squaredNorm() * point.sigma * point.sigma;
+      const double squared = error * error / (sigmas * sigmas * (variance + p.dot(C * p)));
       if (!(squared < 1)) continue;
       const double weight = (1 - squared) * (1 - squared);
-      information += weight / variance * point.p * point.p.transpose();
-      gradient += weight / variance * error * point.p;
+      information += weight / variance * p * p.transpose();
+      gradient += weight / variance * error * p;
       used += weight;
     }
     // The bend is common to all points: (information^-1 + bend)^-1, in a form where neither need be regular.
-    const Matrix3<double> together = (Matrix3<double>::Identity() + information * bend).inverse();
-    const Matrix3<double> both = known + together * information;
-    const Ldlt<double, 3> system(0.5 * (both + both.transpose()), detail::kMinPivot);
+    const Matrix3<Real> together = (Matrix3<Real>::Identity() + information * bend).inverse();
+    const Matrix3<Real> both = known + together * information;
+    const Ldlt<Real, 3> system(0.5 * (both + both.transpose()), detail::kMinPivot);
     if (!system.ok()) return false;
     x += system.solve(known * (*theta - x) + together * gradient);
     C = system.inverse();
@@ -31828,14 +31839,14 @@ namespace detail {
 // text's centre and has its slant, as far as its points tell that. A sign that stands off its wall is likely to be
 // turned, too.
 TEXTPLANE_DEFERRED
-bool lies_on(std::vector<SurfacePoint> points, const Vector3<double>& centre, double length, const TextOptions& options,
+bool lies_on(std::vector<SurfacePoint> points, const Vector3<Real>& centre, double length, const TextOptions& options,
              const TextObject& text) {
   points.erase(std::remove_if(points.begin(), points.end(), [](const SurfacePoint& p) { return !(p.beside > 0); }),
                points.end());
-  Vector3<double> theta = text.theta;
+  Vector3<Real> theta = text.theta;
   const double distance = 1 / theta.norm();
-  Matrix3<double> covariance = text.covariance + guessed(theta, centre, radians(options.surface_most_turn),
-                                                         options.surface_near * length / distance);
+  Matrix3<Real> covariance = text.covariance + guessed(theta, centre, radians(options.surface_most_turn),
+                                                       options.surface_near * length / distance);
   if (!fit_to_surface(points, centre, options, &theta, &covariance)) return false;
   const double gap = std::abs(theta.dot(centre) - 1) / theta.norm();
   const double gap_sigma = std::sqrt(centre.dot(text.covariance * centre)) / theta.norm();
@@ -31856,13 +31867,13 @@ bool lies_on(std::vector<SurfacePoint> points, const Vector3<double>& centre, do
 TEXTPLANE_DEFERRED
 void fit_to_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h, TextObject& text) {
   const double sigma = normal_sigma(text);
-  std::array<Vector3<double>, 4> c;
+  std::array<Vector3<Real>, 4> c;
   if (!(sigma <= detail::radians(options.surface_text_sigma)) || !is_ok(text_corners(text, &c))) return;
-  const Vector3<double> centre = plane_point(text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
+  const Vector3<Real> centre = plane_point(text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
   const double length = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
   const std::vector<SurfacePoint> beside = points_beside(options, points, T_w_h, text);
-  Vector3<double> theta = text.theta;
-  Matrix3<double> covariance = text.covariance;
+  Vector3<Real> theta = text.theta;
+  Matrix3<Real> covariance = text.covariance;
   if (!detail::lies_on(beside, centre, length, options, text) ||
       !fit_to_surface(beside, centre, options, &theta, &covariance))
     return;
@@ -31878,17 +31889,17 @@ void fit_to_surface(const TextOptions& options, const PointLookup& points, const
 TEXTPLANE_DEFERRED
 bool plane_from_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h,
                         const std::vector<Vector3<double>>& seen, TextObject& text) {
-  const auto& c = text.patch.quad.corner;
-  const Pinhole<double>& camera = text.patch.camera;
-  const Vector2<double> middle = centroid(text.patch.quad);
+  const std::array<Vector2<Real>, 4>& c = text.patch.quad.corner;
+  const Pinhole<Real>& camera = text.patch.camera;
+  const Vector2<Real> middle = centroid(text.patch.quad);
   const double reach = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
   std::vector<double> depths;
-  for (const Vector3<double>& p : seen)
+  for (const Vector3<Real>& p : seen)
     if (p.z() > 0 && (camera.project(p) - middle).norm() <= reach) depths.push_back(p.z());
   if (static_cast<double>(depths.size()) < options.surface_min_points) return false;
 
   // A guess: across the ray to the text, at the depth of what is seen there.
-  const Vector3<double> ray = camera.unproject(middle), centre = median(depths) * ray;
+  const Vector3<Real> ray = camera.unproject(middle), centre = median(depths) * ray;
   TextObject guess = outline_of(text.patch, centre / centre.squaredNorm());
   guess.covariance = detail::guessed(guess.theta, centre, options.surface_guess_turn, options.surface_guess_depth);
   if (!fit_to_surface(points_beside(options, points, T_w_h, guess), centre, options, &guess.theta, &guess.covariance) ||
@@ -35855,7 +35866,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A plane across the ray of `centre` (m~), at a depth.
 TEXTPLANE_DEFERRED
 inline Vector3<double> frontal_plane(const Vector3<double>& centre, double depth) noexcept {
-  return centre / (depth * centre.squaredNorm());
+  const double divisor = depth * centre.squaredNorm();
+  return {centre[0] / divisor, centre[1] / divisor, centre[2] / divisor};
 }
 
 /// Depth of a point in a camera's frame; 0 where it is not known or not in front.
@@ -35869,9 +35881,9 @@ inline double depth_of(const TextPoint& point, const SE3d& T_c_w) noexcept {
 /// `least`; 0 where these are, too.
 TEXTPLANE_DEFERRED
 double depth_about(const std::vector<TextPoint>& points, const SE3d& T_c_w, const Quad<double>& quad, int least) {
-  const auto& c = quad.corner;
+  const std::array<Vector2<Real>, 4>& c = quad.corner;
   const double reach = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
-  const Vector2<double> middle = centroid(quad);
+  const Vector2<Real> middle = centroid(quad);
   std::vector<double> close, all;
   for (const TextPoint& point : points) {
     const double depth = depth_of(point, T_c_w);
@@ -35891,21 +35903,21 @@ bool plane_from_inside_points(const TextOptions& options, const std::vector<Vect
                               const TextPatch& patch, Vector3<double>* theta) {
   if (inside.empty() || static_cast<int>(inside.size()) < options.min_corners) return false;
   std::vector<double> depths;
-  for (const Vector3<double>& p : inside) depths.push_back(p.z());
+  for (const Vector3<Real>& p : inside) depths.push_back(p.z());
   const double depth = median(depths);
-  const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad)), centre = depth * ray;
-  const Vector3<double> guess = frontal_plane(ray, depth);
+  const Vector3<Real> ray = patch.camera.unproject(centroid(patch.quad)), centre = depth * ray;
+  const Vector3<Real> guess = frontal_plane(ray, depth);
   if (!(guess.norm() > 0)) return false;  // too far for a number
-  const Matrix3<double> doubt = detail::guessed(guess, centre, options.surface_guess_turn, options.surface_guess_depth);
+  const Matrix3<Real> doubt = detail::guessed(guess, centre, options.surface_guess_turn, options.surface_guess_depth);
   std::vector<SurfacePoint> points;
-  for (const Vector3<double>& p : inside) points.push_back({p, 0.02 * depth, 0});
+  for (const Vector3<Real>& p : inside) points.push_back({p, 0.02 * depth, 0});
   TextOptions fit = options;
   fit.surface_min_points = 0.5 * options.min_corners;
   std::vector<double> off(inside.size());
   *theta = guess;
   for (int round = 0; round < options.plane_rounds; ++round) {
     *theta = guess;
-    Matrix3<double> covariance = doubt;
+    Matrix3<Real> covariance = doubt;
     if (!fit_to_surface(points, centre, fit, theta, &covariance)) return false;
     for (std::size_t i = 0; i < inside.size(); ++i) off[i] = std::abs(1 - theta->dot(inside[i])) / theta->norm();
     const double sigma = std::clamp(1.4826 * median_in_place(off), 1e-4 * depth, 0.05 * depth);
@@ -35923,8 +35935,8 @@ Vector3<double> sweep_depths(const TextPatch& patch, const TextImage& target, co
   constexpr int kDepths = 64;
   *zncc = -1;
   const int level = (std::min)({1, patch.level_count() - 1, target.pyramid.levels - 1});
-  const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad));
-  Vector3<double> best = frontal_plane(ray, nearest);
+  const Vector3<Real> ray = patch.camera.unproject(centroid(patch.quad));
+  Vector3<Real> best = frontal_plane(ray, nearest);
   if (level < 0) return best;
   std::vector<TextBatchItem> items;
   for (int i = 0; i < kDepths; ++i) {
@@ -35978,17 +35990,17 @@ class BasicTextFinder {
   bool find(TextObject& text, TextNotes& notes, int id, const TextKeyframe& keyframe,
             const std::vector<TextPoint>& points) {
     const TextKeyframe host = store_.text_keyframe(text.host);
-    std::vector<Vector3<double>> from, to;
+    std::vector<Vector3<Real>> from, to;
     if (id != text.host) learn(host, keyframe, points, text.patch, notes, &from, &to);
-    Vector3<double> theta;
+    Vector3<Real> theta;
     if (plane_from_inside_points(options_, notes.inside, text.patch, &theta) && confirm(text, theta, id)) return true;
-    const Vector3<double> middle = text.patch.camera.unproject(centroid(text.patch.quad));
+    const Vector3<Real> middle = text.patch.camera.unproject(centroid(text.patch.quad));
     if (id != text.host &&
         plane_from_text_matches(options_, from, to, keyframe.from(host), keyframe.camera.pinhole.fx, middle, &theta) &&
         confirm(text, theta, id))
       return true;
     // By its pixels alone.
-    const Vector3<double> about = notes.guess.norm() > 0 ? notes.guess : frontal_plane(middle, unknown_depth(host));
+    const Vector3<Real> about = notes.guess.norm() > 0 ? notes.guess : frontal_plane(middle, unknown_depth(host));
     const int other = widest(text, about, id);
     if (other < 0) return false;
     const TextKeyframe seen = store_.text_keyframe(other);
@@ -36004,7 +36016,7 @@ class BasicTextFinder {
                double min_share) {
     const TextKeyframe host = store_.text_keyframe(text.host);
     const SE3d T_k_h = keyframe.from(host);
-    Quad<double> quad;
+    Quad<Real> quad;
     if (keyframe.pyramid.levels < 1 ||
         !is_in_view(options_, text, T_k_h, keyframe, options_.seen_area * options_.min_area, min_share, &quad))
       return;
@@ -36022,16 +36034,16 @@ class BasicTextFinder {
 
  private:
   // The key frame that shows most of another side of the text's surroundings; -1 where none does.
-  int widest(const TextObject& text, const Vector3<double>& theta, int newest) const {
+  int widest(const TextObject& text, const Vector3<Real>& theta, int newest) const {
     if (!(theta.norm() > 0)) return -1;
     const TextKeyframe host = store_.text_keyframe(text.host);
-    const Vector3<double> centre =
+    const Vector3<Real> centre =
         host.T_w_c * plane_point(theta, text.patch.camera.unproject(centroid(text.patch.quad)));
     int best = -1;
     double widest = 0;
     const TextObject guess = outline_of(text.patch, theta);
     store_.for_each([&](int id, const TextKeyframe& keyframe) {
-      Quad<double> quad;
+      Quad<Real> quad;
       if (id == text.host || id > newest || keyframe.pyramid.levels < 1 ||
           !is_in_view(options_, guess, keyframe.from(host), keyframe, options_.min_area, 1, &quad))
         return;
@@ -36043,7 +36055,7 @@ class BasicTextFinder {
     return widest >= options_.min_parallax ? best : -1;
   }
 
-  bool confirm(TextObject& text, const Vector3<double>& theta, int newest) {
+  bool confirm(TextObject& text, const Vector3<Real>& theta, int newest) {
     const int other = widest(text, theta, newest);
     TextObject found = text;
     if (other < 0 || !refine_text_plane(options_, keyframes_, {other}, theta, options_.min_zncc, found)) return false;
@@ -36060,24 +36072,24 @@ class BasicTextFinder {
 
   // What a later key frame tells of the points in a text's host: depths that were not known then, and matches.
   void learn(const TextKeyframe& host, const TextKeyframe& keyframe, const std::vector<TextPoint>& points,
-             const TextPatch& patch, TextNotes& notes, std::vector<Vector3<double>>* from,
-             std::vector<Vector3<double>>* to) const {
+             const TextPatch& patch, TextNotes& notes, std::vector<Vector3<Real>>* from,
+             std::vector<Vector3<Real>>* to) const {
     const SE3d T_h_k = host.from(keyframe), T_h_w = host.T_c_w();
-    std::vector<Vector3<double>> inside;
+    std::vector<Vector3<Real>> inside;
     std::vector<TextPoint> in_host;
     for (const TextPoint& point : points) {
       const auto at = std::find_if(notes.rays.begin(), notes.rays.end(),
                                    [&](const auto& ray) { return point.id >= 0 && ray.first == point.id; });
-      Vector3<double> ray;
+      Vector3<Real> ray;
       if (!is_ok(keyframe.camera.unproject(point.px, &ray))) continue;
       if (at != notes.rays.end()) {
         from->push_back(at->second);
         to->push_back(ray);
       }
       if (!point.has_position && !(point.depth > 0)) continue;
-      const Vector3<double> p = point.has_position ? T_h_w * point.p_w : T_h_k * Vector3<double>(point.depth * ray);
+      const Vector3<Real> p = point.has_position ? T_h_w * point.p_w : T_h_k * Vector3<Real>(point.depth * ray);
       if (!(p.z() > 0)) continue;
-      const Vector2<double> px = patch.camera.project(p);
+      const Vector2<Real> px = patch.camera.project(p);
       in_host.push_back(TextPoint::with_depth(px, p.z()));
       if (at != notes.rays.end() || (point.id < 0 && contains(patch.quad, px))) inside.push_back(p);
     }
@@ -36258,15 +36270,15 @@ namespace detail {
 TEXTPLANE_DEFERRED
 inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
                          const TextObject& b) noexcept {
-  Vector3<double> theta = b.theta;
-  Matrix3<double> covariance = b.covariance;
+  Vector3<Real> theta = b.theta;
+  Matrix3<Real> covariance = b.covariance;
   if (!transport_plane(T_a_b, &theta, &covariance)) return false;
-  const Vector3<double> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
+  const Vector3<Real> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
   const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
   const double angle_sigma = std::hypot(normal_sigma(a), normal_sigma(theta, covariance));
   if (!(angle <= radians(options.merge_angle) + options.merge_sigmas * angle_sigma)) return false;
 
-  const Vector3<double> m = a.patch.camera.unproject(centroid(a.patch.quad));
+  const Vector3<Real> m = a.patch.camera.unproject(centroid(a.patch.quad));
   const double rho_a = inverse_depth<double>(a.theta, m), rho_b = inverse_depth<double>(theta, m);
   const double rho_sigma = std::sqrt((std::max)(0.0, m.dot((a.covariance + covariance) * m)));
   return std::abs(rho_a - rho_b) <= options.merge_depth * std::abs(rho_a) + options.merge_sigmas * rho_sigma;
@@ -36275,7 +36287,7 @@ inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const Te
 TEXTPLANE_DEFERRED
 inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
                              const TextObject& b) noexcept {
-  Quad<double> quad;
+  Quad<Real> quad;
   return facing(b, T_a_b) > 0 && project_text(b, T_a_b, a.patch.camera, &quad) &&
          iou(a.patch.quad, quad) >= options.merge_overlap;
 }
@@ -36591,11 +36603,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 // Moves the sides of a quad outwards by `margin` px.
 TEXTPLANE_DEFERRED
-inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
+inline Quad<Real> grown(const Quad<Real>& quad, double margin) noexcept {
   const auto& c = quad.corner;
-  const Vector2<double> right = (c[1] - c[0] + c[2] - c[3]).normalized(),
-                        down = (c[3] - c[0] + c[2] - c[1]).normalized();
-  Quad<double> out;
+  const Vector2<Real> right = (c[1] - c[0] + c[2] - c[3]).normalized(), down = (c[3] - c[0] + c[2] - c[1]).normalized();
+  Quad<Real> out;
   out.corner = {c[0] - margin * (right + down), c[1] + margin * (right - down), c[2] + margin * (right + down),
                 c[3] - margin * (right - down)};
   return out;
@@ -36604,21 +36615,23 @@ inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
 // d px / d m of a camera at the ray m.
 TEXTPLANE_DEFERRED
 inline Matrix2d pixel_jacobian(const CameraView& camera, const Vector2<double>& m) noexcept {
-  Matrix2d D = Matrix2d::Identity();
+  FixedMatrix<Real, 2, 2> D = FixedMatrix<Real, 2, 2>::Identity();
   if (camera.lens) camera.lens->distort(m, &D);
-  return Vector2<double>(camera.pinhole.fx, camera.pinhole.fy).asDiagonal() * D;
+  return Vector2<Real>(camera.pinhole.fx, camera.pinhole.fy).asDiagonal() * D;
 }
 
 // d target px / d host px of the plane, at a ray of the host.
 TEXTPLANE_DEFERRED
 inline bool affine_at(const CameraView& host, const CameraView& target, const Vector3<double>& theta, const SE3d& T_t_h,
                       const Vector3<double>& ray, Matrix2d* A) noexcept {
-  const Matrix3<double> H = plane_homography(theta, T_t_h);
-  const Vector3<double> q = H * ray;
+  const Matrix3<Real> H = plane_homography(theta, T_t_h);
+  const Vector3<Real> q = H * ray;
   if (!(q.z() > 1e-6) || !host.in_domain(ray) || !target.in_domain(q)) return false;
-  const Vector2<double> m = q.hnormalized();
-  const Matrix2d by_ray = (H.topLeftCorner<2, 2>() - m * H.bottomLeftCorner<1, 2>()) / q.z();
-  *A = pixel_jacobian(target, m) * by_ray * pixel_jacobian(host, ray.head<2>()).inverse();
+  const Vector2<Real> m = q.hnormalized();
+  const FixedMatrix<Real, 2, 2> by_ray =
+      (H.template topLeftCorner<2, 2>() - m * H.template bottomLeftCorner<1, 2>()) / q.z();
+  const FixedMatrix<Real, 2, 2> by_host_px = pixel_jacobian(host, Vector2<double>(ray[0], ray[1]));
+  *A = pixel_jacobian(target, m) * by_ray * by_host_px.inverse();
   return true;
 }
 }  // namespace detail
@@ -36661,8 +36674,8 @@ class BasicTextRefiner {
         std::remove_if(estimates.begin(), estimates.end(), [&](const Estimate& e) { return 1 - e.zncc > limit; }),
         estimates.end());
     const double n = static_cast<double>(estimates.size());
-    Vector3<double> mean = Vector3<double>::Zero();
-    Matrix3<double> covariance = Matrix3<double>::Zero();
+    Vector3<Real> mean = Vector3<Real>::Zero();
+    Matrix3<Real> covariance = Matrix3<Real>::Zero();
     for (const Estimate& e : estimates) mean += e.theta / n;
     for (const Estimate& e : estimates)
       covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
@@ -36682,12 +36695,12 @@ class BasicTextRefiner {
   struct View {
     int id = -1;
     TextKeyframe keyframe;
-    Quad<double> quad;
+    Quad<Real> quad;
     double area = 0;
   };
   struct Estimate {
-    Vector3<double> theta;  // in the text's host
-    Matrix3<double> covariance;
+    Vector3<Real> theta;  // in the text's host
+    Matrix3<Real> covariance;
     double zncc = 0, variance_factor = 1;
     Bend bend;
   };
@@ -36711,12 +36724,12 @@ class BasicTextRefiner {
     return views;
   }
 
-  bool add_target(const TextPatch& patch, const Vector3<double>& theta, const View& host, const View& view) {
+  bool add_target(const TextPatch& patch, const Vector3<Real>& theta, const View& host, const View& view) {
     constexpr double kSampling = 1.0 / 6.0;  // px^2: mean variance of bilinear interpolation
     PlaneTarget target;
     target.T_t_h = view.keyframe.from(host.keyframe);
     target.camera = &view.keyframe.camera;
-    Matrix2d A;
+    FixedMatrix<Real, 2, 2> A;
     BlurMatch match;
     // The spread is for what is not known: the camera's blur, and not that of smoothing.
     const double camera_blur = options_.blur_variance, host_smoothing = host.keyframe.smoothing,
@@ -36733,7 +36746,7 @@ class BasicTextRefiner {
     if (filtered_.size() <= slot) filtered_.emplace_back();
     if (filtered_[slot].width() != image.width() || filtered_[slot].height() != image.height())
       filtered_[slot] = Image<std::uint8_t>(image.width(), image.height());
-    const Bounds<double> box = bounds(view.quad);
+    const Bounds<Real> box = bounds(view.quad);
     const int reach = options_.refine_reach;
     filter_(image, BlurKernel(match.target), static_cast<int>(box.min.x()) - reach,
             static_cast<int>(box.min.y()) - reach, static_cast<int>(box.max.x()) + reach,
@@ -36747,7 +36760,7 @@ class BasicTextRefiner {
   }
 
   // Views that are blurred by motion or half hidden are less similar to the host than the others.
-  bool drop_dissimilar(const Vector3<double>& theta) {
+  bool drop_dissimilar(const Vector3<Real>& theta) {
     std::vector<double> dissimilarity;
     for (const PlaneTarget& target : targets_) {
       const auto input = photometric_input(*target.patch, 0, target.image, *target.camera);
@@ -36764,7 +36777,7 @@ class BasicTextRefiner {
   }
 
   // How far the views disagree: by errors of their poses, by highlights, by neighbouring pixels that err together.
-  Matrix3<double> disagreement(const Vector3<double>& theta) {
+  Matrix3<Real> disagreement(const Vector3<Real>& theta) {
     std::vector<GroupEquations<3>> views;
     for (const PlaneTarget& target : targets_) {
       const auto input = photometric_input(*target.patch, 0, target.image, *target.camera);
@@ -36776,7 +36789,7 @@ class BasicTextRefiner {
 
   bool estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out) {
     const SE3d T_h_o = host.keyframe.from(keyframes_(text.host));
-    const Vector3<double> theta = reanchor_plane<double>(text.theta, T_h_o);
+    const Vector3<Real> theta = reanchor_plane<double>(text.theta, T_h_o);
     SelectOptions select;
     select.min_pixels = options_.min_pixels;
     select.max_pixels = options_.refine_pixels;
@@ -36804,7 +36817,7 @@ class BasicTextRefiner {
     photometric_.reserve(patch.max_pixels());
     PlaneOptions plane;
     plane.coarsest_level = 0;
-    const auto fit_to_targets = [&](const Vector3<double>& start) {
+    const auto fit_to_targets = [&](const Vector3<Real>& start) {
       return refine_plane(patch, start, targets_.data(), static_cast<int>(targets_.size()), host.keyframe.camera, plane,
                           workspace_);
     };
@@ -36812,13 +36825,13 @@ class BasicTextRefiner {
     if (!is_ok(fit.status)) return false;
     if (drop_dissimilar(fit.theta)) fit = fit_to_targets(fit.theta);
     if (!is_ok(fit.status) || fit.zncc < median(std::move(limits))) return false;
-    Matrix3<double> J;
+    Matrix3<Real> J;
     out->theta = reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
     if (!bend_of(patch, fit.theta, targets_, patch.camera, options_.refine_bend_sigmas, photometric_, &out->bend))
       out->bend = {};
     // The disagreement shows noise, too; but few views may agree by chance.
-    const Matrix3<double> scatter = disagreement(fit.theta);
-    const Matrix3<double> known = scatter.trace() > fit.covariance.trace() ? scatter : fit.covariance;
+    const Matrix3<Real> scatter = disagreement(fit.theta);
+    const Matrix3<Real> known = scatter.trace() > fit.covariance.trace() ? scatter : fit.covariance;
     out->covariance = J * (known + out->bend.doubt) * J.transpose();
     out->variance_factor = fit.covariance.trace() > 0 ? known.trace() / fit.covariance.trace() : 1;
     out->zncc = fit.zncc;
@@ -36828,7 +36841,7 @@ class BasicTextRefiner {
   // Not planar: a bend, the mean over the hosts, explains much of why the views disagree.
   bool is_bent(const std::vector<Estimate>& estimates) const {
     const double n = static_cast<double>(estimates.size());
-    Vector2<double> bend = Vector2<double>::Zero();
+    Vector2<Real> bend = Vector2<Real>::Zero();
     double explained = 0;
     for (const Estimate& e : estimates) {
       bend += e.bend.value / n;
@@ -44654,8 +44667,8 @@ class BasicTextPose {
                      double least) {
     errors_.clear();
     for (const PosePointTerm& point : points) {
-      Vector3<double> p;
-      Vector2<double> e;
+      Vector3<Real> p;
+      Vector2<Real> e;
       const SE3d row = detail::row_increment(point, camera);
       if (detail::reproject(point, T_c_w, camera, camera.rows ? &row : nullptr, &p, &e))
         errors_.push_back(e.norm() / point.sigma);
@@ -44692,9 +44705,9 @@ class BasicTextPose {
       }
       detail::mirror(system);
       for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, system);
-      const Ldlt<double, 6> factors(system.H, 1e-12);
+      const Ldlt<Real, 6> factors(system.H, 1e-12);
       if (!factors.ok()) return false;
-      const Vector6<double> step = -factors.solve(system.b);
+      const Vector6<Real> step = -factors.solve(system.b);
       if (!all_finite(step)) return false;
       *T_c_w = renormalised(se3_exp<double>(step) * *T_c_w);
       for (std::size_t i = 0; i < texts.size(); ++i)
@@ -44709,7 +44722,7 @@ class BasicTextPose {
   }
 
   /// Of the last solve: inverse of the covariance of the pose, xi left.
-  const FixedMatrix<double, 6, 6>& information() const noexcept { return information_; }
+  const FixedMatrix<Real, 6, 6>& information() const noexcept { return information_; }
 
   /// Weighs the texts anew by how much each disagrees with all the rest after the last solve, r = sqrt(chi2 / degrees
   /// of freedom): trust min(1, huber / r), and the worst one with r > most leaves. True where that asks for another
@@ -44735,11 +44748,11 @@ class BasicTextPose {
  private:
   struct Eliminated {
     bool in = false;
-    FixedMatrix<double, 6, 6> H;  // of the pose, after the plane is eliminated; weight included, trust not
-    Vector6<double> b;
-    FixedMatrix<double, 6, 3> B;
-    Matrix3<double> C_inverse;
-    Vector3<double> h;
+    FixedMatrix<Real, 6, 6> H;  // of the pose, after the plane is eliminated; weight included, trust not
+    Vector6<Real> b;
+    FixedMatrix<Real, 6, 3> B;
+    Matrix3<Real> C_inverse;
+    Vector3<Real> h;
   };
 
   static constexpr double kStep = 0.01;   // standard deviations
@@ -44749,16 +44762,16 @@ class BasicTextPose {
   // r of weigh(); 0 where the rest does not determine the pose.
   double disagreement(const Eliminated& text, double trust) const noexcept {
     if (!text.in) return 0;
-    const FixedMatrix<double, 6, 6> rest = information_ - trust * text.H;
-    const Ldlt<double, 6> others(rest, 1e-12);
+    const FixedMatrix<Real, 6, 6> rest = information_ - trust * text.H;
+    const Ldlt<Real, 6> others(rest, 1e-12);
     if (!others.ok()) return 0;
-    const Ldlt<double, 6> own(FixedMatrix<double, 6, 6>(text.H + kWeak * rest), 1e-14);
+    const Ldlt<Real, 6> own(FixedMatrix<Real, 6, 6>(text.H + kWeak * rest), 1e-14);
     if (!own.ok()) return 0;
-    const FixedMatrix<double, 6, 6> own_covariance = own.inverse(), others_covariance = others.inverse();
-    const Ldlt<double, 6> both(FixedMatrix<double, 6, 6>(own_covariance + others_covariance), 1e-14);
+    const FixedMatrix<Real, 6, 6> own_covariance = own.inverse(), others_covariance = others.inverse();
+    const Ldlt<Real, 6> both(FixedMatrix<Real, 6, 6>(own_covariance + others_covariance), 1e-14);
     if (!both.ok()) return 0;
     // All terms sum up to b = 0: that of the rest is -trust b_i.
-    const Vector6<double> apart = own_covariance * text.b + trust * (others_covariance * text.b);
+    const Vector6<Real> apart = own_covariance * text.b + trust * (others_covariance * text.b);
     const double freedom = 6 - kWeak * (rest * own_covariance).trace();
     const double chi2 = apart.dot(both.solve(apart));
     return chi2 > 0 && freedom > 0.5 ? std::sqrt(chi2 / freedom) : 0;
@@ -44774,19 +44787,19 @@ class BasicTextPose {
     const auto n =
         linearise<Parameters::pose_plane>(ResidualRequest{input, theta_[i], T_c_w * text.T_w_h}, photometric_);
     text.zncc = is_ok(n.status) ? n.zncc : -1;
-    const Ldlt<double, 3> prior(object.covariance, 1e-12);
+    const Ldlt<Real, 3> prior(object.covariance, 1e-12);
     if (!is_ok(n.status) || !prior.ok()) return;
     const double weight = text_weight(Weighting::variance, 1, text_sigma(object, n.zncc), n.visible);
-    const Matrix3<double> known = prior.inverse();
-    const FixedMatrix<double, 6, 6> A = weight * n.H.template topLeftCorner<6, 6>();
+    const Matrix3<Real> known = prior.inverse();
+    const FixedMatrix<Real, 6, 6> A = weight * n.H.template topLeftCorner<6, 6>();
     out.B = weight * n.H.template topRightCorner<6, 3>();
-    const Matrix3<double> C = Matrix3<double>(weight * n.H.template bottomRightCorner<3, 3>()) + known;
-    const Ldlt<double, 3> plane(C, 1e-14);
+    const Matrix3<Real> C = Matrix3<Real>(weight * n.H.template bottomRightCorner<3, 3>()) + known;
+    const Ldlt<Real, 3> plane(C, 1e-14);
     if (!plane.ok()) return;
     out.C_inverse = plane.inverse();
     out.h = weight * n.b.template tail<3>() + known * (theta_[i] - object.theta);
     out.in = true;
-    const FixedMatrix<double, 6, 3> K = out.B * out.C_inverse;
+    const FixedMatrix<Real, 6, 3> K = out.B * out.C_inverse;
     out.H = A - K * out.B.transpose();
     out.b = weight * n.b.template head<6>() - K * out.h;
     system.H += text.trust * out.H;
@@ -44795,10 +44808,10 @@ class BasicTextPose {
   }
 
   std::vector<double> errors_;
-  std::vector<Vector3<double>> theta_;
+  std::vector<Vector3<Real>> theta_;
   std::vector<Eliminated> eliminated_;
   PhotometricWorkspace photometric_;
-  FixedMatrix<double, 6, 6> information_ = FixedMatrix<double, 6, 6>::Zero();
+  FixedMatrix<Real, 6, 6> information_ = FixedMatrix<Real, 6, 6>::Zero();
   Robust robust_ = PoseOptions{}.point_robust;
 };
 using TextPose = BasicTextPose<>;  ///< It is compiled only where it is used.
@@ -45263,7 +45276,7 @@ void add_text_terms(const BasicTextMap<>& map, const TextObject& text, Moves mov
   prior.text = &text;
   const Ldlt<double, 3> covariance(text.covariance, 1e-12);
   const double moving_share = static_cast<double>(moving.size()) / static_cast<double>(text.views.size());
-  if (with_prior && covariance.ok()) prior.information = (1 - moving_share) * covariance.inverse();
+  if (with_prior && covariance.ok()) prior.information = scaled(1 - moving_share, covariance.inverse());
   out->priors.push_back(prior);
 }
 

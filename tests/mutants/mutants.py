@@ -145,7 +145,7 @@ MUTANTS = [
     ("landmarks/text_plane.hpp", "if (errors[i] > limit) continue;", "if (errors[i] > 1e300) continue;", ["landmarks/text_plane_test"]),
     ("landmarks/text_proposal.hpp", "  *theta = guess;\n  for (int round", "  for (int round", ["landmarks/text_limits_test"]),
     ("landmarks/text_proposal.hpp", "static_cast<int>(close.size()) < least ? all : close", "static_cast<int>(close.size()) < 0 ? all : close", ["landmarks/text_plane_test"]),
-    ("landmarks/text_proposal.hpp", "return centre / (depth * centre.squaredNorm());", "return centre / (depth * centre.norm());", ["landmarks/text_plane_test"]),
+    ("landmarks/text_proposal.hpp", "const double divisor = depth * centre.squaredNorm();", "const double divisor = depth * centre.norm();", ["landmarks/text_plane_test"]),
     ("landmarks/text_surface.hpp", "const double weight = (1 - squared) * (1 - squared);", "const double weight = 1;", ["landmarks/surface_fit_test"]),
     ("landmarks/text_surface.hpp", "sigma / distance * (turn - turn.dot(point) / distance * n)", "sigma / distance * turn", ["landmarks/surface_fit_test"]),
     ("landmarks/text_refiner.hpp", "covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;", "covariance += e.covariance / n;", ["landmarks/text_refiner_test", "landmarks/text_order_test"]),

@@ -27,8 +27,10 @@ struct TextImage : ImageNoise {
 struct TextKeyframe : TextImage {
   SE3d T_w_c;  ///< Camera to world.
 
+  TEXTPLANE_DEFERRED
   SE3d T_c_w() const noexcept { return T_w_c.inverse(); }  ///< World to camera.
   /// Motion of points of key frame `host` to this one.
+  TEXTPLANE_DEFERRED
   SE3d from(const TextKeyframe& host) const noexcept { return T_c_w() * host.T_w_c; }
 };
 

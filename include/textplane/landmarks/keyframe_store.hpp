@@ -13,7 +13,8 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// Key frames in the order of their ids. An image is a view of the host's, or the store's own.
-class KeyframeStore {
+TEXTPLANE_DEFERRED
+class BasicKeyframeStore {
  public:
   /// False, and nothing changed, for an id that is in use. `own`: what holds the image of `keyframe`, or null where the
   /// host does.
@@ -78,6 +79,7 @@ class KeyframeStore {
   };
   std::map<int, Entry> all_;
 };
+using KeyframeStore = BasicKeyframeStore<>;  ///< It is compiled only where it is used.
 
 TEXTPLANE_END_NAMESPACE
 

@@ -19,7 +19,8 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// The spheres of the mapped texts of a TextMap, and the poses of their hosts.
-class TextBounds {
+TEXTPLANE_DEFERRED
+class BasicTextBounds {
  public:
   /// Of the texts from `first` on anew, all by default: after a change of theirs or of their hosts' poses.
   void update(const std::vector<TextObject>& texts, const KeyframeStore& keyframes, std::size_t first = 0) {
@@ -58,7 +59,7 @@ class TextBounds {
   static constexpr std::size_t kBlock = 16;
 
   struct Sphere {
-    Vector3<double> centre;  // in the world
+    Vector3<Real> centre;  // in the world
     double radius = 0;
   };
   struct Text {
@@ -67,14 +68,14 @@ class TextBounds {
   };
 
   static Sphere sphere_about(const TextObject& text, const SE3d& T_w_h) {
-    std::array<Vector3<double>, 4> corners;
+    std::array<Vector3<Real>, 4> corners;
     // A text without a place in its host counts as everywhere.
     if (!is_ok(quad_points(text.patch.quad, text.patch.camera, text.theta, &corners)))
-      return {Vector3<double>::Zero(), std::numeric_limits<double>::infinity()};
-    Vector3<double> centre = Vector3<double>::Zero();
-    for (const Vector3<double>& corner : corners) centre += 0.25 * corner;
+      return {Vector3<Real>::Zero(), std::numeric_limits<double>::infinity()};
+    Vector3<Real> centre = Vector3<Real>::Zero();
+    for (const Vector3<Real>& corner : corners) centre += 0.25 * corner;
     double radius = 0;
-    for (const Vector3<double>& corner : corners) radius = (std::max)(radius, (corner - centre).norm());
+    for (const Vector3<Real>& corner : corners) radius = (std::max)(radius, (corner - centre).norm());
     return {T_w_h * centre, radius};
   }
 
@@ -94,24 +95,24 @@ class TextBounds {
   // and a tenth wider), and the half space before the camera.
   class View {
    public:
-    View(const TextImage& image, const SE3d& T_c_w) noexcept {
-      const Pinhole<double>& camera = image.camera.pinhole;
+    View(const TextImage& image, const SE3<Real>& T_c_w) noexcept {
+      const Pinhole<Real>& camera = image.camera.pinhole;
       double left = camera.cx + 1, right = image.width() - camera.cx, top = camera.cy + 1,
              bottom = image.height() - camera.cy;
       sides_ = !image.camera.lens || widen(image, &left, &right, &top, &bottom) ? kSides : 1;
-      const Vector3<double> inward[] = {
+      const Vector3<Real> inward[] = {
           {0, 0, 1}, {camera.fx, 0, left}, {-camera.fx, 0, right}, {0, camera.fy, top}, {0, -camera.fy, bottom}};
       for (std::size_t k = 0; k < sides_; ++k) {
-        const Vector3<double> n = inward[k].normalized();
+        const Vector3<Real> n = inward[k].normalized();
         normal_[k] = T_c_w.R.transpose() * n;
         offset_[k] = n.dot(T_c_w.t);
       }
     }
 
     bool misses(const Sphere& sphere) const noexcept {
-      const Vector3<double>& c = sphere.centre;
+      const Vector3<Real>& c = sphere.centre;
       for (std::size_t k = 0; k < sides_; ++k) {
-        const Vector3<double>& n = normal_[k];
+        const Vector3<Real>& n = normal_[k];
         if (n[0] * c[0] + n[1] * c[1] + n[2] * c[2] + offset_[k] < -sphere.radius) return true;
       }
       return false;
@@ -121,12 +122,12 @@ class TextBounds {
     // How far the undistorted image reaches from the principal point, px. False where a ray of the border has no place
     // in it.
     static bool widen(const TextImage& image, double* left, double* right, double* top, double* bottom) noexcept {
-      const Pinhole<double>& camera = image.camera.pinhole;
+      const Pinhole<Real>& camera = image.camera.pinhole;
       *left = *right = *top = *bottom = 0;
       for (int k = 0; k < 9; ++k) {
         if (k == 4) continue;
-        Vector3<double> ray;
-        const Vector2<double> px(0.5 * (k % 3) * (image.width() - 1), 0.5 * (k / 3) * (image.height() - 1));
+        Vector3<Real> ray;
+        const Vector2<Real> px(0.5 * (k % 3) * (image.width() - 1), 0.5 * (k / 3) * (image.height() - 1));
         if (!is_ok(image.camera.unproject(px, &ray))) return false;
         constexpr double kWider = 1.1;
         *left = (std::max)(*left, -kWider * camera.fx * ray.x());
@@ -139,13 +140,14 @@ class TextBounds {
 
     static constexpr std::size_t kSides = 5;
     std::size_t sides_ = kSides;
-    Vector3<double> normal_[kSides];
+    Vector3<Real> normal_[kSides];
     double offset_[kSides];
   };
 
   std::vector<Sphere> spheres_, blocks_;  // a block is of kBlock spheres
   std::vector<Text> texts_;
 };
+using TextBounds = BasicTextBounds<>;  ///< It is compiled only where it is used.
 
 TEXTPLANE_END_NAMESPACE
 

@@ -42,17 +42,17 @@ class BasicTextFinder {
   bool find(TextObject& text, TextNotes& notes, int id, const TextKeyframe& keyframe,
             const std::vector<TextPoint>& points) {
     const TextKeyframe host = store_.text_keyframe(text.host);
-    std::vector<Vector3<double>> from, to;
+    std::vector<Vector3<Real>> from, to;
     if (id != text.host) learn(host, keyframe, points, text.patch, notes, &from, &to);
-    Vector3<double> theta;
+    Vector3<Real> theta;
     if (plane_from_inside_points(options_, notes.inside, text.patch, &theta) && confirm(text, theta, id)) return true;
-    const Vector3<double> middle = text.patch.camera.unproject(centroid(text.patch.quad));
+    const Vector3<Real> middle = text.patch.camera.unproject(centroid(text.patch.quad));
     if (id != text.host &&
         plane_from_text_matches(options_, from, to, keyframe.from(host), keyframe.camera.pinhole.fx, middle, &theta) &&
         confirm(text, theta, id))
       return true;
     // By its pixels alone.
-    const Vector3<double> about = notes.guess.norm() > 0 ? notes.guess : frontal_plane(middle, unknown_depth(host));
+    const Vector3<Real> about = notes.guess.norm() > 0 ? notes.guess : frontal_plane(middle, unknown_depth(host));
     const int other = widest(text, about, id);
     if (other < 0) return false;
     const TextKeyframe seen = store_.text_keyframe(other);
@@ -68,7 +68,7 @@ class BasicTextFinder {
                double min_share) {
     const TextKeyframe host = store_.text_keyframe(text.host);
     const SE3d T_k_h = keyframe.from(host);
-    Quad<double> quad;
+    Quad<Real> quad;
     if (keyframe.pyramid.levels < 1 ||
         !is_in_view(options_, text, T_k_h, keyframe, options_.seen_area * options_.min_area, min_share, &quad))
       return;
@@ -86,16 +86,16 @@ class BasicTextFinder {
 
  private:
   // The key frame that shows most of another side of the text's surroundings; -1 where none does.
-  int widest(const TextObject& text, const Vector3<double>& theta, int newest) const {
+  int widest(const TextObject& text, const Vector3<Real>& theta, int newest) const {
     if (!(theta.norm() > 0)) return -1;
     const TextKeyframe host = store_.text_keyframe(text.host);
-    const Vector3<double> centre =
+    const Vector3<Real> centre =
         host.T_w_c * plane_point(theta, text.patch.camera.unproject(centroid(text.patch.quad)));
     int best = -1;
     double widest = 0;
     const TextObject guess = outline_of(text.patch, theta);
     store_.for_each([&](int id, const TextKeyframe& keyframe) {
-      Quad<double> quad;
+      Quad<Real> quad;
       if (id == text.host || id > newest || keyframe.pyramid.levels < 1 ||
           !is_in_view(options_, guess, keyframe.from(host), keyframe, options_.min_area, 1, &quad))
         return;
@@ -107,7 +107,7 @@ class BasicTextFinder {
     return widest >= options_.min_parallax ? best : -1;
   }
 
-  bool confirm(TextObject& text, const Vector3<double>& theta, int newest) {
+  bool confirm(TextObject& text, const Vector3<Real>& theta, int newest) {
     const int other = widest(text, theta, newest);
     TextObject found = text;
     if (other < 0 || !refine_text_plane(options_, keyframes_, {other}, theta, options_.min_zncc, found)) return false;
@@ -124,24 +124,24 @@ class BasicTextFinder {
 
   // What a later key frame tells of the points in a text's host: depths that were not known then, and matches.
   void learn(const TextKeyframe& host, const TextKeyframe& keyframe, const std::vector<TextPoint>& points,
-             const TextPatch& patch, TextNotes& notes, std::vector<Vector3<double>>* from,
-             std::vector<Vector3<double>>* to) const {
+             const TextPatch& patch, TextNotes& notes, std::vector<Vector3<Real>>* from,
+             std::vector<Vector3<Real>>* to) const {
     const SE3d T_h_k = host.from(keyframe), T_h_w = host.T_c_w();
-    std::vector<Vector3<double>> inside;
+    std::vector<Vector3<Real>> inside;
     std::vector<TextPoint> in_host;
     for (const TextPoint& point : points) {
       const auto at = std::find_if(notes.rays.begin(), notes.rays.end(),
                                    [&](const auto& ray) { return point.id >= 0 && ray.first == point.id; });
-      Vector3<double> ray;
+      Vector3<Real> ray;
       if (!is_ok(keyframe.camera.unproject(point.px, &ray))) continue;
       if (at != notes.rays.end()) {
         from->push_back(at->second);
         to->push_back(ray);
       }
       if (!point.has_position && !(point.depth > 0)) continue;
-      const Vector3<double> p = point.has_position ? T_h_w * point.p_w : T_h_k * Vector3<double>(point.depth * ray);
+      const Vector3<Real> p = point.has_position ? T_h_w * point.p_w : T_h_k * Vector3<Real>(point.depth * ray);
       if (!(p.z() > 0)) continue;
-      const Vector2<double> px = patch.camera.project(p);
+      const Vector2<Real> px = patch.camera.project(p);
       in_host.push_back(TextPoint::with_depth(px, p.z()));
       if (at != notes.rays.end() || (point.id < 0 && contains(patch.quad, px))) inside.push_back(p);
     }

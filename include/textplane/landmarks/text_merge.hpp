@@ -22,15 +22,15 @@ namespace detail {
 TEXTPLANE_DEFERRED
 inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
                          const TextObject& b) noexcept {
-  Vector3<double> theta = b.theta;
-  Matrix3<double> covariance = b.covariance;
+  Vector3<Real> theta = b.theta;
+  Matrix3<Real> covariance = b.covariance;
   if (!transport_plane(T_a_b, &theta, &covariance)) return false;
-  const Vector3<double> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
+  const Vector3<Real> normal_a = plane_normal(a.theta), normal_b = plane_normal(theta);
   const double angle = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
   const double angle_sigma = std::hypot(normal_sigma(a), normal_sigma(theta, covariance));
   if (!(angle <= radians(options.merge_angle) + options.merge_sigmas * angle_sigma)) return false;
 
-  const Vector3<double> m = a.patch.camera.unproject(centroid(a.patch.quad));
+  const Vector3<Real> m = a.patch.camera.unproject(centroid(a.patch.quad));
   const double rho_a = inverse_depth<double>(a.theta, m), rho_b = inverse_depth<double>(theta, m);
   const double rho_sigma = std::sqrt((std::max)(0.0, m.dot((a.covariance + covariance) * m)));
   return std::abs(rho_a - rho_b) <= options.merge_depth * std::abs(rho_a) + options.merge_sigmas * rho_sigma;
@@ -39,7 +39,7 @@ inline bool planes_agree(const TextOptions& options, const SE3d& T_a_b, const Te
 TEXTPLANE_DEFERRED
 inline bool overlaps_in_host(const TextOptions& options, const SE3d& T_a_b, const TextObject& a,
                              const TextObject& b) noexcept {
-  Quad<double> quad;
+  Quad<Real> quad;
   return facing(b, T_a_b) > 0 && project_text(b, T_a_b, a.patch.camera, &quad) &&
          iou(a.patch.quad, quad) >= options.merge_overlap;
 }

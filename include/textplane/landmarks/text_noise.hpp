@@ -56,14 +56,14 @@ double text_zncc_limit(const TextOptions& options, double limit, const TextPatch
     return is_ok(stats.status) ? stats.s / std::sqrt(stats.n) : 0;
   };
   const PatchLevel& pixels = patch.levels[static_cast<std::size_t>(level)];
-  const Matrix3<double> H = plane_homography(theta, T_t_h);
-  const Pinhole<double> from = patch.camera.at_level(level);
+  const Matrix3<Real> H = plane_homography(theta, T_t_h);
+  const Pinhole<Real> from = patch.camera.at_level(level);
   const CameraView to = target.camera.at_level(level);
   std::vector<float> seen;
   for (std::size_t i = 0; i < pixels.x.size(); ++i) {
-    const Vector3<double> q = H * from.unproject({static_cast<double>(pixels.x[i]), static_cast<double>(pixels.y[i])});
+    const Vector3<Real> q = H * from.unproject({static_cast<double>(pixels.x[i]), static_cast<double>(pixels.y[i])});
     if (!(q.z() > 1e-6) || !to.in_domain(q)) continue;
-    const Vector2<double> px = to.pixel({q.x() / q.z(), q.y() / q.z()});
+    const Vector2<Real> px = to.pixel({q.x() / q.z(), q.y() / q.z()});
     float value = 0;
     if (sample_bilinear(target.pyramid.level[static_cast<std::size_t>(level)], static_cast<float>(px.x()),
                         static_cast<float>(px.y()), &value))

@@ -31,13 +31,13 @@ TextPatch make_text_patch(const TextOptions& options, const TextImage& image, co
 /// with outliers removed by transfer error. False with fewer than min_corners or too little parallax (min_parallax), or
 /// where the plane is not in front of the host at `centre` (m~); *theta may then hold anything.
 TEXTPLANE_DEFERRED
-bool plane_from_text_matches(const TextOptions& options, std::vector<Vector3<double>> host,
-                             std::vector<Vector3<double>> target, const SE3d& T_t_h, double fx,
+bool plane_from_text_matches(const TextOptions& options, std::vector<Vector3<Real>> host,
+                             std::vector<Vector3<Real>> target, const SE3d& T_t_h, double fx,
                              const Vector3<double>& centre, Vector3<double>* theta) {
   const auto too_few = [&](const auto& rays) { return static_cast<int>(rays.size()) < options.min_corners; };
   std::vector<double> parallax;
   for (std::size_t i = 0; i < host.size(); ++i) {
-    const Vector3<double> turned = T_t_h.R * host[i];
+    const Vector3<Real> turned = T_t_h.R * host[i];
     parallax.push_back(detail::degrees_between(turned, target[i]));
   }
   *theta = Vector3<double>::Zero();
@@ -46,10 +46,10 @@ bool plane_from_text_matches(const TextOptions& options, std::vector<Vector3<dou
     const auto fit = plane_from_matches(host.data(), target.data(), static_cast<int>(host.size()), T_t_h);
     if (!is_ok(fit.status)) return false;
     *theta = fit.value;
-    const Matrix3<double> H = plane_homography(*theta, T_t_h);
+    const Matrix3<Real> H = plane_homography(*theta, T_t_h);
     std::vector<double> errors;
     for (std::size_t i = 0; i < host.size(); ++i) {
-      const Vector3<double> q = H * host[i];
+      const Vector3<Real> q = H * host[i];
       const bool ahead = q.z() > 1e-6;
       errors.push_back(ahead ? fx * (q.hnormalized() - target[i].hnormalized()).norm() : 1e9);
     }
@@ -81,7 +81,7 @@ bool refine_text_plane(const TextOptions& options, const KeyframeLookup& keyfram
   for (const int id : ids) {
     const TextKeyframe keyframe = keyframes(id);
     const SE3d T_t_h = keyframe.from(host);
-    Quad<double> quad;
+    Quad<Real> quad;
     const int shift = project_text(guess, T_t_h, keyframe.camera, &quad) ? scale_shift(text, quad) : 0;
     CameraView& camera = cameras[targets.size()];
     camera = keyframe.camera;
@@ -113,8 +113,8 @@ inline PhotometricCost compare_text(const TextObject& text, int level, const Tex
 /// Moves a plane with its covariance to another frame. False, and both as they were, where that sees its back.
 TEXTPLANE_DEFERRED
 inline bool transport_plane(const SE3d& T_to_from, Vector3<double>* theta, Matrix3<double>* covariance) noexcept {
-  Vector3<double> moved;
-  Matrix3<double> J;
+  Vector3<Real> moved;
+  Matrix3<Real> J;
   if (!is_ok(reanchor_plane<double>(*theta, T_to_from, &moved, &J))) return false;
   *theta = moved;
   *covariance = J * *covariance * J.transpose();

@@ -59,8 +59,8 @@ class BasicTextPose {
                      double least) {
     errors_.clear();
     for (const PosePointTerm& point : points) {
-      Vector3<double> p;
-      Vector2<double> e;
+      Vector3<Real> p;
+      Vector2<Real> e;
       const SE3d row = detail::row_increment(point, camera);
       if (detail::reproject(point, T_c_w, camera, camera.rows ? &row : nullptr, &p, &e))
         errors_.push_back(e.norm() / point.sigma);
@@ -97,9 +97,9 @@ class BasicTextPose {
       }
       detail::mirror(system);
       for (std::size_t i = 0; i < texts.size(); ++i) add_text(texts[i], i, image, *T_c_w, system);
-      const Ldlt<double, 6> factors(system.H, 1e-12);
+      const Ldlt<Real, 6> factors(system.H, 1e-12);
       if (!factors.ok()) return false;
-      const Vector6<double> step = -factors.solve(system.b);
+      const Vector6<Real> step = -factors.solve(system.b);
       if (!all_finite(step)) return false;
       *T_c_w = renormalised(se3_exp<double>(step) * *T_c_w);
       for (std::size_t i = 0; i < texts.size(); ++i)
@@ -114,7 +114,7 @@ class BasicTextPose {
   }
 
   /// Of the last solve: inverse of the covariance of the pose, xi left.
-  const FixedMatrix<double, 6, 6>& information() const noexcept { return information_; }
+  const FixedMatrix<Real, 6, 6>& information() const noexcept { return information_; }
 
   /// Weighs the texts anew by how much each disagrees with all the rest after the last solve, r = sqrt(chi2 / degrees
   /// of freedom): trust min(1, huber / r), and the worst one with r > most leaves. True where that asks for another
@@ -140,11 +140,11 @@ class BasicTextPose {
  private:
   struct Eliminated {
     bool in = false;
-    FixedMatrix<double, 6, 6> H;  // of the pose, after the plane is eliminated; weight included, trust not
-    Vector6<double> b;
-    FixedMatrix<double, 6, 3> B;
-    Matrix3<double> C_inverse;
-    Vector3<double> h;
+    FixedMatrix<Real, 6, 6> H;  // of the pose, after the plane is eliminated; weight included, trust not
+    Vector6<Real> b;
+    FixedMatrix<Real, 6, 3> B;
+    Matrix3<Real> C_inverse;
+    Vector3<Real> h;
   };
 
   static constexpr double kStep = 0.01;   // standard deviations
@@ -154,16 +154,16 @@ class BasicTextPose {
   // r of weigh(); 0 where the rest does not determine the pose.
   double disagreement(const Eliminated& text, double trust) const noexcept {
     if (!text.in) return 0;
-    const FixedMatrix<double, 6, 6> rest = information_ - trust * text.H;
-    const Ldlt<double, 6> others(rest, 1e-12);
+    const FixedMatrix<Real, 6, 6> rest = information_ - trust * text.H;
+    const Ldlt<Real, 6> others(rest, 1e-12);
     if (!others.ok()) return 0;
-    const Ldlt<double, 6> own(FixedMatrix<double, 6, 6>(text.H + kWeak * rest), 1e-14);
+    const Ldlt<Real, 6> own(FixedMatrix<Real, 6, 6>(text.H + kWeak * rest), 1e-14);
     if (!own.ok()) return 0;
-    const FixedMatrix<double, 6, 6> own_covariance = own.inverse(), others_covariance = others.inverse();
-    const Ldlt<double, 6> both(FixedMatrix<double, 6, 6>(own_covariance + others_covariance), 1e-14);
+    const FixedMatrix<Real, 6, 6> own_covariance = own.inverse(), others_covariance = others.inverse();
+    const Ldlt<Real, 6> both(FixedMatrix<Real, 6, 6>(own_covariance + others_covariance), 1e-14);
     if (!both.ok()) return 0;
     // All terms sum up to b = 0: that of the rest is -trust b_i.
-    const Vector6<double> apart = own_covariance * text.b + trust * (others_covariance * text.b);
+    const Vector6<Real> apart = own_covariance * text.b + trust * (others_covariance * text.b);
     const double freedom = 6 - kWeak * (rest * own_covariance).trace();
     const double chi2 = apart.dot(both.solve(apart));
     return chi2 > 0 && freedom > 0.5 ? std::sqrt(chi2 / freedom) : 0;
@@ -179,19 +179,19 @@ class BasicTextPose {
     const auto n =
         linearise<Parameters::pose_plane>(ResidualRequest{input, theta_[i], T_c_w * text.T_w_h}, photometric_);
     text.zncc = is_ok(n.status) ? n.zncc : -1;
-    const Ldlt<double, 3> prior(object.covariance, 1e-12);
+    const Ldlt<Real, 3> prior(object.covariance, 1e-12);
     if (!is_ok(n.status) || !prior.ok()) return;
     const double weight = text_weight(Weighting::variance, 1, text_sigma(object, n.zncc), n.visible);
-    const Matrix3<double> known = prior.inverse();
-    const FixedMatrix<double, 6, 6> A = weight * n.H.template topLeftCorner<6, 6>();
+    const Matrix3<Real> known = prior.inverse();
+    const FixedMatrix<Real, 6, 6> A = weight * n.H.template topLeftCorner<6, 6>();
     out.B = weight * n.H.template topRightCorner<6, 3>();
-    const Matrix3<double> C = Matrix3<double>(weight * n.H.template bottomRightCorner<3, 3>()) + known;
-    const Ldlt<double, 3> plane(C, 1e-14);
+    const Matrix3<Real> C = Matrix3<Real>(weight * n.H.template bottomRightCorner<3, 3>()) + known;
+    const Ldlt<Real, 3> plane(C, 1e-14);
     if (!plane.ok()) return;
     out.C_inverse = plane.inverse();
     out.h = weight * n.b.template tail<3>() + known * (theta_[i] - object.theta);
     out.in = true;
-    const FixedMatrix<double, 6, 3> K = out.B * out.C_inverse;
+    const FixedMatrix<Real, 6, 3> K = out.B * out.C_inverse;
     out.H = A - K * out.B.transpose();
     out.b = weight * n.b.template head<6>() - K * out.h;
     system.H += text.trust * out.H;
@@ -200,10 +200,10 @@ class BasicTextPose {
   }
 
   std::vector<double> errors_;
-  std::vector<Vector3<double>> theta_;
+  std::vector<Vector3<Real>> theta_;
   std::vector<Eliminated> eliminated_;
   PhotometricWorkspace photometric_;
-  FixedMatrix<double, 6, 6> information_ = FixedMatrix<double, 6, 6>::Zero();
+  FixedMatrix<Real, 6, 6> information_ = FixedMatrix<Real, 6, 6>::Zero();
   Robust robust_ = PoseOptions{}.point_robust;
 };
 using TextPose = BasicTextPose<>;  ///< It is compiled only where it is used.

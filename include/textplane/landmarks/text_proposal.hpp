@@ -3,6 +3,7 @@
 #define TEXTPLANE_LANDMARKS_TEXT_PROPOSAL_HPP
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -17,7 +18,8 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// A plane across the ray of `centre` (m~), at a depth.
 TEXTPLANE_DEFERRED
 inline Vector3<double> frontal_plane(const Vector3<double>& centre, double depth) noexcept {
-  return centre / (depth * centre.squaredNorm());
+  const double divisor = depth * centre.squaredNorm();
+  return {centre[0] / divisor, centre[1] / divisor, centre[2] / divisor};
 }
 
 /// Depth of a point in a camera's frame; 0 where it is not known or not in front.
@@ -31,9 +33,9 @@ inline double depth_of(const TextPoint& point, const SE3d& T_c_w) noexcept {
 /// `least`; 0 where these are, too.
 TEXTPLANE_DEFERRED
 double depth_about(const std::vector<TextPoint>& points, const SE3d& T_c_w, const Quad<double>& quad, int least) {
-  const auto& c = quad.corner;
+  const std::array<Vector2<Real>, 4>& c = quad.corner;
   const double reach = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
-  const Vector2<double> middle = centroid(quad);
+  const Vector2<Real> middle = centroid(quad);
   std::vector<double> close, all;
   for (const TextPoint& point : points) {
     const double depth = depth_of(point, T_c_w);
@@ -53,21 +55,21 @@ bool plane_from_inside_points(const TextOptions& options, const std::vector<Vect
                               const TextPatch& patch, Vector3<double>* theta) {
   if (inside.empty() || static_cast<int>(inside.size()) < options.min_corners) return false;
   std::vector<double> depths;
-  for (const Vector3<double>& p : inside) depths.push_back(p.z());
+  for (const Vector3<Real>& p : inside) depths.push_back(p.z());
   const double depth = median(depths);
-  const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad)), centre = depth * ray;
-  const Vector3<double> guess = frontal_plane(ray, depth);
+  const Vector3<Real> ray = patch.camera.unproject(centroid(patch.quad)), centre = depth * ray;
+  const Vector3<Real> guess = frontal_plane(ray, depth);
   if (!(guess.norm() > 0)) return false;  // too far for a number
-  const Matrix3<double> doubt = detail::guessed(guess, centre, options.surface_guess_turn, options.surface_guess_depth);
+  const Matrix3<Real> doubt = detail::guessed(guess, centre, options.surface_guess_turn, options.surface_guess_depth);
   std::vector<SurfacePoint> points;
-  for (const Vector3<double>& p : inside) points.push_back({p, 0.02 * depth, 0});
+  for (const Vector3<Real>& p : inside) points.push_back({p, 0.02 * depth, 0});
   TextOptions fit = options;
   fit.surface_min_points = 0.5 * options.min_corners;
   std::vector<double> off(inside.size());
   *theta = guess;
   for (int round = 0; round < options.plane_rounds; ++round) {
     *theta = guess;
-    Matrix3<double> covariance = doubt;
+    Matrix3<Real> covariance = doubt;
     if (!fit_to_surface(points, centre, fit, theta, &covariance)) return false;
     for (std::size_t i = 0; i < inside.size(); ++i) off[i] = std::abs(1 - theta->dot(inside[i])) / theta->norm();
     const double sigma = std::clamp(1.4826 * median_in_place(off), 1e-4 * depth, 0.05 * depth);
@@ -85,8 +87,8 @@ Vector3<double> sweep_depths(const TextPatch& patch, const TextImage& target, co
   constexpr int kDepths = 64;
   *zncc = -1;
   const int level = (std::min)({1, patch.level_count() - 1, target.pyramid.levels - 1});
-  const Vector3<double> ray = patch.camera.unproject(centroid(patch.quad));
-  Vector3<double> best = frontal_plane(ray, nearest);
+  const Vector3<Real> ray = patch.camera.unproject(centroid(patch.quad));
+  Vector3<Real> best = frontal_plane(ray, nearest);
   if (level < 0) return best;
   std::vector<TextBatchItem> items;
   for (int i = 0; i < kDepths; ++i) {

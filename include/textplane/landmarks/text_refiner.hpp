@@ -26,11 +26,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 namespace detail {
 // Moves the sides of a quad outwards by `margin` px.
 TEXTPLANE_DEFERRED
-inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
+inline Quad<Real> grown(const Quad<Real>& quad, double margin) noexcept {
   const auto& c = quad.corner;
-  const Vector2<double> right = (c[1] - c[0] + c[2] - c[3]).normalized(),
-                        down = (c[3] - c[0] + c[2] - c[1]).normalized();
-  Quad<double> out;
+  const Vector2<Real> right = (c[1] - c[0] + c[2] - c[3]).normalized(), down = (c[3] - c[0] + c[2] - c[1]).normalized();
+  Quad<Real> out;
   out.corner = {c[0] - margin * (right + down), c[1] + margin * (right - down), c[2] + margin * (right + down),
                 c[3] - margin * (right - down)};
   return out;
@@ -39,21 +38,23 @@ inline Quad<double> grown(const Quad<double>& quad, double margin) noexcept {
 // d px / d m of a camera at the ray m.
 TEXTPLANE_DEFERRED
 inline Matrix2d pixel_jacobian(const CameraView& camera, const Vector2<double>& m) noexcept {
-  Matrix2d D = Matrix2d::Identity();
+  FixedMatrix<Real, 2, 2> D = FixedMatrix<Real, 2, 2>::Identity();
   if (camera.lens) camera.lens->distort(m, &D);
-  return Vector2<double>(camera.pinhole.fx, camera.pinhole.fy).asDiagonal() * D;
+  return Vector2<Real>(camera.pinhole.fx, camera.pinhole.fy).asDiagonal() * D;
 }
 
 // d target px / d host px of the plane, at a ray of the host.
 TEXTPLANE_DEFERRED
 inline bool affine_at(const CameraView& host, const CameraView& target, const Vector3<double>& theta, const SE3d& T_t_h,
                       const Vector3<double>& ray, Matrix2d* A) noexcept {
-  const Matrix3<double> H = plane_homography(theta, T_t_h);
-  const Vector3<double> q = H * ray;
+  const Matrix3<Real> H = plane_homography(theta, T_t_h);
+  const Vector3<Real> q = H * ray;
   if (!(q.z() > 1e-6) || !host.in_domain(ray) || !target.in_domain(q)) return false;
-  const Vector2<double> m = q.hnormalized();
-  const Matrix2d by_ray = (H.topLeftCorner<2, 2>() - m * H.bottomLeftCorner<1, 2>()) / q.z();
-  *A = pixel_jacobian(target, m) * by_ray * pixel_jacobian(host, ray.head<2>()).inverse();
+  const Vector2<Real> m = q.hnormalized();
+  const FixedMatrix<Real, 2, 2> by_ray =
+      (H.template topLeftCorner<2, 2>() - m * H.template bottomLeftCorner<1, 2>()) / q.z();
+  const FixedMatrix<Real, 2, 2> by_host_px = pixel_jacobian(host, Vector2<double>(ray[0], ray[1]));
+  *A = pixel_jacobian(target, m) * by_ray * by_host_px.inverse();
   return true;
 }
 }  // namespace detail
@@ -96,8 +97,8 @@ class BasicTextRefiner {
         std::remove_if(estimates.begin(), estimates.end(), [&](const Estimate& e) { return 1 - e.zncc > limit; }),
         estimates.end());
     const double n = static_cast<double>(estimates.size());
-    Vector3<double> mean = Vector3<double>::Zero();
-    Matrix3<double> covariance = Matrix3<double>::Zero();
+    Vector3<Real> mean = Vector3<Real>::Zero();
+    Matrix3<Real> covariance = Matrix3<Real>::Zero();
     for (const Estimate& e : estimates) mean += e.theta / n;
     for (const Estimate& e : estimates)
       covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
@@ -117,12 +118,12 @@ class BasicTextRefiner {
   struct View {
     int id = -1;
     TextKeyframe keyframe;
-    Quad<double> quad;
+    Quad<Real> quad;
     double area = 0;
   };
   struct Estimate {
-    Vector3<double> theta;  // in the text's host
-    Matrix3<double> covariance;
+    Vector3<Real> theta;  // in the text's host
+    Matrix3<Real> covariance;
     double zncc = 0, variance_factor = 1;
     Bend bend;
   };
@@ -146,12 +147,12 @@ class BasicTextRefiner {
     return views;
   }
 
-  bool add_target(const TextPatch& patch, const Vector3<double>& theta, const View& host, const View& view) {
+  bool add_target(const TextPatch& patch, const Vector3<Real>& theta, const View& host, const View& view) {
     constexpr double kSampling = 1.0 / 6.0;  // px^2: mean variance of bilinear interpolation
     PlaneTarget target;
     target.T_t_h = view.keyframe.from(host.keyframe);
     target.camera = &view.keyframe.camera;
-    Matrix2d A;
+    FixedMatrix<Real, 2, 2> A;
     BlurMatch match;
     // The spread is for what is not known: the camera's blur, and not that of smoothing.
     const double camera_blur = options_.blur_variance, host_smoothing = host.keyframe.smoothing,
@@ -168,7 +169,7 @@ class BasicTextRefiner {
     if (filtered_.size() <= slot) filtered_.emplace_back();
     if (filtered_[slot].width() != image.width() || filtered_[slot].height() != image.height())
       filtered_[slot] = Image<std::uint8_t>(image.width(), image.height());
-    const Bounds<double> box = bounds(view.quad);
+    const Bounds<Real> box = bounds(view.quad);
     const int reach = options_.refine_reach;
     filter_(image, BlurKernel(match.target), static_cast<int>(box.min.x()) - reach,
             static_cast<int>(box.min.y()) - reach, static_cast<int>(box.max.x()) + reach,
@@ -182,7 +183,7 @@ class BasicTextRefiner {
   }
 
   // Views that are blurred by motion or half hidden are less similar to the host than the others.
-  bool drop_dissimilar(const Vector3<double>& theta) {
+  bool drop_dissimilar(const Vector3<Real>& theta) {
     std::vector<double> dissimilarity;
     for (const PlaneTarget& target : targets_) {
       const auto input = photometric_input(*target.patch, 0, target.image, *target.camera);
@@ -199,7 +200,7 @@ class BasicTextRefiner {
   }
 
   // How far the views disagree: by errors of their poses, by highlights, by neighbouring pixels that err together.
-  Matrix3<double> disagreement(const Vector3<double>& theta) {
+  Matrix3<Real> disagreement(const Vector3<Real>& theta) {
     std::vector<GroupEquations<3>> views;
     for (const PlaneTarget& target : targets_) {
       const auto input = photometric_input(*target.patch, 0, target.image, *target.camera);
@@ -211,7 +212,7 @@ class BasicTextRefiner {
 
   bool estimate(const TextObject& text, const View& host, const std::vector<View>& views, Estimate* out) {
     const SE3d T_h_o = host.keyframe.from(keyframes_(text.host));
-    const Vector3<double> theta = reanchor_plane<double>(text.theta, T_h_o);
+    const Vector3<Real> theta = reanchor_plane<double>(text.theta, T_h_o);
     SelectOptions select;
     select.min_pixels = options_.min_pixels;
     select.max_pixels = options_.refine_pixels;
@@ -239,7 +240,7 @@ class BasicTextRefiner {
     photometric_.reserve(patch.max_pixels());
     PlaneOptions plane;
     plane.coarsest_level = 0;
-    const auto fit_to_targets = [&](const Vector3<double>& start) {
+    const auto fit_to_targets = [&](const Vector3<Real>& start) {
       return refine_plane(patch, start, targets_.data(), static_cast<int>(targets_.size()), host.keyframe.camera, plane,
                           workspace_);
     };
@@ -247,13 +248,13 @@ class BasicTextRefiner {
     if (!is_ok(fit.status)) return false;
     if (drop_dissimilar(fit.theta)) fit = fit_to_targets(fit.theta);
     if (!is_ok(fit.status) || fit.zncc < median(std::move(limits))) return false;
-    Matrix3<double> J;
+    Matrix3<Real> J;
     out->theta = reanchor_plane<double>(fit.theta, T_h_o.inverse(), &J);
     if (!bend_of(patch, fit.theta, targets_, patch.camera, options_.refine_bend_sigmas, photometric_, &out->bend))
       out->bend = {};
     // The disagreement shows noise, too; but few views may agree by chance.
-    const Matrix3<double> scatter = disagreement(fit.theta);
-    const Matrix3<double> known = scatter.trace() > fit.covariance.trace() ? scatter : fit.covariance;
+    const Matrix3<Real> scatter = disagreement(fit.theta);
+    const Matrix3<Real> known = scatter.trace() > fit.covariance.trace() ? scatter : fit.covariance;
     out->covariance = J * (known + out->bend.doubt) * J.transpose();
     out->variance_factor = fit.covariance.trace() > 0 ? known.trace() / fit.covariance.trace() : 1;
     out->zncc = fit.zncc;
@@ -263,7 +264,7 @@ class BasicTextRefiner {
   // Not planar: a bend, the mean over the hosts, explains much of why the views disagree.
   bool is_bent(const std::vector<Estimate>& estimates) const {
     const double n = static_cast<double>(estimates.size());
-    Vector2<double> bend = Vector2<double>::Zero();
+    Vector2<Real> bend = Vector2<Real>::Zero();
     double explained = 0;
     for (const Estimate& e : estimates) {
       bend += e.bend.value / n;

@@ -54,18 +54,18 @@ TEXTPLANE_DEFERRED
 std::vector<SurfacePoint> points_beside(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h,
                                         const TextObject& text) {
   std::vector<SurfacePoint> beside_it;
-  std::array<Vector3<double>, 4> c;
+  std::array<Vector3<Real>, 4> c;
   if (!is_ok(text_corners(text, &c))) return beside_it;
-  const Vector3<double> normal = plane_normal(text.theta), centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
-  const Vector3<double> across = 0.5 * (c[1] - c[0] + c[2] - c[3]), down = 0.5 * (c[3] - c[0] + c[2] - c[1]);
-  const Vector3<double> right = across.normalized(), below = normal.cross(right);
+  const Vector3<Real> normal = plane_normal(text.theta), centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+  const Vector3<Real> across = 0.5 * (c[1] - c[0] + c[2] - c[3]), down = 0.5 * (c[3] - c[0] + c[2] - c[1]);
+  const Vector3<Real> right = across.normalized(), below = normal.cross(right);
   const double reach = options.surface_reach * (std::max)(across.norm(), down.norm());
 
   const SE3d T_h_w = T_w_h.inverse();
   for (int i = 0; i < points.count(); ++i) {
-    Vector3<double> p_w;
+    Vector3<Real> p_w;
     if (!points.position(i, &p_w)) continue;
-    const Vector3<double> p = T_h_w * p_w, offset = p - centre;
+    const Vector3<Real> p = T_h_w * p_w, offset = p - centre;
     const double beside = std::hypot((std::max)(0.0, std::abs(right.dot(offset)) - 0.5 * across.norm()),
                                      (std::max)(0.0, std::abs(below.dot(offset)) - 0.5 * down.norm()));
     if (!(p.z() > 0) || !(beside <= reach) || !(std::abs(normal.dot(offset)) <= reach)) continue;
@@ -81,12 +81,12 @@ constexpr double kMinPivot = 1e-12;  // a plane known much better in one directi
 
 // Covariance of theta where the plane goes through a point and its normal is known to sigma, radians.
 TEXTPLANE_DEFERRED
-inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<double>& point, double sigma) {
-  const Vector3<double> n = plane_normal(theta), side = n.unitOrthogonal(), other = n.cross(side);
+inline Matrix3<Real> turned_about(const Vector3<Real>& theta, const Vector3<Real>& point, double sigma) {
+  const Vector3<Real> n = plane_normal(theta), side = n.unitOrthogonal(), other = n.cross(side);
   const double distance = n.dot(point);
-  Matrix3<double> covariance = Matrix3<double>::Zero();
-  for (const Vector3<double>& turn : {side, other}) {
-    const Vector3<double> d = sigma / distance * (turn - turn.dot(point) / distance * n);  // theta = n / (n^T point)
+  Matrix3<Real> covariance = Matrix3<Real>::Zero();
+  for (const Vector3<Real>& turn : {side, other}) {
+    const Vector3<Real> d = sigma / distance * (turn - turn.dot(point) / distance * n);  // theta = n / (n^T point)
     covariance += d * d.transpose();
   }
   return covariance;
@@ -94,8 +94,7 @@ inline Matrix3<double> turned_about(const Vector3<double>& theta, const Vector3<
 
 // Where a plane is known by a guess alone: its slant in radians, its distance as a share.
 TEXTPLANE_DEFERRED
-inline Matrix3<double> guessed(const Vector3<double>& theta, const Vector3<double>& centre, double turn,
-                               double distance) {
+inline Matrix3<Real> guessed(const Vector3<Real>& theta, const Vector3<Real>& centre, double turn, double distance) {
   return turned_about(theta, centre, turn) + distance * distance * theta * theta.transpose();
 }
 }  // namespace detail
@@ -106,31 +105,32 @@ inline Matrix3<double> guessed(const Vector3<double>& theta, const Vector3<doubl
 TEXTPLANE_DEFERRED
 bool fit_to_surface(const std::vector<SurfacePoint>& points, const Vector3<double>& centre, const TextOptions& options,
                     Vector3<double>* theta, Matrix3<double>* covariance) {
-  const Ldlt<double, 3> prior(*covariance, detail::kMinPivot);
+  const Ldlt<Real, 3> prior(*covariance, detail::kMinPivot);
   if (!prior.ok()) return false;
-  const Matrix3<double> known = prior.inverse();
-  const Matrix3<double> bend = detail::turned_about(*theta, centre, detail::radians(options.surface_bend));
-  Vector3<double> x = *theta;
-  Matrix3<double> C = *covariance;
+  const Matrix3<Real> known = prior.inverse();
+  const Matrix3<Real> bend = detail::turned_about(*theta, centre, detail::radians(options.surface_bend));
+  Vector3<Real> x = *theta;
+  Matrix3<Real> C = *covariance;
   const double sigmas = options.surface_sigmas;
   double used = 0;
   for (int round = 0; round < options.surface_rounds; ++round) {
-    Matrix3<double> information = Matrix3<double>::Zero();
-    Vector3<double> gradient = Vector3<double>::Zero();
+    Matrix3<Real> information = Matrix3<Real>::Zero();
+    Vector3<Real> gradient = Vector3<Real>::Zero();
     used = 0;
     for (const SurfacePoint& point : points) {
-      const double error = 1 - x.dot(point.p), variance = x.squaredNorm() * point.sigma * point.sigma;
-      const double squared = error * error / (sigmas * sigmas * (variance + point.p.dot(C * point.p)));
+      const Vector3<Real>& p = point.p;
+      const double error = 1 - x.dot(p), variance = x.squaredNorm() * point.sigma * point.sigma;
+      const double squared = error * error / (sigmas * sigmas * (variance + p.dot(C * p)));
       if (!(squared < 1)) continue;
       const double weight = (1 - squared) * (1 - squared);
-      information += weight / variance * point.p * point.p.transpose();
-      gradient += weight / variance * error * point.p;
+      information += weight / variance * p * p.transpose();
+      gradient += weight / variance * error * p;
       used += weight;
     }
     // The bend is common to all points: (information^-1 + bend)^-1, in a form where neither need be regular.
-    const Matrix3<double> together = (Matrix3<double>::Identity() + information * bend).inverse();
-    const Matrix3<double> both = known + together * information;
-    const Ldlt<double, 3> system(0.5 * (both + both.transpose()), detail::kMinPivot);
+    const Matrix3<Real> together = (Matrix3<Real>::Identity() + information * bend).inverse();
+    const Matrix3<Real> both = known + together * information;
+    const Ldlt<Real, 3> system(0.5 * (both + both.transpose()), detail::kMinPivot);
     if (!system.ok()) return false;
     x += system.solve(known * (*theta - x) + together * gradient);
     C = system.inverse();
@@ -146,14 +146,14 @@ namespace detail {
 // text's centre and has its slant, as far as its points tell that. A sign that stands off its wall is likely to be
 // turned, too.
 TEXTPLANE_DEFERRED
-bool lies_on(std::vector<SurfacePoint> points, const Vector3<double>& centre, double length, const TextOptions& options,
+bool lies_on(std::vector<SurfacePoint> points, const Vector3<Real>& centre, double length, const TextOptions& options,
              const TextObject& text) {
   points.erase(std::remove_if(points.begin(), points.end(), [](const SurfacePoint& p) { return !(p.beside > 0); }),
                points.end());
-  Vector3<double> theta = text.theta;
+  Vector3<Real> theta = text.theta;
   const double distance = 1 / theta.norm();
-  Matrix3<double> covariance = text.covariance + guessed(theta, centre, radians(options.surface_most_turn),
-                                                         options.surface_near * length / distance);
+  Matrix3<Real> covariance = text.covariance + guessed(theta, centre, radians(options.surface_most_turn),
+                                                       options.surface_near * length / distance);
   if (!fit_to_surface(points, centre, options, &theta, &covariance)) return false;
   const double gap = std::abs(theta.dot(centre) - 1) / theta.norm();
   const double gap_sigma = std::sqrt(centre.dot(text.covariance * centre)) / theta.norm();
@@ -174,13 +174,13 @@ bool lies_on(std::vector<SurfacePoint> points, const Vector3<double>& centre, do
 TEXTPLANE_DEFERRED
 void fit_to_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h, TextObject& text) {
   const double sigma = normal_sigma(text);
-  std::array<Vector3<double>, 4> c;
+  std::array<Vector3<Real>, 4> c;
   if (!(sigma <= detail::radians(options.surface_text_sigma)) || !is_ok(text_corners(text, &c))) return;
-  const Vector3<double> centre = plane_point(text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
+  const Vector3<Real> centre = plane_point(text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
   const double length = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
   const std::vector<SurfacePoint> beside = points_beside(options, points, T_w_h, text);
-  Vector3<double> theta = text.theta;
-  Matrix3<double> covariance = text.covariance;
+  Vector3<Real> theta = text.theta;
+  Matrix3<Real> covariance = text.covariance;
   if (!detail::lies_on(beside, centre, length, options, text) ||
       !fit_to_surface(beside, centre, options, &theta, &covariance))
     return;
@@ -196,17 +196,17 @@ void fit_to_surface(const TextOptions& options, const PointLookup& points, const
 TEXTPLANE_DEFERRED
 bool plane_from_surface(const TextOptions& options, const PointLookup& points, const SE3d& T_w_h,
                         const std::vector<Vector3<double>>& seen, TextObject& text) {
-  const auto& c = text.patch.quad.corner;
-  const Pinhole<double>& camera = text.patch.camera;
-  const Vector2<double> middle = centroid(text.patch.quad);
+  const std::array<Vector2<Real>, 4>& c = text.patch.quad.corner;
+  const Pinhole<Real>& camera = text.patch.camera;
+  const Vector2<Real> middle = centroid(text.patch.quad);
   const double reach = (std::max)((c[1] - c[0]).norm(), (c[3] - c[0]).norm());
   std::vector<double> depths;
-  for (const Vector3<double>& p : seen)
+  for (const Vector3<Real>& p : seen)
     if (p.z() > 0 && (camera.project(p) - middle).norm() <= reach) depths.push_back(p.z());
   if (static_cast<double>(depths.size()) < options.surface_min_points) return false;
 
   // A guess: across the ray to the text, at the depth of what is seen there.
-  const Vector3<double> ray = camera.unproject(middle), centre = median(depths) * ray;
+  const Vector3<Real> ray = camera.unproject(middle), centre = median(depths) * ray;
   TextObject guess = outline_of(text.patch, centre / centre.squaredNorm());
   guess.covariance = detail::guessed(guess.theta, centre, options.surface_guess_turn, options.surface_guess_depth);
   if (!fit_to_surface(points_beside(options, points, T_w_h, guess), centre, options, &guess.theta, &guess.covariance) ||

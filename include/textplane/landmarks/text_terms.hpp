@@ -100,7 +100,7 @@ void add_text_terms(const BasicTextMap<>& map, const TextObject& text, Moves mov
   prior.text = &text;
   const Ldlt<double, 3> covariance(text.covariance, 1e-12);
   const double moving_share = static_cast<double>(moving.size()) / static_cast<double>(text.views.size());
-  if (with_prior && covariance.ok()) prior.information = (1 - moving_share) * covariance.inverse();
+  if (with_prior && covariance.ok()) prior.information = scaled(1 - moving_share, covariance.inverse());
   out->priors.push_back(prior);
 }
 

@@ -53,8 +53,8 @@ TEXTPLANE_DEFERRED
 inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4>* out) noexcept {
   const TextPatch& patch = text.patch;
   if (!patch.rows.active()) return quad_points(patch.quad, patch.camera, text.theta, out);
-  const Matrix3<double> C = host_row_warp(patch.rows, text.theta, patch.camera.unproject(centroid(patch.quad)));
-  std::array<Vector3<double>, 4> p;
+  const Matrix3<Real> C = host_row_warp(patch.rows, text.theta, patch.camera.unproject(centroid(patch.quad)));
+  std::array<Vector3<Real>, 4> p;
   for (std::size_t i = 0; i < 4; ++i) {
     const Status status = plane_point(text.theta, product(C, patch.camera.unproject(patch.quad.corner[i])), &p[i]);
     if (!is_ok(status)) return status;
@@ -68,32 +68,32 @@ inline Status text_corners(const TextObject& text, std::array<Vector3<double>, 4
 TEXTPLANE_DEFERRED
 inline bool project_text(const TextObject& text, const SE3d& T_t_h, const CameraView& camera,
                          Quad<double>* quad) noexcept {
-  const Matrix3<double> H = plane_homography(text.theta, T_t_h);
+  const Matrix3<Real> H = plane_homography(text.theta, T_t_h);
   const bool rolling = camera.rows || text.patch.rows.active();
-  Matrix3<double> C;
+  Matrix3<Real> C;
   if (rolling) C = host_row_warp(text.patch.rows, text.theta, text.patch.camera.unproject(centroid(text.patch.quad)));
   for (std::size_t i = 0; i < 4; ++i) {
-    Vector3<double> m = text.patch.camera.unproject(text.patch.quad.corner[i]);
+    Vector3<Real> m = text.patch.camera.unproject(text.patch.quad.corner[i]);
     if (rolling) m = product(C, m);
-    const Vector3<double> q = H * m;
+    const Vector3<Real> q = H * m;
     if (camera.rows) {
-      const RowProjection seen = project_rows(*camera.rows, camera, Vector3<double>(q / text.theta.dot(m)));
+      const RowProjection seen = project_rows(*camera.rows, camera, Vector3<Real>(q / text.theta.dot(m)));
       if (!is_ok(seen.status)) return false;
       quad->corner[i] = seen.px;
       continue;
     }
     if (!(q.z() > 1e-6) || !camera.in_domain(q)) return false;
-    quad->corner[i] = camera.pixel(Vector2<double>(q.x() / q.z(), q.y() / q.z()));
+    quad->corner[i] = camera.pixel(Vector2<Real>(q.x() / q.z(), q.y() / q.z()));
   }
   return true;
 }
 
 /// Cosine of the angle between the text's normal and the ray to its centre; positive where the camera sees its front.
 TEXTPLANE_DEFERRED
-inline double facing(const TextObject& text, const SE3d& T_t_h) noexcept {
-  const Vector3<double> m = text.patch.camera.unproject(centroid(text.patch.quad));
-  const Vector3<double> centre = T_t_h * plane_point(text.theta, m);
-  const Vector3<double> normal = T_t_h.R * plane_normal(text.theta);
+inline double facing(const TextObject& text, const SE3<Real>& T_t_h) noexcept {
+  const Vector3<Real> m = text.patch.camera.unproject(centroid(text.patch.quad));
+  const Vector3<Real> centre = T_t_h * plane_point(text.theta, m);
+  const Vector3<Real> normal = T_t_h.R * plane_normal(text.theta);
   return -normal.dot(centre.normalized());
 }
 
@@ -123,11 +123,11 @@ inline bool text_in_view(const TextOptions& options, const TextObject& text, con
 
 /// Does the plane lie in front of its host, not too slanted, over the whole quad?
 TEXTPLANE_DEFERRED
-inline bool is_plausible_plane(const TextOptions& options, const Pinhole<double>& camera, const Quad<double>& quad,
+inline bool is_plausible_plane(const TextOptions& options, const Pinhole<Real>& camera, const Quad<double>& quad,
                                const Vector3<double>& theta) noexcept {
-  const Vector3<double> ray = camera.unproject(centroid(quad)).normalized();
+  const Vector3<Real> ray = camera.unproject(centroid(quad)).normalized();
   if (is_too_slanted(options, -plane_normal(theta).dot(ray))) return false;
-  return std::all_of(quad.corner.begin(), quad.corner.end(), [&](const Vector2<double>& corner) {
+  return std::all_of(quad.corner.begin(), quad.corner.end(), [&](const Vector2<Real>& corner) {
     return inverse_depth<double>(theta, camera.unproject(corner)) > 0;
   });
 }
@@ -141,9 +141,9 @@ inline int scale_shift(const TextObject& text, const Quad<double>& quad) noexcep
 /// Largest standard deviation of the direction of a plane's normal n = -theta / |theta|, radians.
 TEXTPLANE_DEFERRED
 inline double normal_sigma(const Vector3<double>& theta, const Matrix3<double>& covariance) noexcept {
-  const Vector3<double> n = plane_normal(theta);
-  const Matrix3<double> J = (Matrix3<double>::Identity() - n * n.transpose()) / theta.norm();
-  const Matrix3<double> of_normal = J * covariance * J.transpose();
+  const Vector3<Real> n = plane_normal(theta);
+  const Matrix3<Real> J = (Matrix3<Real>::Identity() - n * n.transpose()) / theta.norm();
+  const Matrix3<Real> of_normal = J * covariance * J.transpose();
   return std::sqrt((std::max)(0.0, symmetric_eigen<double, 3>(of_normal).values[2]));
 }
 /// The same of a text.

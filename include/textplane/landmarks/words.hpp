@@ -46,6 +46,7 @@ inline bool words_agree(const std::string& a, const std::string& b, const TextOp
 }
 
 /// Adds a reading's score to its votes. Beyond max_readings, the older reading with the fewest votes is forgotten.
+TEXTPLANE_DEFERRED
 inline void vote(std::map<std::string, double>* votes, const std::string& word, double score,
                  const TextOptions& options = {}) {
   (*votes)[word] += score;
@@ -58,6 +59,7 @@ inline void vote(std::map<std::string, double>* votes, const std::string& word, 
 
 /// The reading most similar to all readings, weighed by their votes (a weighted median of strings): letters misread
 /// here and there do not split the votes. The first in order among equals, kUnreadText without readings.
+TEXTPLANE_DEFERRED
 inline std::string consensus(const std::map<std::string, double>& votes) {
   std::string best = kUnreadText;
   double most = 0;
