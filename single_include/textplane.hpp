@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: bf2f49bdfd06094e
+// Hash of these files: 632b40435422603e
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 bf2f49bdfd06094e"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 632b40435422603e"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -667,8 +667,6 @@ struct Pinhole {
   }
 };
 
-static_assert(is_camera_model<Pinhole<double>>::value, "textplane: Pinhole is no camera model");
-
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CAMERAS_PINHOLE_HPP
@@ -676,6 +674,16 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
+
+// fx fy cx cy, then the coefficients of the lens.
+template <class S, class... Coefficients>
+Eigen::Matrix<S, 4 + static_cast<int>(sizeof...(Coefficients)), 1> camera_parameters(
+    const Pinhole<S>& pinhole, const Coefficients&... coefficients) noexcept {
+  const S all[] = {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, coefficients...};
+  Eigen::Matrix<S, 4 + static_cast<int>(sizeof...(Coefficients)), 1> p;
+  for (int i = 0; i < p.size(); ++i) p[i] = all[i];
+  return p;
+}
 
 // project() of a model with m_d = lens(p, D_p, D_k), which gives its derivatives by p and by the coefficients together.
 template <class Camera, class S>
@@ -916,11 +924,7 @@ struct DoubleSphere {
     return {{p[0], p[1], p[2], p[3]}, p[4], p[5]};
   }
   /// fx fy cx cy xi alpha.
-  Eigen::Matrix<S, 6, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 6, 1> p;
-    p << intrinsics.parameters(), xi, alpha;
-    return p;
-  }
+  Eigen::Matrix<S, 6, 1> parameters() const noexcept { return detail::camera_parameters(intrinsics, xi, alpha); }
 
   /// Finite, with positive focal lengths, -1 < xi < 1 and 0 <= alpha <= 1.
   bool valid() const noexcept {
@@ -1003,8 +1007,6 @@ struct DoubleSphere {
   };
 };
 
-static_assert(is_camera_model<DoubleSphere<double>>::value, "textplane: DoubleSphere is no camera model");
-
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CAMERAS_DOUBLE_SPHERE_HPP
@@ -1037,11 +1039,7 @@ struct ExtendedUnified {
     return {{p[0], p[1], p[2], p[3]}, p[4], p[5]};
   }
   /// fx fy cx cy alpha beta.
-  Eigen::Matrix<S, 6, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 6, 1> p;
-    p << intrinsics.parameters(), alpha, beta;
-    return p;
-  }
+  Eigen::Matrix<S, 6, 1> parameters() const noexcept { return detail::camera_parameters(intrinsics, alpha, beta); }
 
   /// Finite, with positive focal lengths, 0 <= alpha <= 1 and beta > 0.
   bool valid() const noexcept {
@@ -1108,8 +1106,6 @@ struct ExtendedUnified {
   }
 };
 
-static_assert(is_camera_model<ExtendedUnified<double>>::value, "textplane: ExtendedUnified is no camera model");
-
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CAMERAS_EXTENDED_UNIFIED_HPP
@@ -1136,11 +1132,7 @@ struct Fov {
   /// Of fx fy cx cy omega.
   static Fov from_parameters(const Eigen::Matrix<S, 5, 1>& p) noexcept { return {{p[0], p[1], p[2], p[3]}, p[4]}; }
   /// fx fy cx cy omega.
-  Eigen::Matrix<S, 5, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 5, 1> p;
-    p << intrinsics.parameters(), omega;
-    return p;
-  }
+  Eigen::Matrix<S, 5, 1> parameters() const noexcept { return detail::camera_parameters(intrinsics, omega); }
 
   /// Finite, with positive focal lengths and 0 <= omega < pi.
   bool valid() const noexcept {
@@ -1236,8 +1228,6 @@ struct Fov {
   };
 };
 
-static_assert(is_camera_model<Fov<double>>::value, "textplane: Fov is no camera model");
-
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CAMERAS_FOV_HPP
@@ -1268,11 +1258,7 @@ struct KannalaBrandt {
     return {{p[0], p[1], p[2], p[3]}, p[4], p[5], p[6], p[7]};
   }
   /// fx fy cx cy k1 k2 k3 k4.
-  Eigen::Matrix<S, 8, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 8, 1> p;
-    p << intrinsics.parameters(), k1, k2, k3, k4;
-    return p;
-  }
+  Eigen::Matrix<S, 8, 1> parameters() const noexcept { return detail::camera_parameters(intrinsics, k1, k2, k3, k4); }
 
   /// Finite, with positive focal lengths.
   bool valid() const noexcept { return intrinsics.valid() && all_finite(parameters()); }
@@ -1367,8 +1353,6 @@ struct KannalaBrandt {
   };
 };
 
-static_assert(is_camera_model<KannalaBrandt<double>>::value, "textplane: KannalaBrandt is no camera model");
-
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CAMERAS_KANNALA_BRANDT_HPP
@@ -1399,9 +1383,7 @@ struct RadialTangential {
   }
   /// fx fy cx cy k1 k2 p1 p2 k3.
   Eigen::Matrix<S, 9, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 9, 1> p;
-    p << intrinsics.parameters(), k1, k2, p1, p2, k3;
-    return p;
+    return detail::camera_parameters(intrinsics, k1, k2, p1, p2, k3);
   }
 
   /// Finite, with positive focal lengths.
@@ -1491,8 +1473,6 @@ struct RadialTangential {
   }
 };
 
-static_assert(is_camera_model<RadialTangential<double>>::value, "textplane: RadialTangential is no camera model");
-
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CAMERAS_RADIAL_TANGENTIAL_HPP
@@ -1527,9 +1507,7 @@ struct Rational {
   }
   /// fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6.
   Eigen::Matrix<S, 12, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 12, 1> p;
-    p << intrinsics.parameters(), k1, k2, p1, p2, k3, k4, k5, k6;
-    return p;
+    return detail::camera_parameters(intrinsics, k1, k2, p1, p2, k3, k4, k5, k6);
   }
 
   /// Finite, with positive focal lengths.
@@ -1629,8 +1607,6 @@ struct Rational {
   S above(const S& r2) const noexcept { return S(1) + r2 * (k1 + r2 * (k2 + r2 * k3)); }
   S below(const S& r2) const noexcept { return S(1) + r2 * (k4 + r2 * (k5 + r2 * k6)); }
 };
-
-static_assert(is_camera_model<Rational<double>>::value, "textplane: Rational is no camera model");
 
 TEXTPLANE_END_NAMESPACE
 
@@ -1891,6 +1867,7 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 /// The upper median, 0 of nothing; the values change places.
+TEXTPLANE_DEFERRED
 inline double median_in_place(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -1898,16 +1875,19 @@ inline double median_in_place(std::vector<double>& values) {
   return *middle;
 }
 /// The upper median; 0 of nothing.
+TEXTPLANE_DEFERRED
 inline double median(std::vector<double> values) { return median_in_place(values); }
 
 /// The standard deviation of each coordinate of errors in two dimensions, by their lengths: the median over that of a
 /// Rayleigh distribution. Up to half of them may be outliers. The lengths change places.
+TEXTPLANE_DEFERRED
 inline double sigma_of_lengths(std::vector<double>& lengths) {
   constexpr double kRayleighMedian = 1.1774100225154747;
   return median_in_place(lengths) / kRayleighMedian;
 }
 
 /// At most `count` of the ids, evenly spaced, the first and the last among them.
+TEXTPLANE_DEFERRED
 inline std::vector<int> evenly_spaced(const std::vector<int>& ids, std::size_t count) {
   if (ids.size() <= count || count < 2) return ids;
   std::vector<int> picked;
@@ -2280,8 +2260,8 @@ struct RollingShutter {
 /// How one frame moves while its rows are taken.
 TEXTPLANE_DEFERRED
 struct BasicRowMotion {
-  Vector6<double> velocity = Vector6<double>::Zero();  ///< (v, omega) a second, a left increment of T_c_w.
-  RollingShutter shutter;                              ///< Of its camera.
+  Vector6<Real> velocity = Vector6<Real>::Zero();  ///< (v, omega) a second, a left increment of T_c_w.
+  RollingShutter shutter;                          ///< Of its camera.
 
   /// Whether rows differ in pose. False for a still camera, too.
   bool active() const noexcept {
@@ -2304,13 +2284,13 @@ using RowMotion = BasicRowMotion<>;  ///< It is compiled only where it is used.
 /// M = time (I + a / 2 + a^2 / 6), a = ad(time velocity). Its error is a^3 / 24, 1e-7 for a motion of 0.01.
 TEXTPLANE_DEFERRED
 inline FixedMatrix<double, 6, 6> velocity_jacobian(const Vector6<double>& velocity, double time) noexcept {
-  const Vector6<double> xi = time * velocity;
-  const Matrix3<double> V = hat<double>(xi.head<3>()), W = hat<double>(xi.tail<3>());
-  FixedMatrix<double, 6, 6> a;
+  const Vector6<double> xi = scaled(time, velocity);
+  const Matrix3<double> V = hat(block<3, 1>(xi, 0, 0)), W = hat(block<3, 1>(xi, 3, 0));
+  FixedMatrix<Real, 6, 6> a;
   for (int c = 0; c < 6; ++c)
     for (int r = 0; r < 6; ++r) a(r, c) = (r < 3) == (c < 3) ? W(r % 3, c % 3) : r < 3 ? V(r, c - 3) : 0;
-  const FixedMatrix<double, 6, 6> a2 = product(a, a);
-  FixedMatrix<double, 6, 6> out;
+  const FixedMatrix<Real, 6, 6> a2 = product(a, a);
+  FixedMatrix<Real, 6, 6> out;
   for (int c = 0; c < 6; ++c)
     for (int r = 0; r < 6; ++r) out(r, c) = time * ((r == c ? 1 : 0) + a(r, c) / 2 + a2(r, c) / 6);
   return out;
@@ -2320,8 +2300,9 @@ inline FixedMatrix<double, 6, 6> velocity_jacobian(const Vector6<double>& veloci
 /// less than pi apart in rotation; zero where `seconds` is.
 TEXTPLANE_DEFERRED
 inline Vector6<double> velocity_between(const SE3d& T_a_w, const SE3d& T_b_w, double seconds) noexcept {
-  if (!(std::abs(seconds) > 0)) return Vector6<double>::Zero();
-  return se3_log<double>(T_b_w * T_a_w.inverse()) / seconds;
+  if (!(std::abs(seconds) > 0)) return Vector6<Real>::Zero();
+  const Vector6<Real> twist = se3_log<double>(T_b_w * T_a_w.inverse());
+  return twist / seconds;
 }
 
 /// The row-time projection of a camera-frame point p = T_c_w p_w of a moving frame.
@@ -2341,7 +2322,7 @@ RowProjection project_rows(const RowMotion& motion, const Camera& camera, const 
   RowProjection out;
   out.p = p;
   const double line = motion.shutter.line();
-  const Vector3<double> v = motion.velocity.head<3>(), w = motion.velocity.tail<3>();
+  const Vector3<double> v = block<3, 1>(motion.velocity, 0, 0), w = block<3, 1>(motion.velocity, 3, 0);
   double row = motion.shutter.row0;
   for (int iteration = 0; iteration < 10; ++iteration) {
     out.p = motion.at(row) * p;
@@ -9107,16 +9088,16 @@ TEXTPLANE_DEFERRED
 void sample_affine(const ImageView8& image, const Vector2<float>& centre, const FixedMatrix<float, 2, 2>& A_f,
                    int reach, float* out) noexcept {
   const int side = 2 * reach + 1;
-  const FixedMatrix<double, 2, 2> A = A_f.cast<double>();
-  const Vector2<double> first = centre.cast<double>() - A * Vector2<double>::Constant(reach);
-  Matrix3<double> H = Matrix3<double>::Identity();
-  H.topLeftCorner<2, 2>() = A;
-  H.topRightCorner<2, 1>() = first;
+  const FixedMatrix<Real, 2, 2> A = A_f.template cast<Real>();
+  const Vector2<Real> first = centre.template cast<Real>() - A * Vector2<Real>::Constant(reach);
+  Matrix3<Real> H = Matrix3<Real>::Identity();
+  H.template topLeftCorner<2, 2>() = A;
+  H.template topRightCorner<2, 1>() = first;
   constexpr std::ptrdiff_t kStride = simd::kKltStride * sizeof(float);
   if (warp_patch(image, H, ImageView<float>(out, side, side, kStride)).inside == side * side) return;
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
-      const Vector2<double> p = first + A * Vector2<double>(i, j);
+      const Vector2<Real> p = first + A * Vector2<Real>(i, j);
       const double x = p[0] > 0 ? p[0] : 0, y = p[1] > 0 ? p[1] : 0;  // sample_inside() extends the last row and column
       double v = 0;
       sample_inside(image, x, y, &v, static_cast<double*>(nullptr), static_cast<double*>(nullptr));
@@ -11160,7 +11141,7 @@ class BasicLensMap {
   /// s(r2). If it is given, `rise` receives d (r s(r^2)) / d r.
   double radial(double r2, double* rise = nullptr) const noexcept {
     const double r = std::sqrt(r2);
-    FixedMatrix<double, 2, 2> J;
+    FixedMatrix<Real, 2, 2> J;
     const double distorted = radial_.distort({r, 0.0}, &J)[0];
     if (rise) *rise = J(0, 0);
     return r2 > 0 ? distorted / r : J(0, 0);
@@ -11178,18 +11159,18 @@ class BasicLensMap {
   }
 
   /// m_d of m. If J is given it receives d m_d / d m.
-  Vector2<double> distort(const Vector2<double>& m, FixedMatrix<double, 2, 2>* J = nullptr) const noexcept {
+  Vector2<Real> distort(const Vector2<Real>& m, FixedMatrix<Real, 2, 2>* J = nullptr) const noexcept {
     return camera_.distort(m, J);
   }
   /// The same for any scalar.
   template <class S>
   Vector2<S> distort_as(const Vector2<S>& m) const noexcept {
-    return camera_.cast<S>().distort(m);
+    return camera_.template cast<S>().distort(m);
   }
 
   /// Inverse of distort(): the radial part by safeguarded Newton steps, then Newton's method for the rest, to 1e-12.
   /// Status::degenerate where no ray of the domain goes there, non_finite for NaN; then `m` is untouched.
-  Status undistort(const Vector2<double>& distorted, Vector2<double>* m) const noexcept {
+  Status undistort(const Vector2<Real>& distorted, Vector2<Real>* m) const noexcept {
     if (!all_finite(distorted)) return Status::non_finite;
     const double size = std::sqrt(distorted.squaredNorm());
     double low = 0, high = std::sqrt(max_r2_), r = size < high ? size : high;
@@ -11201,10 +11182,10 @@ class BasicLensMap {
       if (!(std::abs(next - r) > 1e-15 * r)) break;
       r = next > low && next < high ? next : 0.5 * (low + high);
     }
-    Vector2<double> x = size > 0 ? Vector2<double>(r / size * distorted) : Vector2<double>(0, 0);
+    Vector2<Real> x = size > 0 ? Vector2<Real>(r / size * distorted) : Vector2<Real>(0, 0);
     for (int i = 0; i < 20; ++i) {
-      FixedMatrix<double, 2, 2> J;
-      const Vector2<double> e = distort(x, &J) - distorted;
+      FixedMatrix<Real, 2, 2> J;
+      const Vector2<Real> e = distort(x, &J) - distorted;
       const double det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
       if (!(det > 1e-9) || !all_finite(e)) return Status::degenerate;
       x[0] -= (J(1, 1) * e[0] - J(0, 1) * e[1]) / det;
@@ -11336,7 +11317,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// are those of the image as it was taken; `pinhole` is the camera of the undistorted one.
 TEXTPLANE_DEFERRED
 struct BasicCameraView {
-  Pinhole<double> pinhole;        ///< px of level 0, or of the level that at_level() was asked for.
+  Pinhole<Real> pinhole;          ///< px of level 0, or of the level that at_level() was asked for.
   const LensMap* lens = nullptr;  ///< Of normalised coordinates, on all levels the same; null: none.
   /// How the camera moves while it takes the rows of the image, in px of level 0; null: it takes all at once. Its
   /// owner must outlive the view. What takes a pose together with a camera means the pose at the time stamp. Members of
@@ -11345,41 +11326,41 @@ struct BasicCameraView {
 
   BasicCameraView() = default;
   /// Without a lens.
-  BasicCameraView(const Pinhole<double>& camera) noexcept : pinhole(camera) {}  // NOLINT(google-explicit-constructor)
+  BasicCameraView(const Pinhole<Real>& camera) noexcept : pinhole(camera) {}  // NOLINT(google-explicit-constructor)
   BasicCameraView(double fx, double fy, double cx, double cy) noexcept
       : pinhole(fx, fy, cx, cy) {}  ///< Without a lens.
   /// `map` may be null.
-  BasicCameraView(const Pinhole<double>& camera, const LensMap* map, const RowMotion* motion = nullptr) noexcept
+  BasicCameraView(const Pinhole<Real>& camera, const LensMap* map, const RowMotion* motion = nullptr) noexcept
       : pinhole(camera), lens(map), rows(motion) {}
 
   /// Finite, with positive focal lengths, a lens that sees something, and rows that are valid().
   bool valid() const noexcept { return pinhole.valid() && (!lens || lens->max_r2() > 0) && (!rows || rows->valid()); }
   /// In front of the camera, where the lens has a pixel for it.
-  bool in_domain(const Vector3<double>& p) const noexcept {
+  bool in_domain(const Vector3<Real>& p) const noexcept {
     return p[2] > 0 && (!lens || p[0] * p[0] + p[1] * p[1] <= lens->max_r2() * p[2] * p[2]);
   }
 
   /// Pixel of the normalised point m, which is in the domain.
-  Vector2<double> pixel(const Vector2<double>& m) const noexcept { return pinhole.pixel(lens ? lens->distort(m) : m); }
+  Vector2<Real> pixel(const Vector2<Real>& m) const noexcept { return pinhole.pixel(lens ? lens->distort(m) : m); }
   /// Pixel of the camera-frame point p, which is in the domain. If J is given it receives d pixel / d p (2 x 3).
-  Vector2<double> project(const Vector3<double>& p, FixedMatrix<double, 2, 3>* J = nullptr) const noexcept {
+  Vector2<Real> project(const Vector3<Real>& p, FixedMatrix<Real, 2, 3>* J = nullptr) const noexcept {
     if (!lens) return pinhole.project(p, J);
-    const Vector2<double> m(p[0] / p[2], p[1] / p[2]);
+    const Vector2<Real> m(p[0] / p[2], p[1] / p[2]);
     if (!J) return pinhole.pixel(lens->distort(m));
-    FixedMatrix<double, 2, 2> D;
-    const Vector2<double> distorted = lens->distort(m, &D);
+    FixedMatrix<Real, 2, 2> D;
+    const Vector2<Real> distorted = lens->distort(m, &D);
     D.row(0) *= pinhole.fx;
     D.row(1) *= pinhole.fy;
-    Pinhole<double>().project(p, J);  // d m / d p
+    Pinhole<Real>().project(p, J);  // d m / d p
     *J = product(D, *J);
     return pinhole.pixel(distorted);
   }
   /// Ray m~ = (x/z, y/z, 1) of a pixel. Status::degenerate where it has none, non_finite for NaN; then `m` is
   /// untouched.
-  Status unproject(const Vector2<double>& px, Vector3<double>* m) const noexcept {
+  Status unproject(const Vector2<Real>& px, Vector3<Real>* m) const noexcept {
     if (!lens) return pinhole.unproject(px, m);
-    Vector2<double> straight;
-    const Status status = lens->undistort(pinhole.unproject(px).head<2>(), &straight);
+    Vector2<Real> straight;
+    const Status status = lens->undistort(pinhole.unproject(px).template head<2>(), &straight);
     if (is_ok(status)) *m = {straight[0], straight[1], 1.0};
     return status;
   }
@@ -11605,19 +11586,21 @@ inline PatchRows patch_rows(const RowMotion& motion, const CameraView& camera, c
 
 namespace detail {
 // The host's side at the row of the patch's centre, of which `centre` is the ray.
+TEXTPLANE_DEFERRED
 struct HostRows {
-  SE3d E_h;                                                ///< From that row to the time stamp.
-  Vector3<double> theta_c;                                 ///< The plane at that row.
-  Matrix3<double> by_theta = Matrix3<double>::Identity();  ///< d theta_c / d theta.
-  Matrix3<double> B = Matrix3<double>::Identity();
+  SE3<Real> E_h;                                       ///< From that row to the time stamp.
+  Vector3<Real> theta_c;                               ///< The plane at that row.
+  Matrix3<Real> by_theta = Matrix3<Real>::Identity();  ///< d theta_c / d theta.
+  Matrix3<Real> B = Matrix3<Real>::Identity();
 };
 TEXTPLANE_DEFERRED
-inline HostRows host_rows(const PatchRows& rows, const Vector3<double>& theta, const Vector3<double>& centre) noexcept {
-  HostRows out;
+inline HostRows<Real> host_rows(const PatchRows& rows, const Vector3<double>& theta,
+                                const Vector3<double>& centre) noexcept {
+  HostRows<Real> out;
   out.theta_c = theta;
   if (!rows.active()) return out;
   const double tau = dot(rows.time, centre);
-  const SE3d to_row = se3_exp<double>(tau * rows.velocity);
+  const SE3d to_row = se3_exp<double>(scaled(tau, rows.velocity));
   if (!is_ok(reanchor_plane(theta, to_row, &out.theta_c, &out.by_theta))) return out;
   out.E_h = to_row.inverse();
   const Vector3<double> l(rows.time[0], rows.time[1], rows.time[2] - tau);
@@ -11633,7 +11616,7 @@ TEXTPLANE_DEFERRED
 inline Matrix3<double> host_row_warp(const PatchRows& rows, const Vector3<double>& theta,
                                      const Vector3<double>& centre) noexcept {
   if (!rows.active()) return Matrix3<double>::Identity();
-  const detail::HostRows host = detail::host_rows(rows, theta, centre);
+  const detail::HostRows<Real> host = detail::host_rows(rows, theta, centre);
   Matrix3<double> G;
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) G(r, c) = host.E_h.R(r, c) + host.E_h.t[r] * host.theta_c[c];
@@ -11643,12 +11626,14 @@ inline Matrix3<double> host_row_warp(const PatchRows& rows, const Vector3<double
 /// The warp as the photometric kernels take it: H = R + t theta^T with an R that is no rotation. For a left increment
 /// xi of T_t_h and an additive one of the plane, those of the kernels are xi' = pose xi and dtheta' = plane dtheta, to
 /// first order in the motion between the patch's centre row and its other rows.
-struct RowWarp {
-  SE3d T_t_h;                                                              ///< M R B and M t of the head of this file.
-  Vector3<double> theta;                                                   ///< B^T theta_c.
-  FixedMatrix<double, 6, 6> pose = FixedMatrix<double, 6, 6>::Identity();  ///< Ad(E_t).
-  Matrix3<double> plane;                                                   ///< B^T d theta_c / d theta.
+TEXTPLANE_DEFERRED
+struct BasicRowWarp {
+  SE3d T_t_h;                                                          ///< M R B and M t of the head of this file.
+  Vector3<Real> theta;                                                 ///< B^T theta_c.
+  FixedMatrix<Real, 6, 6> pose = FixedMatrix<Real, 6, 6>::Identity();  ///< Ad(E_t).
+  Matrix3<Real> plane;                                                 ///< B^T d theta_c / d theta.
 };
+using RowWarp = BasicRowWarp<>;  ///< It is compiled only where it is used.
 
 /// The warp of a patch about the ray `centre` of the host through the plane `theta` (host frame at the time stamp) by
 /// T_t_h, which is between the time stamps. `host`: the patch's rows; `target`: the motion of the target, whose camera
@@ -11656,13 +11641,14 @@ struct RowWarp {
 TEXTPLANE_DEFERRED
 inline RowWarp row_warp(const Vector3<double>& theta, const SE3d& T_t_h, const Vector3<double>& centre,
                         const PatchRows& host, const RowMotion& target, const CameraView& camera) noexcept {
-  const detail::HostRows from = detail::host_rows(host, theta, centre);
+  const detail::HostRows<Real> from = detail::host_rows(host, theta, centre);
   RowWarp out;
   out.theta = transposed_product(from.B, from.theta_c);
   out.plane = transposed_product(from.B, from.by_theta);
   SE3d T = host.active() ? T_t_h * from.E_h : T_t_h;
   if (target.active()) {
-    const Vector3<double> p = T * Vector3<double>(centre / detail::dot(from.theta_c, centre));
+    const double along = detail::dot(from.theta_c, centre);
+    const Vector3<double> p = T * Vector3<double>(centre[0] / along, centre[1] / along, centre[2] / along);
     const RowProjection seen = project_rows(target, camera, p);
     if (is_ok(seen.status)) {
       const SE3d E = target.at(seen.px[1]);
@@ -14638,7 +14624,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// H = R + t theta^T, normalised host coordinates to normalised target coordinates.
 template <class S>
 Matrix3<S> plane_homography(const Vector3<S>& theta, const SE3<S>& T_t_h) noexcept {
-  return T_t_h.R + T_t_h.t * theta.transpose();
+  Matrix3<S> H;
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) H(r, c) = T_t_h.R(r, c) + T_t_h.t[r] * theta[c];
+  return H;
 }
 
 /// The inverse of plane_homography(), target to host: R^T (I - t theta'^T) with theta' the plane in the target frame.
@@ -28961,6 +28950,7 @@ inline bool ray_box(const simd::PointBounds& bounds, const Pinhole<double>& host
 }
 
 /// The lens over the rays of a box, as far as it has pixels for them. False where no piece of it holds them all.
+TEXTPLANE_DEFERRED
 inline bool fit_lens(const LensMap& lens, const RayBox& box, simd::LensFit* out) noexcept {
   const double low = box.least_r2(), high = (std::min)(box.most_r2(), lens.max_r2()), at = box.middle.squaredNorm();
   if (!(low < high) || !(at <= lens.max_r2())) return false;
@@ -29591,6 +29581,7 @@ inline bool take_info(const simd::ResidualInfo& info, int min_visible, ResidualS
 
 /// Sets args->lens to `fit` where the request's target has a lens. False where no fit holds it, and the reference must
 /// take the call.
+TEXTPLANE_DEFERRED
 inline bool fit_request(const KernelRequest& q, simd::ResidualArgs* args, simd::LensFit* fit) noexcept {
   const PatchView& p = q.input.patch;
   const simd::PointBounds bounds = p.bounds.n == p.n ? p.bounds : simd::point_bounds(p.x, p.y, p.n);
@@ -29617,6 +29608,7 @@ bool kernel_linearise(const KernelRequest& q, PhotometricWorkspace& workspace,
 }
 
 /// evaluate() by the kernels; false where they do not take the request or declined.
+TEXTPLANE_DEFERRED
 inline bool kernel_evaluate(const KernelRequest& q, PhotometricWorkspace& workspace, const std::uint8_t* on_set,
                             PhotometricCost* out) noexcept {
   if (!kernels_take(q, workspace)) return false;
@@ -29857,9 +29849,10 @@ inline double dot3(const double* p, const double* q) noexcept { return p[0] * q[
 
 // The sums by (v, omega, theta) of T_t_h, seen through d xi(T_t_h) / d (xi_h, xi_t): relative_pose_jacobians(), without
 // products by its zeros. The target's factor is -I, or the negative of the host's, so H has rank 9 at most.
-// (S is double: a template, so that including the header costs little.)
-template <class S>
-void world_sums(const NormalEquations<9>& inner, const SE3<S>& T, bool right, NormalEquations<15>* out) noexcept {
+// (S is double, Relative 9, World 15: a template, so that including the header costs little.)
+template <class S, int Relative, int World>
+void world_sums(const NormalEquations<Relative>& inner, const SE3<S>& T, bool right,
+                NormalEquations<World>* out) noexcept {
   const Matrix3<S> upper = product(hat(T.t), T.R);
   // Of the adjoint: columns 0 to 2 are (R_k, 0), columns 3 to 5 are (X_k, R_k). W is its transpose times the pose's
   // rows.
@@ -29895,9 +29888,9 @@ void world_sums(const NormalEquations<9>& inner, const SE3<S>& T, bool right, No
 }
 
 // Parameters::host_target_plane of Parameters::pose_plane. H and b mean nothing unless is_ok(out->status).
-template <class T>
-void world_parameters(const NormalEquations<9>& inner, const ResidualRequest<T>& request,
-                      NormalEquations<15>* out) noexcept {
+template <class T, int Relative, int World>
+void world_parameters(const NormalEquations<Relative>& inner, const ResidualRequest<T>& request,
+                      NormalEquations<World>* out) noexcept {
   out->status = inner.status;
   out->path = inner.path;
   if (!is_ok(inner.status)) return;
@@ -45357,7 +45350,8 @@ struct WindowCalibration {
   Status status = Status::ok;
 
   /// Holds all parameters of the camera.
-  void hold() { sigma = AnyCamera<double>::Parameters::Zero(camera.parameters().size()); }
+  TEXTPLANE_DEFERRED
+  void hold() { sigma.setZero(camera.parameters().size()); }
 };
 
 namespace detail {
@@ -45369,6 +45363,7 @@ class CalibrationUnknowns {
 
   /// Null: there are none. invalid_argument where the camera is not valid(), sigma or the mean has another length or a
   /// number that is none, or a sigma is negative; then there are none.
+  TEXTPLANE_DEFERRED
   Status set(const WindowCalibration* calibration) noexcept {
     count_ = 0;
     if (!calibration) return Status::ok;
@@ -45993,7 +45988,7 @@ Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta,
       if (i == 0) all = box;
       all.add(box);
     }
-    all.middle = 0.5 * (all.low + all.high);
+    for (int k = 0; k < 2; ++k) all.middle[k] = 0.5 * (all.low[k] + all.high[k]);
     fast = fast && detail::fit_lens(*in.lens, all, &fit);
   }
   if (fast) {
@@ -46773,6 +46768,7 @@ class LocalContrast {
 
   /// The intensities and gradients of a patch's level taken anew from an image that begins at (x0, y0) of the level, as
   /// the operator fills it. Pixels outside of it keep what they had. `camera`: of the level, for its lens.
+  TEXTPLANE_DEFERRED
   static void take(const ImageView8& image, int x0, int y0, PatchLevel* level, const CameraView& camera = {}) noexcept {
     for (std::size_t i = 0; i < level->x.size(); ++i) {
       const Vector2<float> px = level->taken(i);
@@ -47307,6 +47303,7 @@ struct WindowState {
   AnyCamera<double> camera;           ///< Of Window::calibration.
   bool camera_possible = true;  ///< False where a step led to one that is not valid(); `camera` is then the old one.
 
+  TEXTPLANE_DEFERRED
   void read(const Window& w) {
     if (w.calibration) camera = w.calibration->camera;
     camera_possible = true;
@@ -47322,12 +47319,14 @@ struct WindowState {
     for (const WindowText& t : w.texts) landmark.push_back(t.theta);
   }
   /// Gives cameras of rigs the poses that their bases have.
+  TEXTPLANE_DEFERRED
   void follow_bases(const Window& w) {
     for (int f = 0; f < count(w.frames); ++f) {
       const WindowFrame& frame = at(w.frames, f);
       if (frame.base >= 0) at(T_w_c, f) = at(T_w_c, frame.base) * frame.T_b_c;
     }
   }
+  TEXTPLANE_DEFERRED
   void write(Window& w) const {
     if (w.calibration) w.calibration->camera = camera;
     for (std::size_t i = 0; i < w.frames.size(); ++i) w.frames[i].T_w_c = T_w_c[i];

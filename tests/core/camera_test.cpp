@@ -28,6 +28,8 @@ static_assert(!tp::is_camera_model<double>::value && !tp::is_camera_model<tp::Ve
 
 template <class Model>
 class CameraModel : public testing::Test {
+  static_assert(tp::is_camera_model<Model>::value, "not what AnyCamera can hold");
+
  protected:
   // Near the axis and on it, where angles have no derivative, then all over the domain.
   Eigen::Vector3d point(int i, Random& random) const {

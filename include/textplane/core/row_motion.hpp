@@ -35,8 +35,8 @@ struct RollingShutter {
 /// How one frame moves while its rows are taken.
 TEXTPLANE_DEFERRED
 struct BasicRowMotion {
-  Vector6<double> velocity = Vector6<double>::Zero();  ///< (v, omega) a second, a left increment of T_c_w.
-  RollingShutter shutter;                              ///< Of its camera.
+  Vector6<Real> velocity = Vector6<Real>::Zero();  ///< (v, omega) a second, a left increment of T_c_w.
+  RollingShutter shutter;                          ///< Of its camera.
 
   /// Whether rows differ in pose. False for a still camera, too.
   bool active() const noexcept {
@@ -59,13 +59,13 @@ using RowMotion = BasicRowMotion<>;  ///< It is compiled only where it is used.
 /// M = time (I + a / 2 + a^2 / 6), a = ad(time velocity). Its error is a^3 / 24, 1e-7 for a motion of 0.01.
 TEXTPLANE_DEFERRED
 inline FixedMatrix<double, 6, 6> velocity_jacobian(const Vector6<double>& velocity, double time) noexcept {
-  const Vector6<double> xi = time * velocity;
-  const Matrix3<double> V = hat<double>(xi.head<3>()), W = hat<double>(xi.tail<3>());
-  FixedMatrix<double, 6, 6> a;
+  const Vector6<double> xi = scaled(time, velocity);
+  const Matrix3<double> V = hat(block<3, 1>(xi, 0, 0)), W = hat(block<3, 1>(xi, 3, 0));
+  FixedMatrix<Real, 6, 6> a;
   for (int c = 0; c < 6; ++c)
     for (int r = 0; r < 6; ++r) a(r, c) = (r < 3) == (c < 3) ? W(r % 3, c % 3) : r < 3 ? V(r, c - 3) : 0;
-  const FixedMatrix<double, 6, 6> a2 = product(a, a);
-  FixedMatrix<double, 6, 6> out;
+  const FixedMatrix<Real, 6, 6> a2 = product(a, a);
+  FixedMatrix<Real, 6, 6> out;
   for (int c = 0; c < 6; ++c)
     for (int r = 0; r < 6; ++r) out(r, c) = time * ((r == c ? 1 : 0) + a(r, c) / 2 + a2(r, c) / 6);
   return out;
@@ -75,8 +75,9 @@ inline FixedMatrix<double, 6, 6> velocity_jacobian(const Vector6<double>& veloci
 /// less than pi apart in rotation; zero where `seconds` is.
 TEXTPLANE_DEFERRED
 inline Vector6<double> velocity_between(const SE3d& T_a_w, const SE3d& T_b_w, double seconds) noexcept {
-  if (!(std::abs(seconds) > 0)) return Vector6<double>::Zero();
-  return se3_log<double>(T_b_w * T_a_w.inverse()) / seconds;
+  if (!(std::abs(seconds) > 0)) return Vector6<Real>::Zero();
+  const Vector6<Real> twist = se3_log<double>(T_b_w * T_a_w.inverse());
+  return twist / seconds;
 }
 
 /// The row-time projection of a camera-frame point p = T_c_w p_w of a moving frame.
@@ -96,7 +97,7 @@ RowProjection project_rows(const RowMotion& motion, const Camera& camera, const 
   RowProjection out;
   out.p = p;
   const double line = motion.shutter.line();
-  const Vector3<double> v = motion.velocity.head<3>(), w = motion.velocity.tail<3>();
+  const Vector3<double> v = block<3, 1>(motion.velocity, 0, 0), w = block<3, 1>(motion.velocity, 3, 0);
   double row = motion.shutter.row0;
   for (int iteration = 0; iteration < 10; ++iteration) {
     out.p = motion.at(row) * p;

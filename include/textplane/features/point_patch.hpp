@@ -145,16 +145,16 @@ TEXTPLANE_DEFERRED
 void sample_affine(const ImageView8& image, const Vector2<float>& centre, const FixedMatrix<float, 2, 2>& A_f,
                    int reach, float* out) noexcept {
   const int side = 2 * reach + 1;
-  const FixedMatrix<double, 2, 2> A = A_f.cast<double>();
-  const Vector2<double> first = centre.cast<double>() - A * Vector2<double>::Constant(reach);
-  Matrix3<double> H = Matrix3<double>::Identity();
-  H.topLeftCorner<2, 2>() = A;
-  H.topRightCorner<2, 1>() = first;
+  const FixedMatrix<Real, 2, 2> A = A_f.template cast<Real>();
+  const Vector2<Real> first = centre.template cast<Real>() - A * Vector2<Real>::Constant(reach);
+  Matrix3<Real> H = Matrix3<Real>::Identity();
+  H.template topLeftCorner<2, 2>() = A;
+  H.template topRightCorner<2, 1>() = first;
   constexpr std::ptrdiff_t kStride = simd::kKltStride * sizeof(float);
   if (warp_patch(image, H, ImageView<float>(out, side, side, kStride)).inside == side * side) return;
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
-      const Vector2<double> p = first + A * Vector2<double>(i, j);
+      const Vector2<Real> p = first + A * Vector2<Real>(i, j);
       const double x = p[0] > 0 ? p[0] : 0, y = p[1] > 0 ? p[1] : 0;  // sample_inside() extends the last row and column
       double v = 0;
       sample_inside(image, x, y, &v, static_cast<double*>(nullptr), static_cast<double*>(nullptr));

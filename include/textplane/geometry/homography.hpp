@@ -19,7 +19,10 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// H = R + t theta^T, normalised host coordinates to normalised target coordinates.
 template <class S>
 Matrix3<S> plane_homography(const Vector3<S>& theta, const SE3<S>& T_t_h) noexcept {
-  return T_t_h.R + T_t_h.t * theta.transpose();
+  Matrix3<S> H;
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) H(r, c) = T_t_h.R(r, c) + T_t_h.t[r] * theta[c];
+  return H;
 }
 
 /// The inverse of plane_homography(), target to host: R^T (I - t theta'^T) with theta' the plane in the target frame.

@@ -90,19 +90,21 @@ inline PatchRows patch_rows(const RowMotion& motion, const CameraView& camera, c
 
 namespace detail {
 // The host's side at the row of the patch's centre, of which `centre` is the ray.
+TEXTPLANE_DEFERRED
 struct HostRows {
-  SE3d E_h;                                                ///< From that row to the time stamp.
-  Vector3<double> theta_c;                                 ///< The plane at that row.
-  Matrix3<double> by_theta = Matrix3<double>::Identity();  ///< d theta_c / d theta.
-  Matrix3<double> B = Matrix3<double>::Identity();
+  SE3<Real> E_h;                                       ///< From that row to the time stamp.
+  Vector3<Real> theta_c;                               ///< The plane at that row.
+  Matrix3<Real> by_theta = Matrix3<Real>::Identity();  ///< d theta_c / d theta.
+  Matrix3<Real> B = Matrix3<Real>::Identity();
 };
 TEXTPLANE_DEFERRED
-inline HostRows host_rows(const PatchRows& rows, const Vector3<double>& theta, const Vector3<double>& centre) noexcept {
-  HostRows out;
+inline HostRows<Real> host_rows(const PatchRows& rows, const Vector3<double>& theta,
+                                const Vector3<double>& centre) noexcept {
+  HostRows<Real> out;
   out.theta_c = theta;
   if (!rows.active()) return out;
   const double tau = dot(rows.time, centre);
-  const SE3d to_row = se3_exp<double>(tau * rows.velocity);
+  const SE3d to_row = se3_exp<double>(scaled(tau, rows.velocity));
   if (!is_ok(reanchor_plane(theta, to_row, &out.theta_c, &out.by_theta))) return out;
   out.E_h = to_row.inverse();
   const Vector3<double> l(rows.time[0], rows.time[1], rows.time[2] - tau);
@@ -118,7 +120,7 @@ TEXTPLANE_DEFERRED
 inline Matrix3<double> host_row_warp(const PatchRows& rows, const Vector3<double>& theta,
                                      const Vector3<double>& centre) noexcept {
   if (!rows.active()) return Matrix3<double>::Identity();
-  const detail::HostRows host = detail::host_rows(rows, theta, centre);
+  const detail::HostRows<Real> host = detail::host_rows(rows, theta, centre);
   Matrix3<double> G;
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r) G(r, c) = host.E_h.R(r, c) + host.E_h.t[r] * host.theta_c[c];
@@ -128,12 +130,14 @@ inline Matrix3<double> host_row_warp(const PatchRows& rows, const Vector3<double
 /// The warp as the photometric kernels take it: H = R + t theta^T with an R that is no rotation. For a left increment
 /// xi of T_t_h and an additive one of the plane, those of the kernels are xi' = pose xi and dtheta' = plane dtheta, to
 /// first order in the motion between the patch's centre row and its other rows.
-struct RowWarp {
-  SE3d T_t_h;                                                              ///< M R B and M t of the head of this file.
-  Vector3<double> theta;                                                   ///< B^T theta_c.
-  FixedMatrix<double, 6, 6> pose = FixedMatrix<double, 6, 6>::Identity();  ///< Ad(E_t).
-  Matrix3<double> plane;                                                   ///< B^T d theta_c / d theta.
+TEXTPLANE_DEFERRED
+struct BasicRowWarp {
+  SE3d T_t_h;                                                          ///< M R B and M t of the head of this file.
+  Vector3<Real> theta;                                                 ///< B^T theta_c.
+  FixedMatrix<Real, 6, 6> pose = FixedMatrix<Real, 6, 6>::Identity();  ///< Ad(E_t).
+  Matrix3<Real> plane;                                                 ///< B^T d theta_c / d theta.
 };
+using RowWarp = BasicRowWarp<>;  ///< It is compiled only where it is used.
 
 /// The warp of a patch about the ray `centre` of the host through the plane `theta` (host frame at the time stamp) by
 /// T_t_h, which is between the time stamps. `host`: the patch's rows; `target`: the motion of the target, whose camera
@@ -141,13 +145,14 @@ struct RowWarp {
 TEXTPLANE_DEFERRED
 inline RowWarp row_warp(const Vector3<double>& theta, const SE3d& T_t_h, const Vector3<double>& centre,
                         const PatchRows& host, const RowMotion& target, const CameraView& camera) noexcept {
-  const detail::HostRows from = detail::host_rows(host, theta, centre);
+  const detail::HostRows<Real> from = detail::host_rows(host, theta, centre);
   RowWarp out;
   out.theta = transposed_product(from.B, from.theta_c);
   out.plane = transposed_product(from.B, from.by_theta);
   SE3d T = host.active() ? T_t_h * from.E_h : T_t_h;
   if (target.active()) {
-    const Vector3<double> p = T * Vector3<double>(centre / detail::dot(from.theta_c, centre));
+    const double along = detail::dot(from.theta_c, centre);
+    const Vector3<double> p = T * Vector3<double>(centre[0] / along, centre[1] / along, centre[2] / along);
     const RowProjection seen = project_rows(target, camera, p);
     if (is_ok(seen.status)) {
       const SE3d E = target.at(seen.px[1]);

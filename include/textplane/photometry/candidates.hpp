@@ -40,7 +40,7 @@ Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta,
       if (i == 0) all = box;
       all.add(box);
     }
-    all.middle = 0.5 * (all.low + all.high);
+    for (int k = 0; k < 2; ++k) all.middle[k] = 0.5 * (all.low[k] + all.high[k]);
     fast = fast && detail::fit_lens(*in.lens, all, &fit);
   }
   if (fast) {

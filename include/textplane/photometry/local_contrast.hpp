@@ -74,6 +74,7 @@ class LocalContrast {
 
   /// The intensities and gradients of a patch's level taken anew from an image that begins at (x0, y0) of the level, as
   /// the operator fills it. Pixels outside of it keep what they had. `camera`: of the level, for its lens.
+  TEXTPLANE_DEFERRED
   static void take(const ImageView8& image, int x0, int y0, PatchLevel* level, const CameraView& camera = {}) noexcept {
     for (std::size_t i = 0; i < level->x.size(); ++i) {
       const Vector2<float> px = level->taken(i);

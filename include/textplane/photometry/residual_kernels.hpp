@@ -90,6 +90,7 @@ inline bool take_info(const simd::ResidualInfo& info, int min_visible, ResidualS
 
 /// Sets args->lens to `fit` where the request's target has a lens. False where no fit holds it, and the reference must
 /// take the call.
+TEXTPLANE_DEFERRED
 inline bool fit_request(const KernelRequest& q, simd::ResidualArgs* args, simd::LensFit* fit) noexcept {
   const PatchView& p = q.input.patch;
   const simd::PointBounds bounds = p.bounds.n == p.n ? p.bounds : simd::point_bounds(p.x, p.y, p.n);
@@ -116,6 +117,7 @@ bool kernel_linearise(const KernelRequest& q, PhotometricWorkspace& workspace,
 }
 
 /// evaluate() by the kernels; false where they do not take the request or declined.
+TEXTPLANE_DEFERRED
 inline bool kernel_evaluate(const KernelRequest& q, PhotometricWorkspace& workspace, const std::uint8_t* on_set,
                             PhotometricCost* out) noexcept {
   if (!kernels_take(q, workspace)) return false;

@@ -14,9 +14,10 @@ inline double dot3(const double* p, const double* q) noexcept { return p[0] * q[
 
 // The sums by (v, omega, theta) of T_t_h, seen through d xi(T_t_h) / d (xi_h, xi_t): relative_pose_jacobians(), without
 // products by its zeros. The target's factor is -I, or the negative of the host's, so H has rank 9 at most.
-// (S is double: a template, so that including the header costs little.)
-template <class S>
-void world_sums(const NormalEquations<9>& inner, const SE3<S>& T, bool right, NormalEquations<15>* out) noexcept {
+// (S is double, Relative 9, World 15: a template, so that including the header costs little.)
+template <class S, int Relative, int World>
+void world_sums(const NormalEquations<Relative>& inner, const SE3<S>& T, bool right,
+                NormalEquations<World>* out) noexcept {
   const Matrix3<S> upper = product(hat(T.t), T.R);
   // Of the adjoint: columns 0 to 2 are (R_k, 0), columns 3 to 5 are (X_k, R_k). W is its transpose times the pose's
   // rows.
@@ -52,9 +53,9 @@ void world_sums(const NormalEquations<9>& inner, const SE3<S>& T, bool right, No
 }
 
 // Parameters::host_target_plane of Parameters::pose_plane. H and b mean nothing unless is_ok(out->status).
-template <class T>
-void world_parameters(const NormalEquations<9>& inner, const ResidualRequest<T>& request,
-                      NormalEquations<15>* out) noexcept {
+template <class T, int Relative, int World>
+void world_parameters(const NormalEquations<Relative>& inner, const ResidualRequest<T>& request,
+                      NormalEquations<World>* out) noexcept {
   out->status = inner.status;
   out->path = inner.path;
   if (!is_ok(inner.status)) return;

@@ -32,7 +32,8 @@ struct WindowCalibration {
   Status status = Status::ok;
 
   /// Holds all parameters of the camera.
-  void hold() { sigma = AnyCamera<double>::Parameters::Zero(camera.parameters().size()); }
+  TEXTPLANE_DEFERRED
+  void hold() { sigma.setZero(camera.parameters().size()); }
 };
 
 namespace detail {
@@ -44,6 +45,7 @@ class CalibrationUnknowns {
 
   /// Null: there are none. invalid_argument where the camera is not valid(), sigma or the mean has another length or a
   /// number that is none, or a sigma is negative; then there are none.
+  TEXTPLANE_DEFERRED
   Status set(const WindowCalibration* calibration) noexcept {
     count_ = 0;
     if (!calibration) return Status::ok;

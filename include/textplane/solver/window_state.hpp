@@ -48,6 +48,7 @@ struct WindowState {
   AnyCamera<double> camera;           ///< Of Window::calibration.
   bool camera_possible = true;  ///< False where a step led to one that is not valid(); `camera` is then the old one.
 
+  TEXTPLANE_DEFERRED
   void read(const Window& w) {
     if (w.calibration) camera = w.calibration->camera;
     camera_possible = true;
@@ -63,12 +64,14 @@ struct WindowState {
     for (const WindowText& t : w.texts) landmark.push_back(t.theta);
   }
   /// Gives cameras of rigs the poses that their bases have.
+  TEXTPLANE_DEFERRED
   void follow_bases(const Window& w) {
     for (int f = 0; f < count(w.frames); ++f) {
       const WindowFrame& frame = at(w.frames, f);
       if (frame.base >= 0) at(T_w_c, f) = at(T_w_c, frame.base) * frame.T_b_c;
     }
   }
+  TEXTPLANE_DEFERRED
   void write(Window& w) const {
     if (w.calibration) w.calibration->camera = camera;
     for (std::size_t i = 0; i < w.frames.size(); ++i) w.frames[i].T_w_c = T_w_c[i];

@@ -12,7 +12,7 @@ TEXTPLANE_BEGIN_NAMESPACE
 /// are those of the image as it was taken; `pinhole` is the camera of the undistorted one.
 TEXTPLANE_DEFERRED
 struct BasicCameraView {
-  Pinhole<double> pinhole;        ///< px of level 0, or of the level that at_level() was asked for.
+  Pinhole<Real> pinhole;          ///< px of level 0, or of the level that at_level() was asked for.
   const LensMap* lens = nullptr;  ///< Of normalised coordinates, on all levels the same; null: none.
   /// How the camera moves while it takes the rows of the image, in px of level 0; null: it takes all at once. Its
   /// owner must outlive the view. What takes a pose together with a camera means the pose at the time stamp. Members of
@@ -21,41 +21,41 @@ struct BasicCameraView {
 
   BasicCameraView() = default;
   /// Without a lens.
-  BasicCameraView(const Pinhole<double>& camera) noexcept : pinhole(camera) {}  // NOLINT(google-explicit-constructor)
+  BasicCameraView(const Pinhole<Real>& camera) noexcept : pinhole(camera) {}  // NOLINT(google-explicit-constructor)
   BasicCameraView(double fx, double fy, double cx, double cy) noexcept
       : pinhole(fx, fy, cx, cy) {}  ///< Without a lens.
   /// `map` may be null.
-  BasicCameraView(const Pinhole<double>& camera, const LensMap* map, const RowMotion* motion = nullptr) noexcept
+  BasicCameraView(const Pinhole<Real>& camera, const LensMap* map, const RowMotion* motion = nullptr) noexcept
       : pinhole(camera), lens(map), rows(motion) {}
 
   /// Finite, with positive focal lengths, a lens that sees something, and rows that are valid().
   bool valid() const noexcept { return pinhole.valid() && (!lens || lens->max_r2() > 0) && (!rows || rows->valid()); }
   /// In front of the camera, where the lens has a pixel for it.
-  bool in_domain(const Vector3<double>& p) const noexcept {
+  bool in_domain(const Vector3<Real>& p) const noexcept {
     return p[2] > 0 && (!lens || p[0] * p[0] + p[1] * p[1] <= lens->max_r2() * p[2] * p[2]);
   }
 
   /// Pixel of the normalised point m, which is in the domain.
-  Vector2<double> pixel(const Vector2<double>& m) const noexcept { return pinhole.pixel(lens ? lens->distort(m) : m); }
+  Vector2<Real> pixel(const Vector2<Real>& m) const noexcept { return pinhole.pixel(lens ? lens->distort(m) : m); }
   /// Pixel of the camera-frame point p, which is in the domain. If J is given it receives d pixel / d p (2 x 3).
-  Vector2<double> project(const Vector3<double>& p, FixedMatrix<double, 2, 3>* J = nullptr) const noexcept {
+  Vector2<Real> project(const Vector3<Real>& p, FixedMatrix<Real, 2, 3>* J = nullptr) const noexcept {
     if (!lens) return pinhole.project(p, J);
-    const Vector2<double> m(p[0] / p[2], p[1] / p[2]);
+    const Vector2<Real> m(p[0] / p[2], p[1] / p[2]);
     if (!J) return pinhole.pixel(lens->distort(m));
-    FixedMatrix<double, 2, 2> D;
-    const Vector2<double> distorted = lens->distort(m, &D);
+    FixedMatrix<Real, 2, 2> D;
+    const Vector2<Real> distorted = lens->distort(m, &D);
     D.row(0) *= pinhole.fx;
     D.row(1) *= pinhole.fy;
-    Pinhole<double>().project(p, J);  // d m / d p
+    Pinhole<Real>().project(p, J);  // d m / d p
     *J = product(D, *J);
     return pinhole.pixel(distorted);
   }
   /// Ray m~ = (x/z, y/z, 1) of a pixel. Status::degenerate where it has none, non_finite for NaN; then `m` is
   /// untouched.
-  Status unproject(const Vector2<double>& px, Vector3<double>* m) const noexcept {
+  Status unproject(const Vector2<Real>& px, Vector3<Real>* m) const noexcept {
     if (!lens) return pinhole.unproject(px, m);
-    Vector2<double> straight;
-    const Status status = lens->undistort(pinhole.unproject(px).head<2>(), &straight);
+    Vector2<Real> straight;
+    const Status status = lens->undistort(pinhole.unproject(px).template head<2>(), &straight);
     if (is_ok(status)) *m = {straight[0], straight[1], 1.0};
     return status;
   }

@@ -29,11 +29,7 @@ struct DoubleSphere {
     return {{p[0], p[1], p[2], p[3]}, p[4], p[5]};
   }
   /// fx fy cx cy xi alpha.
-  Eigen::Matrix<S, 6, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 6, 1> p;
-    p << intrinsics.parameters(), xi, alpha;
-    return p;
-  }
+  Eigen::Matrix<S, 6, 1> parameters() const noexcept { return detail::camera_parameters(intrinsics, xi, alpha); }
 
   /// Finite, with positive focal lengths, -1 < xi < 1 and 0 <= alpha <= 1.
   bool valid() const noexcept {
@@ -115,8 +111,6 @@ struct DoubleSphere {
     }
   };
 };
-
-static_assert(is_camera_model<DoubleSphere<double>>::value, "textplane: DoubleSphere is no camera model");
 
 TEXTPLANE_END_NAMESPACE
 

@@ -29,11 +29,7 @@ struct ExtendedUnified {
     return {{p[0], p[1], p[2], p[3]}, p[4], p[5]};
   }
   /// fx fy cx cy alpha beta.
-  Eigen::Matrix<S, 6, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 6, 1> p;
-    p << intrinsics.parameters(), alpha, beta;
-    return p;
-  }
+  Eigen::Matrix<S, 6, 1> parameters() const noexcept { return detail::camera_parameters(intrinsics, alpha, beta); }
 
   /// Finite, with positive focal lengths, 0 <= alpha <= 1 and beta > 0.
   bool valid() const noexcept {
@@ -99,8 +95,6 @@ struct ExtendedUnified {
     return sqrt(beta * (p[0] * p[0] + p[1] * p[1]) + p[2] * p[2]);
   }
 };
-
-static_assert(is_camera_model<ExtendedUnified<double>>::value, "textplane: ExtendedUnified is no camera model");
 
 TEXTPLANE_END_NAMESPACE
 

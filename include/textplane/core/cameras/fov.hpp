@@ -23,11 +23,7 @@ struct Fov {
   /// Of fx fy cx cy omega.
   static Fov from_parameters(const Eigen::Matrix<S, 5, 1>& p) noexcept { return {{p[0], p[1], p[2], p[3]}, p[4]}; }
   /// fx fy cx cy omega.
-  Eigen::Matrix<S, 5, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 5, 1> p;
-    p << intrinsics.parameters(), omega;
-    return p;
-  }
+  Eigen::Matrix<S, 5, 1> parameters() const noexcept { return detail::camera_parameters(intrinsics, omega); }
 
   /// Finite, with positive focal lengths and 0 <= omega < pi.
   bool valid() const noexcept {
@@ -122,8 +118,6 @@ struct Fov {
     }
   };
 };
-
-static_assert(is_camera_model<Fov<double>>::value, "textplane: Fov is no camera model");
 
 TEXTPLANE_END_NAMESPACE
 

@@ -27,11 +27,7 @@ struct KannalaBrandt {
     return {{p[0], p[1], p[2], p[3]}, p[4], p[5], p[6], p[7]};
   }
   /// fx fy cx cy k1 k2 k3 k4.
-  Eigen::Matrix<S, 8, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 8, 1> p;
-    p << intrinsics.parameters(), k1, k2, k3, k4;
-    return p;
-  }
+  Eigen::Matrix<S, 8, 1> parameters() const noexcept { return detail::camera_parameters(intrinsics, k1, k2, k3, k4); }
 
   /// Finite, with positive focal lengths.
   bool valid() const noexcept { return intrinsics.valid() && all_finite(parameters()); }
@@ -125,8 +121,6 @@ struct KannalaBrandt {
     }
   };
 };
-
-static_assert(is_camera_model<KannalaBrandt<double>>::value, "textplane: KannalaBrandt is no camera model");
 
 TEXTPLANE_END_NAMESPACE
 

@@ -12,6 +12,16 @@ TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
 
+// fx fy cx cy, then the coefficients of the lens.
+template <class S, class... Coefficients>
+Eigen::Matrix<S, 4 + static_cast<int>(sizeof...(Coefficients)), 1> camera_parameters(
+    const Pinhole<S>& pinhole, const Coefficients&... coefficients) noexcept {
+  const S all[] = {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, coefficients...};
+  Eigen::Matrix<S, 4 + static_cast<int>(sizeof...(Coefficients)), 1> p;
+  for (int i = 0; i < p.size(); ++i) p[i] = all[i];
+  return p;
+}
+
 // project() of a model with m_d = lens(p, D_p, D_k), which gives its derivatives by p and by the coefficients together.
 template <class Camera, class S>
 Vector2<S> project_through(const Camera& camera, const Vector3<S>& p, FixedMatrix<S, 2, 3>* J_p,

@@ -46,7 +46,7 @@ class BasicLensMap {
   /// s(r2). If it is given, `rise` receives d (r s(r^2)) / d r.
   double radial(double r2, double* rise = nullptr) const noexcept {
     const double r = std::sqrt(r2);
-    FixedMatrix<double, 2, 2> J;
+    FixedMatrix<Real, 2, 2> J;
     const double distorted = radial_.distort({r, 0.0}, &J)[0];
     if (rise) *rise = J(0, 0);
     return r2 > 0 ? distorted / r : J(0, 0);
@@ -64,18 +64,18 @@ class BasicLensMap {
   }
 
   /// m_d of m. If J is given it receives d m_d / d m.
-  Vector2<double> distort(const Vector2<double>& m, FixedMatrix<double, 2, 2>* J = nullptr) const noexcept {
+  Vector2<Real> distort(const Vector2<Real>& m, FixedMatrix<Real, 2, 2>* J = nullptr) const noexcept {
     return camera_.distort(m, J);
   }
   /// The same for any scalar.
   template <class S>
   Vector2<S> distort_as(const Vector2<S>& m) const noexcept {
-    return camera_.cast<S>().distort(m);
+    return camera_.template cast<S>().distort(m);
   }
 
   /// Inverse of distort(): the radial part by safeguarded Newton steps, then Newton's method for the rest, to 1e-12.
   /// Status::degenerate where no ray of the domain goes there, non_finite for NaN; then `m` is untouched.
-  Status undistort(const Vector2<double>& distorted, Vector2<double>* m) const noexcept {
+  Status undistort(const Vector2<Real>& distorted, Vector2<Real>* m) const noexcept {
     if (!all_finite(distorted)) return Status::non_finite;
     const double size = std::sqrt(distorted.squaredNorm());
     double low = 0, high = std::sqrt(max_r2_), r = size < high ? size : high;
@@ -87,10 +87,10 @@ class BasicLensMap {
       if (!(std::abs(next - r) > 1e-15 * r)) break;
       r = next > low && next < high ? next : 0.5 * (low + high);
     }
-    Vector2<double> x = size > 0 ? Vector2<double>(r / size * distorted) : Vector2<double>(0, 0);
+    Vector2<Real> x = size > 0 ? Vector2<Real>(r / size * distorted) : Vector2<Real>(0, 0);
     for (int i = 0; i < 20; ++i) {
-      FixedMatrix<double, 2, 2> J;
-      const Vector2<double> e = distort(x, &J) - distorted;
+      FixedMatrix<Real, 2, 2> J;
+      const Vector2<Real> e = distort(x, &J) - distorted;
       const double det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
       if (!(det > 1e-9) || !all_finite(e)) return Status::degenerate;
       x[0] -= (J(1, 1) * e[0] - J(0, 1) * e[1]) / det;

@@ -80,8 +80,6 @@ struct Pinhole {
   }
 };
 
-static_assert(is_camera_model<Pinhole<double>>::value, "textplane: Pinhole is no camera model");
-
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CAMERAS_PINHOLE_HPP

@@ -27,9 +27,7 @@ struct RadialTangential {
   }
   /// fx fy cx cy k1 k2 p1 p2 k3.
   Eigen::Matrix<S, 9, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 9, 1> p;
-    p << intrinsics.parameters(), k1, k2, p1, p2, k3;
-    return p;
+    return detail::camera_parameters(intrinsics, k1, k2, p1, p2, k3);
   }
 
   /// Finite, with positive focal lengths.
@@ -118,8 +116,6 @@ struct RadialTangential {
     return {intrinsics.template cast<U>(), U(k1), U(k2), U(p1), U(p2), U(k3)};
   }
 };
-
-static_assert(is_camera_model<RadialTangential<double>>::value, "textplane: RadialTangential is no camera model");
 
 TEXTPLANE_END_NAMESPACE
 

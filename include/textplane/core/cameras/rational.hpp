@@ -31,9 +31,7 @@ struct Rational {
   }
   /// fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6.
   Eigen::Matrix<S, 12, 1> parameters() const noexcept {
-    Eigen::Matrix<S, 12, 1> p;
-    p << intrinsics.parameters(), k1, k2, p1, p2, k3, k4, k5, k6;
-    return p;
+    return detail::camera_parameters(intrinsics, k1, k2, p1, p2, k3, k4, k5, k6);
   }
 
   /// Finite, with positive focal lengths.
@@ -133,8 +131,6 @@ struct Rational {
   S above(const S& r2) const noexcept { return S(1) + r2 * (k1 + r2 * (k2 + r2 * k3)); }
   S below(const S& r2) const noexcept { return S(1) + r2 * (k4 + r2 * (k5 + r2 * k6)); }
 };
-
-static_assert(is_camera_model<Rational<double>>::value, "textplane: Rational is no camera model");
 
 TEXTPLANE_END_NAMESPACE
 

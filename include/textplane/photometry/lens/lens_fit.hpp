@@ -67,6 +67,7 @@ inline bool ray_box(const simd::PointBounds& bounds, const Pinhole<double>& host
 }
 
 /// The lens over the rays of a box, as far as it has pixels for them. False where no piece of it holds them all.
+TEXTPLANE_DEFERRED
 inline bool fit_lens(const LensMap& lens, const RayBox& box, simd::LensFit* out) noexcept {
   const double low = box.least_r2(), high = (std::min)(box.most_r2(), lens.max_r2()), at = box.middle.squaredNorm();
   if (!(low < high) || !(at <= lens.max_r2())) return false;
