@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 632b40435422603e
+// Hash of these files: 57ea9cf4b32b93f8
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 632b40435422603e"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 57ea9cf4b32b93f8"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -10133,6 +10133,7 @@ constexpr std::size_t fast_scratch_size(int width) noexcept {
 /// every border. `scratch`: fast_scratch_size(width) bytes, may be null without `suppress`. Writes at most `capacity`
 /// corners to `out`; `*found` is the number of all corners, which may be larger. Status::invalid_argument (and *found =
 /// 0) for an invalid view or a missing buffer. No allocation; any number of threads.
+TEXTPLANE_DEFERRED
 inline Status detect_fast(const ImageView8& image, int threshold, bool suppress, std::uint8_t* scratch, Corner* out,
                           int capacity, int* found) noexcept {
   *found = 0;
@@ -10148,6 +10149,7 @@ inline Status detect_fast(const ImageView8& image, int threshold, bool suppress,
 }
 
 /// The same into a vector, whose content is replaced. Allocates.
+TEXTPLANE_DEFERRED
 inline Status detect_fast(const ImageView8& image, int threshold, bool suppress, std::vector<Corner>& out) {
   out.clear();
   if (!image.valid()) return Status::invalid_argument;
@@ -37041,7 +37043,7 @@ class BasicTextMapping {
     for (const TextPoint& point : points) {
       if (!contains(detection.quad, point.px)) continue;
       const double depth = depth_of(point, T_c_w);
-      Vector3<double> ray;
+      Vector3<Real> ray;
       if (!is_ok(keyframe.camera.unproject(point.px, &ray))) continue;
       if (depth > 0) notes.inside.push_back(depth * ray);
       if (point.id >= 0) notes.rays.emplace_back(point.id, ray);

@@ -84,6 +84,7 @@ constexpr std::size_t fast_scratch_size(int width) noexcept {
 /// every border. `scratch`: fast_scratch_size(width) bytes, may be null without `suppress`. Writes at most `capacity`
 /// corners to `out`; `*found` is the number of all corners, which may be larger. Status::invalid_argument (and *found =
 /// 0) for an invalid view or a missing buffer. No allocation; any number of threads.
+TEXTPLANE_DEFERRED
 inline Status detect_fast(const ImageView8& image, int threshold, bool suppress, std::uint8_t* scratch, Corner* out,
                           int capacity, int* found) noexcept {
   *found = 0;
@@ -99,6 +100,7 @@ inline Status detect_fast(const ImageView8& image, int threshold, bool suppress,
 }
 
 /// The same into a vector, whose content is replaced. Allocates.
+TEXTPLANE_DEFERRED
 inline Status detect_fast(const ImageView8& image, int threshold, bool suppress, std::vector<Corner>& out) {
   out.clear();
   if (!image.valid()) return Status::invalid_argument;

@@ -198,7 +198,7 @@ class BasicTextMapping {
     for (const TextPoint& point : points) {
       if (!contains(detection.quad, point.px)) continue;
       const double depth = depth_of(point, T_c_w);
-      Vector3<double> ray;
+      Vector3<Real> ray;
       if (!is_ok(keyframe.camera.unproject(point.px, &ray))) continue;
       if (depth > 0) notes.inside.push_back(depth * ray);
       if (point.id >= 0) notes.rays.emplace_back(point.id, ray);
