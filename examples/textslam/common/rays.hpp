@@ -47,6 +47,15 @@ inline Vec3 ray_of(const CameraView& camera, const Vec2& px) {
   return ray;
 }
 
+/// The ray of what a pixel shows, if it is far away, at the frame's pose: behind a rolling shutter the row took it from
+/// another.
+inline Vec3 ray_at_pose(const CameraView& camera, const Vec2& px) {
+  const Vec3 ray = ray_of(camera, px);
+  if (!camera.rows) return ray;
+  const Vec3 turned = camera.rows->at(px.y()).R.transpose() * ray;
+  return turned / turned.z();
+}
+
 /// Rays of the corners of a quad. False where one has none; *rays may then hold anything.
 inline bool rays_of(const CameraView& camera, const Quad<double>& quad, std::array<Vec3, 4>* rays) {
   for (std::size_t i = 0; i < 4; ++i)

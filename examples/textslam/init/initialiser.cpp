@@ -1,6 +1,7 @@
 #include "textslam/init/initialiser.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "textplane/geometry/quad.hpp"
 #include "textslam/adjust/adjustment.hpp"
@@ -14,6 +15,18 @@
 #include "textslam/track/track_from_keyframe.hpp"
 
 namespace textslam {
+
+namespace {
+
+// Where a frame shows what the pixel does, had the camera stood still while the rows were taken. All that looks for the
+// motion of two views takes these.
+Vec2 standing(const Frame& frame, const CameraView& camera, const Vec2& px) {
+  if (!frame.rows) return px;
+  const Vec3 ray = ray_at_pose({camera.pinhole, camera.lens, frame.rows.get()}, px);
+  return camera.in_domain(ray) ? camera.project(ray) : px;
+}
+
+}  // namespace
 
 void Initialiser::restart(const Frame& frame, const CameraView& camera) {
   reference_ = last_ = frame;
@@ -43,6 +56,7 @@ void Initialiser::add_detections(int frame, std::vector<Detection> detections, c
 
 bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) {
   if (tracks_.empty()) {
+    turns_.clear();
     restart(frame, map.camera);
     return false;
   }
@@ -54,14 +68,37 @@ bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) 
   }
   advance_tracks(last_, frame, map.camera, guesses, parameters_, tracks_);
   if (last_.index == reference_.index) beside_ = frame;
-  last_ = frame;
+  Frame newest = frame;
+  if (map.shutter.active() || parameters_.estimate_readout) roll(prior.R_b_a, map.shutter, &newest);
+  last_ = std::move(newest);
   if (static_cast<int>(tracks_.size()) < matches_needed()) {
-    restart(frame, map.camera);
+    restart(Frame(last_), map.camera);
     return false;
   }
   const std::optional<Motion> motion =
       hypotheses_.empty() ? motion_of_two_views(map.camera) : motion_of_hypotheses(map.camera);
-  return motion && build(frame, *motion, map, tracks);
+  return motion && build(last_, *motion, map, tracks);
+}
+
+// The rows of the newest frame, and of the reference where that is the one before.
+void Initialiser::roll(const Eigen::Matrix3d& R_newest_last, const textplane::RollingShutter& shutter, Frame* newest) {
+  const double seconds = newest->timestamp - last_.timestamp;
+  if (!(seconds > 0)) return;
+  turns_.add(R_newest_last, seconds);
+  newest->rows = turning_rows(turns_.newest(), shutter);
+  if (last_.index == reference_.index) {
+    reference_.rows = turning_rows(turns_.before(), shutter);
+    reference_unsure_ = turns_.unsure();
+  }
+}
+
+// Radians, of the direction of translation. A wrong motion of the rows is an error that matches share, so it does not
+// get smaller with their number. `off` is its root mean square over the rows; the parallax tells the direction.
+double Initialiser::error_of_rows(double parallax) const {
+  if (!last_.rows) return 0;
+  const double off =
+      std::abs(last_.rows->shutter.readout) / std::sqrt(12.0) * std::max(reference_unsure_, turns_.unsure());
+  return off > 0 ? off / radians(parallax) : 0;
 }
 
 // Corners on texts are strong ones, and fewer of them do. An image that shows few corners cannot lose many of them, and
@@ -83,12 +120,13 @@ int Initialiser::matches_needed() const {
 std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const CameraView& camera) {
   std::vector<Vec3> a, b;
   for (const Track& track : tracks_) {
-    a.push_back(ray_of(camera, track.observations[0].px));
-    b.push_back(ray_of(camera, track.px.cast<double>()));
+    a.push_back(ray_of(camera, standing(reference_, camera, track.observations[0].px)));
+    b.push_back(ray_of(camera, standing(last_, camera, track.px.cast<double>())));
   }
   const TwoView view = estimate_two_view(a, b, camera.pinhole.fx, parameters_);
   if (!view.ok || view.inliers < matches_needed() || view.parallax < parameters_.init_min_parallax ||
-      view.direction_sigma > parameters_.init_max_direction || view.rms > parameters_.init_max_rms)
+      std::hypot(view.direction_sigma, error_of_rows(view.parallax)) > parameters_.init_max_direction ||
+      view.rms > parameters_.init_max_rms)
     return std::nullopt;
   const double limit = clear_ratio(static_cast<double>(a.size()) - kTwoViewFreedom, parameters_.init_clear);
   std::vector<SE3d> close;
@@ -97,7 +135,7 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const Camera
   if (close.size() < 2) return Motion{view.T_b_a, view.inlier};
   hypotheses_.begin(close);
   began_ = last_.timestamp;
-  for (Track& track : tracks_) track.observations.push_back({1, track.px.cast<double>()});
+  for (Track& track : tracks_) track.observations.push_back({1, standing(last_, camera, track.px.cast<double>())});
   return std::nullopt;
 }
 
@@ -108,9 +146,12 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const Camer
   const bool full = static_cast<int>(tracks_[0].observations.size()) >= parameters_.init_views;
   for (Track& track : tracks_) {
     if (full) track.observations.pop_back();
-    track.observations.push_back({static_cast<int>(track.observations.size()), track.px.cast<double>()});
+    track.observations.push_back(
+        {static_cast<int>(track.observations.size()), standing(last_, camera, track.px.cast<double>())});
   }
-  hypotheses_.judge(tracks_, camera, full);
+  std::vector<Track> all_standing = tracks_;
+  for (Track& track : all_standing) track.observations[0].px = standing(reference_, camera, track.observations[0].px);
+  hypotheses_.judge(all_standing, camera, full);
   if (hypotheses_.rms() > parameters_.init_max_rms) {
     restart(last_, camera);
     return std::nullopt;
@@ -119,7 +160,9 @@ std::optional<Initialiser::Motion> Initialiser::motion_of_hypotheses(const Camer
   const Motion best{hypotheses_.T_newest_a(), hypotheses_.inlier()};
   if (std::count(best.inlier.begin(), best.inlier.end(), 1) < matches_needed()) return std::nullopt;
   // The camera may have come back to where it began.
-  if (parallax(best, camera) < parameters_.init_min_parallax) return std::nullopt;
+  const double found = parallax(best, camera);
+  if (found < parameters_.init_min_parallax || error_of_rows(found) > parameters_.init_max_direction)
+    return std::nullopt;
   return best;
 }
 
@@ -128,8 +171,8 @@ double Initialiser::parallax(const Motion& motion, const CameraView& camera) con
   std::vector<double> angles;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!motion.inlier[i]) continue;
-    const Vec3 turned = motion.T_b_a.R * ray_of(camera, tracks_[i].observations[0].px);
-    angles.push_back(degrees_between(turned, ray_of(camera, tracks_[i].px.cast<double>())));
+    const Vec3 turned = motion.T_b_a.R * ray_of(camera, standing(reference_, camera, tracks_[i].observations[0].px));
+    angles.push_back(degrees_between(turned, ray_of(camera, standing(last_, camera, tracks_[i].px.cast<double>()))));
   }
   return median(std::move(angles));
 }

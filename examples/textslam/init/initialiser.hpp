@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "textslam/init/motion_hypotheses.hpp"
+#include "textslam/track/frame_turns.hpp"
 
 namespace textslam {
 
@@ -35,18 +36,22 @@ class Initialiser {
   };
 
   void restart(const Frame& frame, const CameraView& camera);
+  void roll(const Eigen::Matrix3d& R_newest_last, const textplane::RollingShutter& shutter, Frame* newest);
   int matches_needed() const;
   std::optional<Motion> motion_of_two_views(const CameraView& camera);
   std::optional<Motion> motion_of_hypotheses(const CameraView& camera);
+  double error_of_rows(double parallax) const;
   double parallax(const Motion& motion, const CameraView& camera) const;
   bool build(const Frame& frame, const Motion& motion, Map& map, std::vector<Track>* tracks);
 
   const Parameters& parameters_;
   Frame reference_, beside_, last_;  // beside_: the frame after the reference
-  std::vector<Track> tracks_;        // observations: in the reference frame, then in the views of the hypotheses
+  std::vector<Track> tracks_;        // observations: in the reference frame, then in the hypotheses' views, standing
   int corners_ = 0;                  // that the reference frame had
   MotionHypotheses hypotheses_;      // empty while two views may decide
   double began_ = 0;                 // time of the frame that the hypotheses are from, s
+  FrameTurns turns_;                 // behind a rolling shutter
+  double reference_unsure_ = 0;      // of the reference's rows, as FrameTurns has it
 };
 
 }  // namespace textslam

@@ -148,12 +148,13 @@ PointMatch point_match(const Map& map, const Parameters& parameters, int point, 
 
 // The corner most like each point, near where a pose expects it: there it need not be clearly more alike than others.
 void add_expected(const Map& map, const Parameters& parameters, const std::vector<CornerLook>& looks,
-                  const std::vector<CornerLook>& in_frame, const SE3d& T_c_w, std::vector<PointMatch>* matches) {
+                  const std::vector<CornerLook>& in_frame, const CameraView& camera, const SE3d& T_c_w,
+                  std::vector<PointMatch>* matches) {
   for (std::size_t i = 0; i < looks.size();) {
     const int point = looks[i].point;
-    const Vec3 p = T_c_w * map.point(point).p_w;
-    Vec2f px = Vec2f::Constant(-1e6F);  // out of reach
-    if (map.camera.in_domain(p)) px = map.camera.project(p).cast<float>();
+    Vec2 seen = Vec2::Constant(-1e6);  // out of reach
+    show(camera, T_c_w * map.point(point).p_w, &seen);
+    const Vec2f px = seen.cast<float>();
     const CornerLook* found = nullptr;
     int best = parameters.place_max_bits + 1;
     for (; i < looks.size() && looks[i].point == point; ++i)
@@ -218,12 +219,14 @@ MatchedPose pose_by_places(const Map& map, const Parameters& parameters, FrameLo
       if (has_ray(map.camera, match.found->px.cast<double>()))
         matches.push_back(point_match(map, parameters, match.point, *match.found));
   }
-  MatchedPose pose = pose_of_matches(matches, map.camera, map.keyframe(keyframes.front()).T_w_c.inverse(), parameters);
+  const CameraView camera = map.view_of(looks.frame());
+  MatchedPose pose = pose_of_matches(matches, camera, map.keyframe(keyframes.front()).T_w_c.inverse(), parameters);
   if (pose.inliers >= parameters.place_first_inliers) {
     matches.clear();
     for (const int id : keyframes)
-      add_expected(map, parameters, looks_still_observed(map, id, parameters), looks.all(), pose.T_c_w, &matches);
-    const MatchedPose settled = settled_pose(matches, map.camera, pose.T_c_w, parameters);
+      add_expected(map, parameters, looks_still_observed(map, id, parameters), looks.all(), camera, pose.T_c_w,
+                   &matches);
+    const MatchedPose settled = settled_pose(matches, camera, pose.T_c_w, parameters);
     if (settled.inliers >= pose.inliers) pose = settled;
   }
   if (pose.inliers < parameters.place_min_inliers) pose.inliers = 0;

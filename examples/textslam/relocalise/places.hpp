@@ -36,6 +36,7 @@ class FrameLooks {
 
   const std::vector<CornerLook>& all();     ///< Corners of all levels, strongest first on each.
   const std::vector<CornerLook>& strong();  ///< Of the coarser levels, few.
+  const Frame& frame() const { return frame_; }
 
  private:
   void describe();

@@ -43,9 +43,9 @@ class Draws {
 };
 
 bool agrees(const PointMatch& match, const CameraView& camera, const Parameters& parameters, const SE3d& T_c_w) {
-  const Vec3 p = T_c_w * match.p_w;
-  if (!camera.in_domain(p)) return false;
-  const double chi2 = (camera.project(p) - match.px).squaredNorm() / (match.sigma * match.sigma);
+  Vec2 px;
+  if (!show(camera, T_c_w * match.p_w, &px)) return false;
+  const double chi2 = (px - match.px).squaredNorm() / (match.sigma * match.sigma);
   return is_pose_inlier(parameters, static_cast<float>(chi2));
 }
 
@@ -131,7 +131,7 @@ MatchedPose pose_of_matches(const std::vector<PointMatch>& matches, const Camera
     for (std::size_t i = 0; i < 3; ++i) {
       const PointMatch& match = matches[draws.below(matches.size())];
       p_w[i] = match.p_w;
-      rays[i] = ray_of(camera, match.px);
+      rays[i] = ray_at_pose(camera, match.px);
       seen[i] = T_near * match.p_w;
     }
     // What looks larger than nearby is as much nearer.

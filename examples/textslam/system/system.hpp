@@ -121,10 +121,12 @@ class System {
   void map_changed(const SE3d& T_c_w, FrameRecord* newest, double scale = 1);
   SE3d middle_pose(const FrameRecord& record) const { return map_.keyframe(record.keyframe).T_w_c * record.T_k_c; }
   SE3d at_stamp(const FrameRecord& record, const SE3d& T_w_c) const;
+  const std::shared_ptr<const textplane::RowMotion>& rows_of(const FrameRecord& record) const;
   bool is_rolling() const;
   bool is_readout_due() const;
   void set_readout(double seconds);
   void estimate_readout();
+  Frame turned(const Frame& frame);
   void roll_first_keyframe();
   void roll(std::size_t index);
   void roll_all();
@@ -144,7 +146,7 @@ class System {
   void apply(const LoopCorrection& correction);
 
   // system_maps.cpp
-  bool recover(const Frame& frame, FrameRecord& record);
+  bool recover(const Frame& taken, FrameRecord& record);
   void store_map();
   void take_map(std::size_t stored);
   void join_stored(const Frame& frame, FrameRecord& record);
@@ -161,6 +163,8 @@ class System {
   int earlier_ = -1;         // number of the map of earlier sessions
   bool only_localises_ = false;
   Initialiser initialiser_;
+  FrameTurns turns_;  // of frames without a pose; behind a rolling shutter, as is the next
+  Frame previous_;
   TextMapper text_mapper_;
   Adjuster adjuster_;
   std::unique_ptr<Tracker> tracker_;  // null until the map begins

@@ -32,7 +32,8 @@ void System::fill_in(const std::function<Frame(int)>& load) {
       continue;
     }
     if (!going) {
-      const Frame start = load(index + 1);
+      Frame start = load(index + 1);
+      start.rows = rows_of(next);
       const SE3d T_c_w = middle_pose(next).inverse();
       backwards.start(start, T_c_w, observe_from(map_, parameters_, start, T_c_w).tracks);
     }

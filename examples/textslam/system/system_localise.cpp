@@ -41,6 +41,7 @@ const FrameRecord& System::localise(const Frame& frame, FrameRecord& record) {
     record.by = FoundBy::nothing;
     ++lost_frames_;
   }
+  if (is_rolling()) previous_ = frame;
   return record;
 }
 

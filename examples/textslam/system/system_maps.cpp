@@ -29,8 +29,9 @@ void System::take_map(std::size_t stored) {
   map_changed({}, nullptr);
 }
 
-bool System::recover(const Frame& frame, FrameRecord& record) {
+bool System::recover(const Frame& taken, FrameRecord& record) {
   Relocalisation found;
+  const Frame frame = turned(taken);
   FrameLooks looks(frame, parameters_);
   if (!map_.keyframes.empty()) found = relocalise(map_, parameters_, frame, looks, true);
   // The map that was left last is the likeliest.
@@ -55,9 +56,11 @@ bool System::recover(const Frame& frame, FrameRecord& record) {
 // sessions never does, so that its world and its ids stay.
 void System::join_stored(const Frame& frame, FrameRecord& record) {
   if (map_.number == earlier_) return;
-  FrameLooks looks(frame, parameters_);
+  Frame in_stored = frame;  // lengths of a stored map differ, turns do not
+  if (const auto& rows = tracker_->frame().rows) in_stored.rows = turning_rows(rows->velocity.tail<3>(), rows->shutter);
+  FrameLooks looks(in_stored, parameters_);
   for (std::size_t i = stored_.size(); i > 0; --i) {
-    const Relocalisation seen = relocalise(stored_[i - 1], parameters_, frame, looks, false);
+    const Relocalisation seen = relocalise(stored_[i - 1], parameters_, in_stored, looks, false);
     if (!seen.ok) continue;
     take_over(adjuster_.settle(map_));
     const MapLink link = link_maps(stored_[i - 1], map_, parameters_, seen);

@@ -5,6 +5,7 @@
 #include "textslam/adjust/adjustment.hpp"
 #include "textslam/adjust/readout.hpp"
 #include "textslam/system/system.hpp"
+#include "textslam/track/rotation_prior.hpp"
 #include "textslam/track/tracker.hpp"
 
 namespace textslam {
@@ -18,15 +19,32 @@ constexpr double kLongest = 0.1;  // s, readout either way
 // row would be the middle's less half a readout of motion. That motion is told by the poses before, so errors of poses
 // would feed themselves, and grow where the readout takes nearly a frame's time.
 SE3d System::at_stamp(const FrameRecord& record, const SE3d& T_w_c) const {
-  const KeyFrame& keyframe = map_.keyframe(record.keyframe);
-  const int index = keyframe.frame.index;  // negative where it is of an earlier session
-  const bool is_keyframe = index >= 0 && &records_[static_cast<std::size_t>(index)] == &record;
-  const auto& rows = is_keyframe ? keyframe.frame.rows : record.rows;
+  const auto& rows = rows_of(record);
   if (!rows || stamp_row_ == map_.shutter.row0) return T_w_c;
   return T_w_c * rows->at(stamp_row_).inverse();
 }
 
+// A key frame's are those of the map, which adjustments correct.
+const std::shared_ptr<const textplane::RowMotion>& System::rows_of(const FrameRecord& record) const {
+  const KeyFrame& keyframe = map_.keyframe(record.keyframe);
+  const int index = keyframe.frame.index;  // negative where it is of an earlier session
+  const bool is_keyframe = index >= 0 && &records_[static_cast<std::size_t>(index)] == &record;
+  return is_keyframe ? keyframe.frame.rows : record.rows;
+}
+
 bool System::is_rolling() const { return map_.shutter.active() || parameters_.estimate_readout; }
+
+// A frame without a pose, with the motion of its rows by the turn from the frame before.
+Frame System::turned(const Frame& frame) {
+  Frame out = frame;
+  const double seconds = frame.timestamp - previous_.timestamp;
+  if (!is_rolling() || records_.size() < 2 || !(seconds > 0)) return out;
+  if (records_[records_.size() - 2].state == FrameState::tracked) turns_.clear();
+  const RotationPrior prior = find_rotation(previous_, frame, map_.camera, Eigen::Matrix3d::Identity(), parameters_);
+  turns_.add(prior.R_b_a, seconds);
+  out.rows = turning_rows(turns_.newest(), map_.shutter);
+  return out;
+}
 
 // The first key frame of a new map has no frame before it: the one after it tells.
 void System::roll_first_keyframe() {
@@ -38,8 +56,8 @@ void System::roll_first_keyframe() {
   tracker.start(first.frame, T_c_w, tracks_of_keyframe(map_, 0));
   const TrackReport report = tracker.track(beside);
   if (!report.ok) return;
-  const textplane::RowMotion rows{
-      textplane::velocity_between(T_c_w, report.T_c_w, beside.timestamp - first.frame.timestamp), map_.shutter};
+  textplane::RowMotion rows{textplane::velocity_between(T_c_w, report.T_c_w, beside.timestamp - first.frame.timestamp),
+                            map_.shutter};
   map_.set_rows(0, std::make_shared<const textplane::RowMotion>(rows));
 }
 
@@ -56,7 +74,7 @@ void System::roll(std::size_t index) {
              has_after = index + 1 < records_.size() && is_tracked(records_[index + 1]);
   const int id = record.keyframe;
   const bool is_keyframe = map_.keyframe(id).frame.index == static_cast<int>(index);
-  const bool known = (is_keyframe ? map_.keyframe(id).frame.rows : record.rows) != nullptr;
+  const bool known = record.rows != nullptr;
   if ((!has_before && !has_after) || (known && !(has_before && has_after))) return;
   const FrameRecord &before = has_before ? records_[index - 1] : record,
                     &after = has_after ? records_[index + 1] : record;

@@ -28,13 +28,13 @@ TrackReport Tracker::track(const Frame& taken) {
   const double t0 = now_ms();
   Frame frame = taken;
   const SE3d predicted = predict(frame);
-  roll(predicted, &frame);
+  roll(predicted, taken, &frame);
   std::vector<Track> corners = take_corners();
   follow_points(frame, predicted);
   const double t1 = now_ms();
   SE3d pose = predicted;
   if (!fit_pose(frame, false, &pose, &report)) pose = predicted;
-  roll(pose, &frame);
+  roll(pose, taken, &frame);
   const double t2 = now_ms();
   follow_corners(frame, pose, std::move(corners));
   const double t3 = now_ms();
@@ -50,7 +50,7 @@ TrackReport Tracker::track(const Frame& taken) {
 
   for (const Track& track : tracks_)
     if (track.point >= 0 && track.inlier) report.found.push_back(track.point);
-  roll(pose, &frame);
+  roll(pose, taken, &frame);
   velocity_ = pose * T_c_w_.inverse();
   seconds_ = frame.timestamp - frame_.timestamp;
   speed_ = textplane::velocity_between(T_c_w_, pose, seconds_);
@@ -60,10 +60,10 @@ TrackReport Tracker::track(const Frame& taken) {
   return report;
 }
 
-// The motion of a frame's rows, if its pose is this: that between the last two frames, and as much on as it changed
-// there.
-void Tracker::roll(const SE3d& T_c_w, Frame* frame) const {
-  if (!map_.shutter.active() && !parameters_.estimate_readout) return;
+// The motion of a frame's rows, if its pose is this and the motion is not known: that between the last two frames, and
+// as much on as it changed there.
+void Tracker::roll(const SE3d& T_c_w, const Frame& taken, Frame* frame) const {
+  if (taken.rows || (!map_.shutter.active() && !parameters_.estimate_readout)) return;
   const double seconds = frame->timestamp - frame_.timestamp;
   const Vector6 speed = textplane::velocity_between(T_c_w_, T_c_w, seconds);
   const double share = moving_ && seconds_ * seconds > 0 ? seconds / (seconds + seconds_) : 0;

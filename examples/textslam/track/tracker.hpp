@@ -38,7 +38,8 @@ class Tracker {
   void look_for(const LocalMap* local) { local_ = local; }
   /// Begins at a frame of known pose, at rest, with tracks whose positions are in that frame.
   void start(const Frame& frame, const SE3d& T_c_w, std::vector<Track> tracks);
-  /// The next frame. On failure the tracks are those that survived and the pose is the prediction.
+  /// The next frame. Behind a rolling shutter its `rows` are taken as known where they are given. On failure the
+  /// tracks are those that survived and the pose is the prediction.
   TrackReport track(const Frame& taken);
   /// After the map changed: the last frame's pose in it, and the factor of lengths around the frame.
   void correct(const SE3d& T_c_w, double scale = 1);
@@ -54,7 +55,7 @@ class Tracker {
   };
 
   SE3d predict(const Frame& frame) const;
-  void roll(const SE3d& T_c_w, Frame* frame) const;
+  void roll(const SE3d& T_c_w, const Frame& taken, Frame* frame) const;
   std::vector<Track> take_corners();
   Vec2f guess(const Frame& frame, const Vec3& p_c, const Vec2f& otherwise) const;
   void follow_points(const Frame& frame, const SE3d& predicted);

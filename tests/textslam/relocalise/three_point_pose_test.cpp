@@ -80,5 +80,30 @@ TEST(ThreePointPoseTest, MostMatchesMayBeWrong) {
   EXPECT_EQ(pose_of_matches(matches, camera(), SE3d{}, parameters).inliers, 0);
 }
 
+TEST(ThreePointPoseTest, RowsThatMovedAreKnown) {
+  std::mt19937 random(7);
+  const Parameters parameters;
+  const std::vector<Vec3> points = scene(120, false, random);
+  const SE3d truth = moved({0.3, -0.1, 0.2}, {0.05, -0.2, 0.1});
+  textplane::RowMotion rows;
+  rows.shutter.readout = 0.03;
+  rows.shutter.rows = 480;
+  rows.shutter.row0 = 239.5;
+  rows.velocity << 0.1, 0, -0.2, 0.4, -1.1, 0.3;
+  const CameraView still = camera();
+  const CameraView rolling{still.pinhole, still.lens, &rows};
+  std::vector<PointMatch> matches;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Vec2 px;
+    if (show(rolling, truth * points[i], &px)) matches.push_back({static_cast<int>(i), points[i], px, 1});
+  }
+  ASSERT_GT(matches.size(), 60U);
+  const MatchedPose found = pose_of_matches(matches, rolling, SE3d{}, parameters);
+  EXPECT_EQ(found.inliers, static_cast<int>(matches.size()));
+  EXPECT_LT(rotation_error(found.T_c_w, truth), 1e-5);
+  EXPECT_LT((found.T_c_w.t - truth.t).norm(), 1e-4);
+  EXPECT_LT(pose_of_matches(matches, still, SE3d{}, parameters).inliers, static_cast<int>(matches.size() / 2));
+}
+
 }  // namespace three_point_pose_test
 }  // namespace textslam
