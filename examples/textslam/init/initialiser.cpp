@@ -18,11 +18,14 @@ namespace textslam {
 
 namespace {
 
-// Where a frame shows what the pixel does, had the camera stood still while the rows were taken. All that looks for the
-// motion of two views takes these.
+// The ray of a pixel of the frame, had the camera stood still while the rows were taken. All that looks for the motion
+// of two views takes these, or their pixels.
+Vec3 standing_ray(const Frame& frame, const CameraView& camera, const Vec2& px) {
+  return ray_at_pose({camera.pinhole, camera.lens, frame.rows.get()}, px);
+}
 Vec2 standing(const Frame& frame, const CameraView& camera, const Vec2& px) {
   if (!frame.rows) return px;
-  const Vec3 ray = ray_at_pose({camera.pinhole, camera.lens, frame.rows.get()}, px);
+  const Vec3 ray = standing_ray(frame, camera, px);
   return camera.in_domain(ray) ? camera.project(ray) : px;
 }
 
@@ -69,10 +72,10 @@ bool Initialiser::add(const Frame& frame, Map& map, std::vector<Track>* tracks) 
   advance_tracks(last_, frame, map.camera, guesses, parameters_, tracks_);
   if (last_.index == reference_.index) beside_ = frame;
   Frame newest = frame;
-  if (map.shutter.active() || parameters_.estimate_readout) roll(prior.R_b_a, map.shutter, &newest);
+  if (is_rolling(map, parameters_)) roll(prior.R_b_a, map.shutter, &newest);
   last_ = std::move(newest);
   if (static_cast<int>(tracks_.size()) < matches_needed()) {
-    restart(Frame(last_), map.camera);
+    restart(last_, map.camera);
     return false;
   }
   const std::optional<Motion> motion =
@@ -120,8 +123,8 @@ int Initialiser::matches_needed() const {
 std::optional<Initialiser::Motion> Initialiser::motion_of_two_views(const CameraView& camera) {
   std::vector<Vec3> a, b;
   for (const Track& track : tracks_) {
-    a.push_back(ray_of(camera, standing(reference_, camera, track.observations[0].px)));
-    b.push_back(ray_of(camera, standing(last_, camera, track.px.cast<double>())));
+    a.push_back(standing_ray(reference_, camera, track.observations[0].px));
+    b.push_back(standing_ray(last_, camera, track.px.cast<double>()));
   }
   const TwoView view = estimate_two_view(a, b, camera.pinhole.fx, parameters_);
   if (!view.ok || view.inliers < matches_needed() || view.parallax < parameters_.init_min_parallax ||
@@ -171,8 +174,8 @@ double Initialiser::parallax(const Motion& motion, const CameraView& camera) con
   std::vector<double> angles;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!motion.inlier[i]) continue;
-    const Vec3 turned = motion.T_b_a.R * ray_of(camera, standing(reference_, camera, tracks_[i].observations[0].px));
-    angles.push_back(degrees_between(turned, ray_of(camera, standing(last_, camera, tracks_[i].px.cast<double>()))));
+    const Vec3 turned = motion.T_b_a.R * standing_ray(reference_, camera, tracks_[i].observations[0].px);
+    angles.push_back(degrees_between(turned, standing_ray(last_, camera, tracks_[i].px.cast<double>())));
   }
   return median(std::move(angles));
 }

@@ -98,6 +98,11 @@ struct Map {
   }
 };
 
+/// Whether the rows' motion counts, or may once the readout is found.
+inline bool is_rolling(const Map& map, const Parameters& parameters) {
+  return map.shutter.active() || parameters.estimate_readout;
+}
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_MAP_MAP_HPP

@@ -30,6 +30,7 @@ void System::take_map(std::size_t stored) {
 }
 
 bool System::recover(const Frame& taken, FrameRecord& record) {
+  if (map_.keyframes.empty() && stored_.empty()) return false;
   Relocalisation found;
   const Frame frame = turned(taken);
   FrameLooks looks(frame, parameters_);
@@ -55,7 +56,7 @@ bool System::recover(const Frame& taken, FrameRecord& record) {
 // The key frame just added may show a stored map. Then the map that is worked on moves into it; the map of earlier
 // sessions never does, so that its world and its ids stay.
 void System::join_stored(const Frame& frame, FrameRecord& record) {
-  if (map_.number == earlier_) return;
+  if (map_.number == earlier_ || stored_.empty()) return;
   Frame in_stored = frame;  // lengths of a stored map differ, turns do not
   if (const auto& rows = tracker_->frame().rows) in_stored.rows = turning_rows(rows->velocity.tail<3>(), rows->shutter);
   FrameLooks looks(in_stored, parameters_);

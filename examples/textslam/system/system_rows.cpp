@@ -32,7 +32,7 @@ const std::shared_ptr<const textplane::RowMotion>& System::rows_of(const FrameRe
   return is_keyframe ? keyframe.frame.rows : record.rows;
 }
 
-bool System::is_rolling() const { return map_.shutter.active() || parameters_.estimate_readout; }
+bool System::is_rolling() const { return textslam::is_rolling(map_, parameters_); }
 
 // A frame without a pose, with the motion of its rows by the turn from the frame before.
 Frame System::turned(const Frame& frame) {
@@ -56,8 +56,8 @@ void System::roll_first_keyframe() {
   tracker.start(first.frame, T_c_w, tracks_of_keyframe(map_, 0));
   const TrackReport report = tracker.track(beside);
   if (!report.ok) return;
-  textplane::RowMotion rows{textplane::velocity_between(T_c_w, report.T_c_w, beside.timestamp - first.frame.timestamp),
-                            map_.shutter};
+  const textplane::RowMotion rows{
+      textplane::velocity_between(T_c_w, report.T_c_w, beside.timestamp - first.frame.timestamp), map_.shutter};
   map_.set_rows(0, std::make_shared<const textplane::RowMotion>(rows));
 }
 

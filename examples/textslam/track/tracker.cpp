@@ -63,7 +63,7 @@ TrackReport Tracker::track(const Frame& taken) {
 // The motion of a frame's rows, if its pose is this and the motion is not known: that between the last two frames, and
 // as much on as it changed there.
 void Tracker::roll(const SE3d& T_c_w, const Frame& taken, Frame* frame) const {
-  if (taken.rows || (!map_.shutter.active() && !parameters_.estimate_readout)) return;
+  if (taken.rows || !is_rolling(map_, parameters_)) return;
   const double seconds = frame->timestamp - frame_.timestamp;
   const Vector6 speed = textplane::velocity_between(T_c_w_, T_c_w, seconds);
   const double share = moving_ && seconds_ * seconds > 0 ? seconds / (seconds + seconds_) : 0;
