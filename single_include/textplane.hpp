@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 57ea9cf4b32b93f8
+// Hash of these files: 10163e359a4d67c4
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 57ea9cf4b32b93f8"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 10163e359a4d67c4"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -36648,43 +36648,7 @@ class BasicTextRefiner {
       : options_(options), keyframes_(keyframes) {}
 
   /// Theta and covariance of a text with a plane. `points`, if given: of the map, for the surface that it lies on.
-  Refinement refine(TextObject& text, const PointLookup* points = nullptr) {
-    const std::vector<View> views = views_of(text);
-    double largest = 0;
-    for (const View& view : views) largest = (std::max)(largest, view.area);
-    std::vector<int> hosts;
-    for (std::size_t i = 0; i < views.size(); ++i)
-      if (views[i].area >= options_.refine_area * largest) hosts.push_back(static_cast<int>(i));
-    std::vector<Estimate> estimates;
-    for (const int i : evenly_spaced(hosts, static_cast<std::size_t>(options_.refine_hosts))) {
-      Estimate e;
-      if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
-    }
-    if (estimates.empty()) return Refinement::failed;
-    // A host that is blurred itself is similar to none of its targets.
-    double most = 0;
-    for (const Estimate& e : estimates) most = (std::max)(most, e.zncc);
-    const double limit = options_.refine_max_dissimilarity * (1 - most);
-    estimates.erase(
-        std::remove_if(estimates.begin(), estimates.end(), [&](const Estimate& e) { return 1 - e.zncc > limit; }),
-        estimates.end());
-    const double n = static_cast<double>(estimates.size());
-    Vector3<Real> mean = Vector3<Real>::Zero();
-    Matrix3<Real> covariance = Matrix3<Real>::Zero();
-    for (const Estimate& e : estimates) mean += e.theta / n;
-    for (const Estimate& e : estimates)
-      covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
-    TextObject refined = outline_of(text.patch, mean);
-    refined.covariance = covariance;
-    if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
-    const bool uncertain = is_uncertain(refined, options_);
-    if (!uncertain && is_bent(estimates)) return Refinement::bent;
-    text.theta = refined.theta;
-    text.covariance = refined.covariance;
-    text.variance_factor = 0;
-    for (const Estimate& e : estimates) text.variance_factor += e.variance_factor / n;
-    return uncertain ? Refinement::uncertain : Refinement::refined;
-  }
+  Refinement refine(TextObject& text, const PointLookup* points = nullptr);
 
  private:
   struct View {
@@ -36856,6 +36820,47 @@ class BasicTextRefiner {
 };
 using TextRefiner = BasicTextRefiner<>;  ///< It is compiled only where it is used.
 
+template <class Real>
+Refinement BasicTextRefiner<Real>::refine(TextObject& text, const PointLookup* points) {
+  const std::vector<View> views = views_of(text);
+  double largest = 0;
+  for (const View& view : views) largest = (std::max)(largest, view.area);
+  std::vector<int> hosts;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (views[i].area >= options_.refine_area * largest) hosts.push_back(static_cast<int>(i));
+  std::vector<Estimate> estimates;
+  for (const int i : evenly_spaced(hosts, static_cast<std::size_t>(options_.refine_hosts))) {
+    Estimate e;
+    if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
+  }
+  if (estimates.empty()) return Refinement::failed;
+  // A host that is blurred itself is similar to none of its targets.
+  double most = 0;
+  for (const Estimate& e : estimates) most = (std::max)(most, e.zncc);
+  const double limit = options_.refine_max_dissimilarity * (1 - most);
+  estimates.erase(
+      std::remove_if(estimates.begin(), estimates.end(), [&](const Estimate& e) { return 1 - e.zncc > limit; }),
+      estimates.end());
+  const double n = static_cast<double>(estimates.size());
+  Vector3<Real> mean = Vector3<Real>::Zero();
+  Matrix3<Real> covariance = Matrix3<Real>::Zero();
+  for (const Estimate& e : estimates) mean += e.theta / n;
+  for (const Estimate& e : estimates)
+    covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
+  TextObject refined = outline_of(text.patch, mean);
+  refined.covariance = covariance;
+  if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
+  const bool uncertain = is_uncertain(refined, options_);
+  if (!uncertain && is_bent(estimates)) return Refinement::bent;
+  text.theta = refined.theta;
+  text.covariance = refined.covariance;
+  text.variance_factor = 0;
+  for (const Estimate& e : estimates) text.variance_factor += e.variance_factor / n;
+  return uncertain ? Refinement::uncertain : Refinement::refined;
+}
+
+TEXTPLANE_INSTANCE(class BasicTextRefiner<double>);
+
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_LANDMARKS_TEXT_REFINER_HPP
@@ -36896,28 +36901,11 @@ class BasicTextMapping {
   }
 
   /// After key frame `id` was added to the store.
-  void update(int id, const std::vector<TextDetection>& detections, const std::vector<TextPoint>& points) {
-    const TextKeyframe keyframe = store_.text_keyframe(id);
-    std::vector<char> taken = associate(keyframe, detections);
-    for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
-    for (std::size_t d = 0; d < detections.size(); ++d)
-      if (!taken[d]) propose(id, keyframe, detections[d], points);
-    merge_duplicate_texts(options_, keyframes_, objects_, [this, id](const TextObject& text) {
-      const TextNotes& notes = notes_[static_cast<std::size_t>(&text - objects_.data())];
-      return text.host == id || notes.mapped_by == id || (!text.views.empty() && text.views.back() == id);
-    });
-    erase_dropped();
-  }
+  void update(int id, const std::vector<TextDetection>& detections, const std::vector<TextPoint>& points);
 
   /// Before a key frame leaves the store: texts no longer count it, and those that it hosts get another host or are
   /// dropped.
-  void keyframe_left(int id) {
-    for (TextObject& text : objects_) {
-      if (text.host == id && !find_host(text)) drop(text);
-      text.views.erase(std::remove(text.views.begin(), text.views.end(), id), text.views.end());
-    }
-    erase_dropped();
-  }
+  void keyframe_left(int id);
 
   /// A plane from elsewhere: see TextMap::set_plane(). The text's index in objects(), or -1 where it was refused.
   int set_plane(int id, const Vector3<double>& theta) {
@@ -37112,6 +37100,32 @@ class BasicTextMapping {
   int next_id_ = 0;
 };
 using TextMapping = BasicTextMapping<>;  ///< It is compiled only where it is used.
+
+template <class Real>
+void BasicTextMapping<Real>::update(int id, const std::vector<TextDetection>& detections,
+                                    const std::vector<TextPoint>& points) {
+  const TextKeyframe keyframe = store_.text_keyframe(id);
+  std::vector<char> taken = associate(keyframe, detections);
+  for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
+  for (std::size_t d = 0; d < detections.size(); ++d)
+    if (!taken[d]) propose(id, keyframe, detections[d], points);
+  merge_duplicate_texts(options_, keyframes_, objects_, [this, id](const TextObject& text) {
+    const TextNotes& notes = notes_[static_cast<std::size_t>(&text - objects_.data())];
+    return text.host == id || notes.mapped_by == id || (!text.views.empty() && text.views.back() == id);
+  });
+  erase_dropped();
+}
+
+template <class Real>
+void BasicTextMapping<Real>::keyframe_left(int id) {
+  for (TextObject& text : objects_) {
+    if (text.host == id && !find_host(text)) drop(text);
+    text.views.erase(std::remove(text.views.begin(), text.views.end(), id), text.views.end());
+  }
+  erase_dropped();
+}
+
+TEXTPLANE_INSTANCE(class BasicTextMapping<double>);
 
 TEXTPLANE_END_NAMESPACE
 
@@ -44867,51 +44881,7 @@ class BasicTextTracking {
       : options_(options), mapping_(mapping), bounds_(bounds) {}
 
   /// As TextMap::track().
-  const TextFit& track(const TextImage& image, const SE3d& T_c_w, const std::vector<TextPoint>& points) {
-    TextFit& fit = begin_fit(T_c_w);
-    if (!all_finite(T_c_w) || image.pyramid.levels < 1 || !image.camera.valid()) return fit;
-    points_.clear();
-    for (const TextPoint& point : points)
-      if (point.has_position && all_finite(point.p_w) && all_finite(point.px) && point.sigma > 0)
-        points_.push_back({point.p_w, point.px, point.sigma});
-    find_visible(image, T_c_w);
-    fit.status = Status::too_few;
-    if (visible_.empty()) return fit;
-
-    // What the points say alone.
-    const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
-    if (points_.size() >= 8) point_scale_ = scale;
-    SE3d by_points = T_c_w;
-    const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
-    if (!has_points) by_points = T_c_w;
-    const double alone = has_points ? position_sigma(pose_.information()) : 0;
-
-    SE3d both = by_points;
-    if (pose_.judge(visible_, image, both) < options_.near_zncc) approach(image, scale, &both);
-    const bool ok = solve_together(image, scale, &both, fit);
-    if (!ok || fit.texts == 0) {
-      if (std::any_of(fit.reports.begin(), fit.reports.end(),
-                      [](const auto& r) { return r.use == TextUse::disagrees; }))
-        fit.status = Status::diverged;
-      fit.texts = 0;
-      return fit;
-    }
-    fit.gain = has_points ? 1 - position_sigma(pose_.information()) / alone : 1;
-    if (fit.gain < options_.least_gain) return fit;
-    if (has_points &&
-        pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
-      for (TextReport& report : fit.reports)
-        if (report.use == TextUse::used) report.use = TextUse::disagrees;
-      fit.status = Status::diverged;
-      fit.texts = 0;
-      return fit;
-    }
-    fit.T_c_w = both;
-    fit.information = pose_.information();
-    fit.refined = true;
-    fit.status = Status::ok;
-    return fit;
-  }
+  const TextFit& track(const TextImage& image, const SE3d& T_c_w, const std::vector<TextPoint>& points);
 
   double point_scale() const noexcept { return point_scale_; }  ///< As TextMap has it.
 
@@ -45017,6 +44987,55 @@ class BasicTextTracking {
   std::vector<TextConflict> conflicts_;
 };
 using TextTracking = BasicTextTracking<>;  ///< It is compiled only where it is used.
+
+template <class Real>
+const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d& T_c_w,
+                                              const std::vector<TextPoint>& points) {
+  TextFit& fit = begin_fit(T_c_w);
+  if (!all_finite(T_c_w) || image.pyramid.levels < 1 || !image.camera.valid()) return fit;
+  points_.clear();
+  for (const TextPoint& point : points)
+    if (point.has_position && all_finite(point.p_w) && all_finite(point.px) && point.sigma > 0)
+      points_.push_back({point.p_w, point.px, point.sigma});
+  find_visible(image, T_c_w);
+  fit.status = Status::too_few;
+  if (visible_.empty()) return fit;
+
+  // What the points say alone.
+  const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
+  if (points_.size() >= 8) point_scale_ = scale;
+  SE3d by_points = T_c_w;
+  const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
+  if (!has_points) by_points = T_c_w;
+  const double alone = has_points ? position_sigma(pose_.information()) : 0;
+
+  SE3d both = by_points;
+  if (pose_.judge(visible_, image, both) < options_.near_zncc) approach(image, scale, &both);
+  const bool ok = solve_together(image, scale, &both, fit);
+  if (!ok || fit.texts == 0) {
+    if (std::any_of(fit.reports.begin(), fit.reports.end(), [](const auto& r) { return r.use == TextUse::disagrees; }))
+      fit.status = Status::diverged;
+    fit.texts = 0;
+    return fit;
+  }
+  fit.gain = has_points ? 1 - position_sigma(pose_.information()) / alone : 1;
+  if (fit.gain < options_.least_gain) return fit;
+  if (has_points &&
+      pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
+    for (TextReport& report : fit.reports)
+      if (report.use == TextUse::used) report.use = TextUse::disagrees;
+    fit.status = Status::diverged;
+    fit.texts = 0;
+    return fit;
+  }
+  fit.T_c_w = both;
+  fit.information = pose_.information();
+  fit.refined = true;
+  fit.status = Status::ok;
+  return fit;
+}
+
+TEXTPLANE_INSTANCE(class BasicTextTracking<double>);
 
 TEXTPLANE_END_NAMESPACE
 

@@ -43,6 +43,7 @@ USED = re.compile(r"(\bstd::|\bEigen::|(?:\.|->|::)\s*)?\b([A-Za-z_]\w*)\b(?=\s*
 # What a body, a class or a template's parameters declare.
 OWN = re.compile(r"(?:\b(?:class|struct|enum|union|using|typename)\s+|(?!return\b|else\b|case\b|throw\b)\b\w+[>&*]*\s+[&*]*)"
                  r"([A-Za-z_]\w*)")
+PARAMETERS = re.compile(r"\btemplate\s*<[^<>]*>")
 TELLING = re.compile(r"[A-Z]\w+[a-z]\w*$|[a-z]+_\w+$|k[A-Z]\w+$")  # others name members and variables, too
 
 
@@ -81,7 +82,7 @@ class Header:
         self.macros = set(re.findall(r"^[ \t]*#[ \t]*define[ \t]+(TEXTPLANE_\w+)", code, re.M))
         self.macros_used = set(re.findall(r"\bTEXTPLANE_\w+", re.sub(r"^[ \t]*#.*", "", code, flags=re.M)))
         code = DIRECTIVE.sub("", code)
-        self.declares = names(namespace_scope(code))
+        self.declares = names(PARAMETERS.sub("", namespace_scope(code)))
         own = set(OWN.findall(code))
         self.uses = {(scope[:-2] if scope in ("std::", "Eigen::") else "", name) for scope, name, after in USED.findall(code)
                      if scope in ("std::", "Eigen::") or (not scope and name not in own and TELLING.match(name) and

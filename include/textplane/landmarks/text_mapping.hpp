@@ -51,28 +51,11 @@ class BasicTextMapping {
   }
 
   /// After key frame `id` was added to the store.
-  void update(int id, const std::vector<TextDetection>& detections, const std::vector<TextPoint>& points) {
-    const TextKeyframe keyframe = store_.text_keyframe(id);
-    std::vector<char> taken = associate(keyframe, detections);
-    for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
-    for (std::size_t d = 0; d < detections.size(); ++d)
-      if (!taken[d]) propose(id, keyframe, detections[d], points);
-    merge_duplicate_texts(options_, keyframes_, objects_, [this, id](const TextObject& text) {
-      const TextNotes& notes = notes_[static_cast<std::size_t>(&text - objects_.data())];
-      return text.host == id || notes.mapped_by == id || (!text.views.empty() && text.views.back() == id);
-    });
-    erase_dropped();
-  }
+  void update(int id, const std::vector<TextDetection>& detections, const std::vector<TextPoint>& points);
 
   /// Before a key frame leaves the store: texts no longer count it, and those that it hosts get another host or are
   /// dropped.
-  void keyframe_left(int id) {
-    for (TextObject& text : objects_) {
-      if (text.host == id && !find_host(text)) drop(text);
-      text.views.erase(std::remove(text.views.begin(), text.views.end(), id), text.views.end());
-    }
-    erase_dropped();
-  }
+  void keyframe_left(int id);
 
   /// A plane from elsewhere: see TextMap::set_plane(). The text's index in objects(), or -1 where it was refused.
   int set_plane(int id, const Vector3<double>& theta) {
@@ -267,6 +250,32 @@ class BasicTextMapping {
   int next_id_ = 0;
 };
 using TextMapping = BasicTextMapping<>;  ///< It is compiled only where it is used.
+
+template <class Real>
+void BasicTextMapping<Real>::update(int id, const std::vector<TextDetection>& detections,
+                                    const std::vector<TextPoint>& points) {
+  const TextKeyframe keyframe = store_.text_keyframe(id);
+  std::vector<char> taken = associate(keyframe, detections);
+  for (std::size_t i = 0; i < objects_.size(); ++i) advance(objects_[i], notes_[i], id, keyframe, detections, points);
+  for (std::size_t d = 0; d < detections.size(); ++d)
+    if (!taken[d]) propose(id, keyframe, detections[d], points);
+  merge_duplicate_texts(options_, keyframes_, objects_, [this, id](const TextObject& text) {
+    const TextNotes& notes = notes_[static_cast<std::size_t>(&text - objects_.data())];
+    return text.host == id || notes.mapped_by == id || (!text.views.empty() && text.views.back() == id);
+  });
+  erase_dropped();
+}
+
+template <class Real>
+void BasicTextMapping<Real>::keyframe_left(int id) {
+  for (TextObject& text : objects_) {
+    if (text.host == id && !find_host(text)) drop(text);
+    text.views.erase(std::remove(text.views.begin(), text.views.end(), id), text.views.end());
+  }
+  erase_dropped();
+}
+
+TEXTPLANE_INSTANCE(class BasicTextMapping<double>);
 
 TEXTPLANE_END_NAMESPACE
 

@@ -76,43 +76,7 @@ class BasicTextRefiner {
       : options_(options), keyframes_(keyframes) {}
 
   /// Theta and covariance of a text with a plane. `points`, if given: of the map, for the surface that it lies on.
-  Refinement refine(TextObject& text, const PointLookup* points = nullptr) {
-    const std::vector<View> views = views_of(text);
-    double largest = 0;
-    for (const View& view : views) largest = (std::max)(largest, view.area);
-    std::vector<int> hosts;
-    for (std::size_t i = 0; i < views.size(); ++i)
-      if (views[i].area >= options_.refine_area * largest) hosts.push_back(static_cast<int>(i));
-    std::vector<Estimate> estimates;
-    for (const int i : evenly_spaced(hosts, static_cast<std::size_t>(options_.refine_hosts))) {
-      Estimate e;
-      if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
-    }
-    if (estimates.empty()) return Refinement::failed;
-    // A host that is blurred itself is similar to none of its targets.
-    double most = 0;
-    for (const Estimate& e : estimates) most = (std::max)(most, e.zncc);
-    const double limit = options_.refine_max_dissimilarity * (1 - most);
-    estimates.erase(
-        std::remove_if(estimates.begin(), estimates.end(), [&](const Estimate& e) { return 1 - e.zncc > limit; }),
-        estimates.end());
-    const double n = static_cast<double>(estimates.size());
-    Vector3<Real> mean = Vector3<Real>::Zero();
-    Matrix3<Real> covariance = Matrix3<Real>::Zero();
-    for (const Estimate& e : estimates) mean += e.theta / n;
-    for (const Estimate& e : estimates)
-      covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
-    TextObject refined = outline_of(text.patch, mean);
-    refined.covariance = covariance;
-    if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
-    const bool uncertain = is_uncertain(refined, options_);
-    if (!uncertain && is_bent(estimates)) return Refinement::bent;
-    text.theta = refined.theta;
-    text.covariance = refined.covariance;
-    text.variance_factor = 0;
-    for (const Estimate& e : estimates) text.variance_factor += e.variance_factor / n;
-    return uncertain ? Refinement::uncertain : Refinement::refined;
-  }
+  Refinement refine(TextObject& text, const PointLookup* points = nullptr);
 
  private:
   struct View {
@@ -283,6 +247,47 @@ class BasicTextRefiner {
   std::vector<Image<std::uint8_t>> filtered_;  // the targets, where the text is
 };
 using TextRefiner = BasicTextRefiner<>;  ///< It is compiled only where it is used.
+
+template <class Real>
+Refinement BasicTextRefiner<Real>::refine(TextObject& text, const PointLookup* points) {
+  const std::vector<View> views = views_of(text);
+  double largest = 0;
+  for (const View& view : views) largest = (std::max)(largest, view.area);
+  std::vector<int> hosts;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (views[i].area >= options_.refine_area * largest) hosts.push_back(static_cast<int>(i));
+  std::vector<Estimate> estimates;
+  for (const int i : evenly_spaced(hosts, static_cast<std::size_t>(options_.refine_hosts))) {
+    Estimate e;
+    if (estimate(text, views[static_cast<std::size_t>(i)], views, &e)) estimates.push_back(e);
+  }
+  if (estimates.empty()) return Refinement::failed;
+  // A host that is blurred itself is similar to none of its targets.
+  double most = 0;
+  for (const Estimate& e : estimates) most = (std::max)(most, e.zncc);
+  const double limit = options_.refine_max_dissimilarity * (1 - most);
+  estimates.erase(
+      std::remove_if(estimates.begin(), estimates.end(), [&](const Estimate& e) { return 1 - e.zncc > limit; }),
+      estimates.end());
+  const double n = static_cast<double>(estimates.size());
+  Vector3<Real> mean = Vector3<Real>::Zero();
+  Matrix3<Real> covariance = Matrix3<Real>::Zero();
+  for (const Estimate& e : estimates) mean += e.theta / n;
+  for (const Estimate& e : estimates)
+    covariance += (e.covariance + (e.theta - mean) * (e.theta - mean).transpose()) / n;
+  TextObject refined = outline_of(text.patch, mean);
+  refined.covariance = covariance;
+  if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
+  const bool uncertain = is_uncertain(refined, options_);
+  if (!uncertain && is_bent(estimates)) return Refinement::bent;
+  text.theta = refined.theta;
+  text.covariance = refined.covariance;
+  text.variance_factor = 0;
+  for (const Estimate& e : estimates) text.variance_factor += e.variance_factor / n;
+  return uncertain ? Refinement::uncertain : Refinement::refined;
+}
+
+TEXTPLANE_INSTANCE(class BasicTextRefiner<double>);
 
 TEXTPLANE_END_NAMESPACE
 

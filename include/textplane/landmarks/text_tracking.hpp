@@ -64,51 +64,7 @@ class BasicTextTracking {
       : options_(options), mapping_(mapping), bounds_(bounds) {}
 
   /// As TextMap::track().
-  const TextFit& track(const TextImage& image, const SE3d& T_c_w, const std::vector<TextPoint>& points) {
-    TextFit& fit = begin_fit(T_c_w);
-    if (!all_finite(T_c_w) || image.pyramid.levels < 1 || !image.camera.valid()) return fit;
-    points_.clear();
-    for (const TextPoint& point : points)
-      if (point.has_position && all_finite(point.p_w) && all_finite(point.px) && point.sigma > 0)
-        points_.push_back({point.p_w, point.px, point.sigma});
-    find_visible(image, T_c_w);
-    fit.status = Status::too_few;
-    if (visible_.empty()) return fit;
-
-    // What the points say alone.
-    const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
-    if (points_.size() >= 8) point_scale_ = scale;
-    SE3d by_points = T_c_w;
-    const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
-    if (!has_points) by_points = T_c_w;
-    const double alone = has_points ? position_sigma(pose_.information()) : 0;
-
-    SE3d both = by_points;
-    if (pose_.judge(visible_, image, both) < options_.near_zncc) approach(image, scale, &both);
-    const bool ok = solve_together(image, scale, &both, fit);
-    if (!ok || fit.texts == 0) {
-      if (std::any_of(fit.reports.begin(), fit.reports.end(),
-                      [](const auto& r) { return r.use == TextUse::disagrees; }))
-        fit.status = Status::diverged;
-      fit.texts = 0;
-      return fit;
-    }
-    fit.gain = has_points ? 1 - position_sigma(pose_.information()) / alone : 1;
-    if (fit.gain < options_.least_gain) return fit;
-    if (has_points &&
-        pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
-      for (TextReport& report : fit.reports)
-        if (report.use == TextUse::used) report.use = TextUse::disagrees;
-      fit.status = Status::diverged;
-      fit.texts = 0;
-      return fit;
-    }
-    fit.T_c_w = both;
-    fit.information = pose_.information();
-    fit.refined = true;
-    fit.status = Status::ok;
-    return fit;
-  }
+  const TextFit& track(const TextImage& image, const SE3d& T_c_w, const std::vector<TextPoint>& points);
 
   double point_scale() const noexcept { return point_scale_; }  ///< As TextMap has it.
 
@@ -214,6 +170,55 @@ class BasicTextTracking {
   std::vector<TextConflict> conflicts_;
 };
 using TextTracking = BasicTextTracking<>;  ///< It is compiled only where it is used.
+
+template <class Real>
+const TextFit& BasicTextTracking<Real>::track(const TextImage& image, const SE3d& T_c_w,
+                                              const std::vector<TextPoint>& points) {
+  TextFit& fit = begin_fit(T_c_w);
+  if (!all_finite(T_c_w) || image.pyramid.levels < 1 || !image.camera.valid()) return fit;
+  points_.clear();
+  for (const TextPoint& point : points)
+    if (point.has_position && all_finite(point.p_w) && all_finite(point.px) && point.sigma > 0)
+      points_.push_back({point.p_w, point.px, point.sigma});
+  find_visible(image, T_c_w);
+  fit.status = Status::too_few;
+  if (visible_.empty()) return fit;
+
+  // What the points say alone.
+  const double scale = pose_.point_scale(points_, image.camera, T_c_w, options_.least_sigma);
+  if (points_.size() >= 8) point_scale_ = scale;
+  SE3d by_points = T_c_w;
+  const bool has_points = points_.size() >= 6 && pose_.solve(points_, scale, visible_, image, &by_points);
+  if (!has_points) by_points = T_c_w;
+  const double alone = has_points ? position_sigma(pose_.information()) : 0;
+
+  SE3d both = by_points;
+  if (pose_.judge(visible_, image, both) < options_.near_zncc) approach(image, scale, &both);
+  const bool ok = solve_together(image, scale, &both, fit);
+  if (!ok || fit.texts == 0) {
+    if (std::any_of(fit.reports.begin(), fit.reports.end(), [](const auto& r) { return r.use == TextUse::disagrees; }))
+      fit.status = Status::diverged;
+    fit.texts = 0;
+    return fit;
+  }
+  fit.gain = has_points ? 1 - position_sigma(pose_.information()) / alone : 1;
+  if (fit.gain < options_.least_gain) return fit;
+  if (has_points &&
+      pose_.point_scale(points_, image.camera, both, options_.least_sigma) > options_.most_shift * scale) {
+    for (TextReport& report : fit.reports)
+      if (report.use == TextUse::used) report.use = TextUse::disagrees;
+    fit.status = Status::diverged;
+    fit.texts = 0;
+    return fit;
+  }
+  fit.T_c_w = both;
+  fit.information = pose_.information();
+  fit.refined = true;
+  fit.status = Status::ok;
+  return fit;
+}
+
+TEXTPLANE_INSTANCE(class BasicTextTracking<double>);
 
 TEXTPLANE_END_NAMESPACE
 
