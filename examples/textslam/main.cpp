@@ -57,7 +57,7 @@ void add_run_options(CLI::App& app, textslam::RunOptions& run) {
          "at once; auto: estimated with the map")
       ->check(CLI::IsMember({"auto"}) | CLI::Range(-textslam::kLongestReadout, textslam::kLongestReadout));
   app.add_flag("--real-time", run.parameters.real_time,
-               "Frames come at their time stamps; the local adjustment and the detector run in threads of their own. "
+               "Frames come at their time stamps; the adjustments and the detector run in threads of their own. "
                "Without it each step waits for the one before, and the same input gives the same bytes");
   app.add_flag("!--no-loop-closure", run.parameters.loop_closure,
                "Do not correct the drift where the camera comes back to a place");

@@ -1,6 +1,7 @@
 #include "textslam/adjust/adjuster.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "io/clock.hpp"
 
@@ -17,12 +18,23 @@ void Adjuster::keyframe_added(Map& map) {
     if (solved_.valid()) {
       waiting_ = true;
     } else {
-      begin(map);
+      begin(map, prepare(map));
     }
   } else if (const auto adjustment = prepare(map)) {
     adjustment->solve();
     adjustment->apply(map);
   }
+}
+
+bool Adjuster::map_corrected(Map& map) {
+  auto adjustment = parameters_.real_time && !is_too_young(map) ? StagedAdjustment::of_all(map, parameters_) : nullptr;
+  if (!adjustment) {
+    adjust_all(map, parameters_, parameters_.final_iterations);
+    return true;
+  }
+  begin(map, std::move(adjustment));
+  correcting_ = true;
+  return false;
 }
 
 bool Adjuster::has_grown(const Map& map) {
@@ -41,9 +53,9 @@ std::unique_ptr<StagedAdjustment> Adjuster::prepare(const Map& map) {
                         : StagedAdjustment::around_newest(map, parameters_);
 }
 
-void Adjuster::begin(const Map& map) {
+void Adjuster::begin(const Map& map, std::unique_ptr<StagedAdjustment> adjustment) {
   waiting_ = false;
-  adjustment_ = prepare(map);
+  adjustment_ = std::move(adjustment);
   if (!adjustment_) return;
   frame_ = map.keyframes.back().frame.index;
   solved_ = std::async(std::launch::async, [this] {
@@ -60,8 +72,9 @@ Adjuster::Collected Adjuster::collect(Map& map) {
   out.frame = frame_;
   out.moved = adjustment_->apply(map);
   out.changed = true;
+  out.corrected = std::exchange(correcting_, false);
   adjustment_.reset();
-  if (waiting_) begin(map);
+  if (waiting_) begin(map, prepare(map));
   return out;
 }
 
@@ -70,7 +83,7 @@ Adjuster::Collected Adjuster::settle(Map& map) {
   while (solved_.valid()) {
     solved_.wait();
     const Collected one = collect(map);
-    all = {true, one.moved * all.moved, one.frame, one.ms};
+    all = {true, all.corrected || one.corrected, one.moved * all.moved, one.frame, one.ms};
   }
   return all;
 }

@@ -126,6 +126,7 @@ Loop find_loop(const Map& map, const LocalMap& local, const Parameters& paramete
     loop.seen = relocalise_by_texts(old, parameters, frame, {WordMatch::same, WordMatch::unread});
   if (!loop.seen.ok) {
     FrameLooks looks(frame, parameters);
+    keep_corners(map, loop.keyframe, looks);
     const std::vector<PlaceRank> places = old_places(map, local, parameters, frame, looks);
     if (places.empty()) return loop;
     old = old_part(map, local);

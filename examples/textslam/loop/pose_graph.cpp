@@ -6,7 +6,7 @@
 namespace textslam {
 namespace {
 
-constexpr double kSettled = 1e-10;  // largest entry of a step
+constexpr double kSettled = 1e-6;  // largest entry of a step: the next would be about its square
 
 // M moved(I, d) M^-1 = moved(I, adjoint(M) d) to first order.
 Matrix7 adjoint(const Similarity& M) {
@@ -40,22 +40,27 @@ class Relaxation {
       const Matrix7& W = edge.information;
       add(edge.a, edge.a, J_a.transpose() * W * J_a);
       add(edge.b, edge.b, J_b.transpose() * W * J_b);
-      add(edge.a, edge.b, J_a.transpose() * W * J_b);
-      add(edge.b, edge.a, J_b.transpose() * W * J_a);
+      if (edge.a > edge.b)
+        add(edge.a, edge.b, J_a.transpose() * W * J_b);
+      else
+        add(edge.b, edge.a, J_b.transpose() * W * J_a);
       if (edge.a != fixed_) b.segment<7>(at(edge.a)) -= J_a.transpose() * W * e;
       if (edge.b != fixed_) b.segment<7>(at(edge.b)) -= J_b.transpose() * W * e;
     }
     Eigen::SparseMatrix<double> H(n, n);
     H.setFromTriplets(triplets_.begin(), triplets_.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(H);
-    if (solver.info() != Eigen::Success) return false;
-    *x = solver.solve(b);
+    if (!analysed_) solver_.analyzePattern(H);
+    analysed_ = true;
+    solver_.factorize(H);
+    if (solver_.info() != Eigen::Success) return false;
+    *x = solver_.solve(b);
     return x->allFinite();
   }
 
   int at(int node) const { return 7 * (node < fixed_ ? node : node - 1); }
 
  private:
+  // Of the lower triangle, which is all that the solver reads.
   void add(int a, int b, const Matrix7& block) {
     if (a == fixed_ || b == fixed_) return;
     for (int i = 0; i < 7; ++i)
@@ -65,6 +70,8 @@ class Relaxation {
   const std::vector<GraphEdge>& edges_;
   int nodes_, fixed_;
   std::vector<Eigen::Triplet<double>> triplets_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+  bool analysed_ = false;  // the edges, and with them the pattern, stay
 };
 
 }  // namespace

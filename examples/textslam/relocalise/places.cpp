@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "textplane/features/fast.hpp"
 #include "textplane/features/select.hpp"
@@ -35,19 +36,32 @@ void add_look(const SmoothedLevels& levels, const Vec2f& px, int size, int point
   if (levels.describe(px, px_of_size(size), &look.descriptor)) out->push_back(look);
 }
 
-// The strong corners of key frames at three sizes, as the camera may have come nearer or gone away.
-std::vector<CornerLook> strong_corners(const Frame& frame, const SmoothedLevels& levels, int sizes_around,
-                                       const Parameters& parameters) {
+// Few, of the coarser levels, at three sizes: the camera of another frame may have come nearer or gone away.
+std::vector<CornerLook> strong_corners(const Frame& frame, const SmoothedLevels& levels, const Parameters& parameters) {
   std::vector<CornerLook> out;
   for (int level = 1; level < std::min(kLevels, frame.image->levels()); ++level) {
     std::vector<Vec2f> corners = corners_of_level(frame, level, parameters);
     if (static_cast<int>(corners.size()) > parameters.place_rank_corners)
       corners.resize(static_cast<std::size_t>(parameters.place_rank_corners));
     for (std::size_t i = 0; i < corners.size(); ++i)
-      for (int size = 2 * level - sizes_around; size <= 2 * level + sizes_around; ++size)
+      for (int size = 2 * level - 1; size <= 2 * level + 1; ++size)
         add_look(levels, corners[i], size, level * parameters.place_rank_corners + static_cast<int>(i), &out);
   }
   return out;
+}
+
+void keep(const KeyFrame& keyframe, std::vector<CornerLook> corners) {
+  auto fresh = std::make_shared<KeyFrameLooks>();
+  fresh->corners = std::move(corners);
+  keyframe.looks = std::move(fresh);
+}
+
+// What the ranking compares; its points need not be described for it.
+const std::vector<CornerLook>& corners_of_keyframe(const Map& map, int id, const Parameters& parameters) {
+  const KeyFrame& keyframe = map.keyframe(id);
+  if (!keyframe.looks)
+    keep(keyframe, strong_corners(keyframe.frame, SmoothedLevels(*keyframe.frame.image, kLevels), parameters));
+  return keyframe.looks->corners;
 }
 
 const KeyFrameLooks& looks_of_keyframe(const Map& map, int id, const Parameters& parameters) {
@@ -62,7 +76,7 @@ const KeyFrameLooks& looks_of_keyframe(const Map& map, int id, const Parameters&
     if (const Vec2* px = observed_in(map.point(point).observations, id))
       for (int size = 0; size < kSizes; ++size) add_look(levels, px->cast<float>(), size, point, &fresh->looks);
   fresh->points = std::move(points);
-  fresh->corners = known ? known->corners : strong_corners(keyframe.frame, levels, 1, parameters);
+  fresh->corners = known ? known->corners : strong_corners(keyframe.frame, levels, parameters);
   keyframe.looks = std::move(fresh);
   return *keyframe.looks;
 }
@@ -175,23 +189,32 @@ void add_expected(const Map& map, const Parameters& parameters, const std::vecto
 
 }  // namespace
 
+const SmoothedLevels& FrameLooks::levels() {
+  if (!levels_) levels_ = std::make_unique<SmoothedLevels>(*frame_.image, kLevels);
+  return *levels_;
+}
+
 const std::vector<CornerLook>& FrameLooks::all() {
-  describe();
+  if (!std::exchange(has_all_, true))
+    for (int level = 0; level < levels().levels(); ++level)
+      for (const Vec2f& px : corners_of_level(frame_, level, parameters_)) add_look(levels(), px, 2 * level, -1, &all_);
   return all_;
 }
 
 const std::vector<CornerLook>& FrameLooks::strong() {
-  describe();
+  if (!std::exchange(has_strong_, true))
+    for (const CornerLook& look : in_sizes())
+      if (look.size == 2 * (look.point / parameters_.place_rank_corners)) strong_.push_back(look);
   return strong_;
 }
 
-void FrameLooks::describe() {
-  if (described_) return;
-  described_ = true;
-  const SmoothedLevels levels(*frame_.image, kLevels);
-  for (int level = 0; level < levels.levels(); ++level)
-    for (const Vec2f& px : corners_of_level(frame_, level, parameters_)) add_look(levels, px, 2 * level, -1, &all_);
-  strong_ = strong_corners(frame_, levels, 0, parameters_);
+const std::vector<CornerLook>& FrameLooks::in_sizes() {
+  if (!std::exchange(has_sizes_, true)) in_sizes_ = strong_corners(frame_, levels(), parameters_);
+  return in_sizes_;
+}
+
+void keep_corners(const Map& map, int keyframe, FrameLooks& looks) {
+  if (!map.keyframe(keyframe).looks) keep(map.keyframe(keyframe), looks.in_sizes());
 }
 
 std::vector<PlaceRank> rank_places(const Map& map, const Parameters& parameters, FrameLooks& looks,
@@ -199,8 +222,8 @@ std::vector<PlaceRank> rank_places(const Map& map, const Parameters& parameters,
   std::vector<PlaceRank> ranks;
   const std::size_t stride = ids.size() / static_cast<std::size_t>(most) + 1;
   for (std::size_t i = static_cast<std::size_t>(std::max(frame, 0)) % stride; i < ids.size(); i += stride) {
-    const KeyFrameLooks& known = looks_of_keyframe(map, ids[i], parameters);
-    const auto matches = static_cast<int>(match_looks(known.corners, looks.strong(), parameters).size());
+    const std::vector<CornerLook>& known = corners_of_keyframe(map, ids[i], parameters);
+    const auto matches = static_cast<int>(match_looks(known, looks.strong(), parameters).size());
     if (matches >= parameters.place_min_matches) ranks.push_back({ids[i], matches});
   }
   std::stable_sort(ranks.begin(), ranks.end(),

@@ -24,7 +24,7 @@ struct CornerLook {
 
 /// What is kept beside a key frame.
 struct KeyFrameLooks {
-  std::vector<int> points;          ///< That it observed when they were described, in order.
+  std::vector<int> points;          ///< That it observed when they were described, in order; none before that.
   std::vector<CornerLook> looks;    ///< Of these points, all sizes of one together.
   std::vector<CornerLook> corners;  ///< Strong corners for the ranking, likewise.
 };
@@ -34,18 +34,23 @@ class FrameLooks {
  public:
   FrameLooks(const Frame& frame, const Parameters& parameters) : frame_(frame), parameters_(parameters) {}
 
-  const std::vector<CornerLook>& all();     ///< Corners of all levels, strongest first on each.
-  const std::vector<CornerLook>& strong();  ///< Of the coarser levels, few.
+  const std::vector<CornerLook>& all();       ///< Corners of all levels, strongest first on each.
+  const std::vector<CornerLook>& strong();    ///< Of the coarser levels, few.
+  const std::vector<CornerLook>& in_sizes();  ///< The same at three sizes, as a key frame keeps them.
   const Frame& frame() const { return frame_; }
 
  private:
-  void describe();
+  const SmoothedLevels& levels();
 
   const Frame& frame_;
   const Parameters& parameters_;
-  bool described_ = false;
-  std::vector<CornerLook> all_, strong_;
+  std::unique_ptr<SmoothedLevels> levels_;
+  bool has_all_ = false, has_strong_ = false, has_sizes_ = false;
+  std::vector<CornerLook> all_, strong_, in_sizes_;
 };
+
+/// A key frame keeps the strong corners of its own frame's looks, so that no ranking describes it again.
+void keep_corners(const Map& map, int keyframe, FrameLooks& looks);
 
 struct PlaceRank {
   int keyframe = -1;

@@ -242,6 +242,10 @@ void System::cull_keyframes() {
 void System::take_over(const Adjuster::Collected& adjusted) {
   if (!adjusted.changed) return;
   records_[static_cast<std::size_t>(adjusted.frame)].adjust_ms = adjusted.ms;
+  if (adjusted.corrected) {
+    settled(open_loop_ ? &*open_loop_ : nullptr);
+    open_loop_.reset();
+  }
   map_changed(tracker_ ? tracker_->pose() * adjusted.moved.inverse() : SE3d{}, nullptr);
 }
 

@@ -16,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "io/evaluate.hpp"
@@ -144,6 +145,7 @@ class System {
   // system_loops.cpp
   void close_loops(FrameRecord& record);
   void apply(const LoopCorrection& correction);
+  void settled(const Loop* loop);
 
   // system_maps.cpp
   bool recover(const Frame& taken, FrameRecord& record);
@@ -170,11 +172,12 @@ class System {
   std::unique_ptr<Tracker> tracker_;  // null until the map begins
   std::deque<FrameRecord> records_;   // grows without copies of itself
   std::vector<LoopRecord> loops_;
-  Similarity live_world_;         // see live_world()
-  int last_keyframe_ = -1;        // id of the newest
-  int last_keyframe_points_ = 0;  // tracked in it
-  int lost_frames_ = 0;           // in a row
-  double lost_since_ = 0;         // time of the first of them, s
+  std::optional<Loop> open_loop_;  // the last of them, while the map settles after it
+  Similarity live_world_;          // see live_world()
+  int last_keyframe_ = -1;         // id of the newest
+  int last_keyframe_points_ = 0;   // tracked in it
+  int lost_frames_ = 0;            // in a row
+  double lost_since_ = 0;          // time of the first of them, s
 };
 
 }  // namespace textslam

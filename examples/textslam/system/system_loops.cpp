@@ -1,6 +1,5 @@
 // System, the part that closes loops.
 #include "textplane/landmarks/text_merge.hpp"
-#include "textslam/adjust/adjustment.hpp"
 #include "textslam/system/system.hpp"
 
 namespace textslam {
@@ -20,8 +19,10 @@ void System::apply(const LoopCorrection& correction) {
   erase_bad_tracks(map_, tracks);
 }
 
-// The key frame just added may show a part of the map that has drifted away.
+// The key frame just added may show a part of the map that has drifted away. While the map still settles after the last
+// loop, none is looked for: the drift is not known.
 void System::close_loops(FrameRecord& record) {
+  if (adjuster_.is_correcting()) return;
   Loop loop = find_loop(map_, local_, parameters_);
   if (!loop.ok) return;
   // In real time an adjustment may be under way. Where it moved the map, the loop is searched for again.
@@ -36,19 +37,28 @@ void System::close_loops(FrameRecord& record) {
   const LoopCorrection correction = close_loop(map_, parameters_, loop);
   closed.corrected = correction.corrected;
   closed.found = correction.found;
+  loops_.push_back(closed);
   if (parameters_.mode == Mode::text)
     textplane::merge_duplicate_texts(parameters_.text, textplane::KeyframeLookup(map_), map_.texts);
   if (correction.corrected) {
-    adjust_all(map_, parameters_, parameters_.final_iterations);
-    if (parameters_.mode == Mode::text) text_mapper_.observe_again();
+    if (adjuster_.map_corrected(map_)) {
+      settled(&loop);
+    } else {
+      open_loop_ = loop;
+    }
   } else {
-    adjust_local(map_, parameters_);
+    adjuster_.keyframe_added(map_);
+    loops_.back().left = drift_left(map_, parameters_, loop);
   }
   apply(correction);
-  closed.left = drift_left(map_, parameters_, loop);
-  loops_.push_back(closed);
   map_changed(map_.keyframe(last_keyframe_).T_w_c.inverse(), &record,
               correction.scales[static_cast<std::size_t>(last_keyframe_)]);
+}
+
+// After a loop (null: a join) moved parts of the map, and all of it was adjusted.
+void System::settled(const Loop* loop) {
+  if (parameters_.mode == Mode::text) text_mapper_.observe_again();
+  if (loop) loops_.back().left = drift_left(map_, parameters_, *loop);
 }
 
 }  // namespace textslam

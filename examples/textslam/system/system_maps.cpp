@@ -1,7 +1,6 @@
 // System, the part that deals with several maps.
 #include <algorithm>
 
-#include "textslam/adjust/adjustment.hpp"
 #include "textslam/common/algorithms.hpp"
 #include "textslam/loop/map_join.hpp"
 #include "textslam/relocalise/relocalisation.hpp"
@@ -97,8 +96,7 @@ void System::join(std::size_t stored, const MapLink& link) {
   last_keyframe_ += ids.first_keyframe;
 
   roll_all();
-  adjust_all(map_, parameters_, parameters_.final_iterations);
-  if (parameters_.mode == Mode::text) text_mapper_.observe_again();
+  if (adjuster_.map_corrected(map_)) settled(nullptr);
   erase_bad_tracks(map_, tracks);
 }
 

@@ -169,6 +169,34 @@ TEST_F(AdjusterTest, GrowthIsThatOfTheMap) {
   EXPECT_LT(error_px(map_, 2), 0.05);
 }
 
+// A loop moves key frames that are out of reach of the newest.
+TEST_F(AdjusterTest, AfterALoopAllOfTheMapIsAdjusted) {
+  parameters_.window_frames = parameters_.window_fixed = 2;
+  map_.keyframe(2).T_w_c.t.x() += 0.05;
+  Map in_step = map_;
+  Adjuster at_once(parameters_);
+  EXPECT_TRUE(at_once.map_corrected(in_step));
+  EXPECT_FALSE(at_once.is_correcting());
+  EXPECT_LT(error_px(in_step, 2), 0.05);
+
+  parameters_.real_time = true;
+  Adjuster adjuster(parameters_);
+  const Map before = map_;
+  EXPECT_FALSE(adjuster.map_corrected(map_));
+  EXPECT_TRUE(adjuster.is_correcting());
+  expect_same(map_, before, map_.keyframes.size());
+  add_keyframe(map_);
+  adjuster.keyframe_added(map_);
+  const Adjuster::Collected done = adjuster.settle(map_);
+  EXPECT_TRUE(done.corrected);
+  EXPECT_FALSE(adjuster.is_correcting());
+  EXPECT_LT(error_px(map_, 2), 0.05);
+  EXPECT_LT(error_px(map_, 8), 0.05) << "the key frame that came meanwhile was adjusted, too";
+  add_keyframe(map_);
+  adjuster.keyframe_added(map_);
+  EXPECT_FALSE(adjuster.settle(map_).corrected) << "an adjustment like any other";
+}
+
 TEST_F(AdjusterTest, MayBeLeftWhileItRuns) {
   parameters_.real_time = true;
   Adjuster adjuster(parameters_);

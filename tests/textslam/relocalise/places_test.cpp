@@ -65,6 +65,35 @@ TEST_F(PlacesTest, LooksFollowThePointsOfAKeyFrame) {
   EXPECT_EQ(map.keyframe(0).looks->points.size(), map.keyframe(0).points.size()) << "a new point is described";
 }
 
+// The ranking compares strong corners, which stay what they are when a key frame gets points.
+TEST_F(PlacesTest, TheRankingDescribesAKeyFrameOnce) {
+  const Frame frame = frame_at(around(15 * kDegree, 1.2, 0));
+  FrameLooks looks(frame, parameters);
+  const auto rank = [&] { return rank_places(map, parameters, looks, {0, 1}, 2, 0); };
+  const std::vector<PlaceRank> ranks = rank();
+  ASSERT_FALSE(ranks.empty());
+  const auto kept = map.keyframe(0).looks;
+  EXPECT_TRUE(kept->looks.empty()) << "points are not described for it";
+  map.points.emplace_back();
+  add_observation(map, static_cast<int>(map.points.size()) - 1, 0, Vec2(300, 200));
+  EXPECT_EQ(rank().size(), ranks.size());
+  EXPECT_EQ(map.keyframe(0).looks, kept);
+}
+
+// As the frame of a key frame is described, to look for a loop, so is the key frame.
+TEST_F(PlacesTest, AKeyFrameKeepsTheCornersOfItsFrame) {
+  const Frame frame = frame_at(around(15 * kDegree, 1.2, 0));
+  FrameLooks looks(frame, parameters);
+  rank_places(map, parameters, looks, {0}, 1, 0);
+  const std::vector<CornerLook> ranked = map.keyframe(0).looks->corners;
+  map.keyframe(0).looks = nullptr;
+  FrameLooks own(map.keyframe(0).frame, parameters);
+  keep_corners(map, 0, own);
+  const std::vector<CornerLook>& kept = map.keyframe(0).looks->corners;
+  ASSERT_EQ(kept.size(), ranked.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].descriptor.bits, ranked[i].descriptor.bits) << i;
+}
+
 TEST_F(PlacesTest, DescriptorsTurnWithTheCamera) {
   const SE3d turned = moved({0, 0, 0}, {0, 0, 70 * kDegree});
   const SmoothedLevels levels(*map.keyframe(0).frame.image, 3), other(*frame_at(turned).image, 3);
