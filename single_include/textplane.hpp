@@ -1,5 +1,5 @@
-// textplane 0.1.0 in one header, made of 181 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 10163e359a4d67c4
+// textplane 0.1.0 in one header, made of 183 files by single_include/amalgamate.py. Do not edit.
+// Hash of these files: 1a98d40968db1c5d
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 10163e359a4d67c4"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 1a98d40968db1c5d"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -31964,6 +31964,13 @@ const T* numbers(const std::vector<CacheLine<T>>& lines) noexcept {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CACHE_LINE_HPP
+// What goes into a batch (simd/batch.hpp): the host pixels of an object into its lane, image, camera and options of a
+// call.
+#ifndef TEXTPLANE_PHOTOMETRY_BATCH_TEXT_BATCH_PACK_HPP
+#define TEXTPLANE_PHOTOMETRY_BATCH_TEXT_BATCH_PACK_HPP
+
+#include <algorithm>
+
 // Batch kernels: many text objects of a few pixels each against one image, one object a lane. photometry/text_batch.hpp
 // is the typed form; what r, E, H and b are is said in photometry/residual.hpp.
 //
@@ -35491,6 +35498,82 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
+namespace detail {
+// What is masked or not finite is left out.
+inline bool is_usable_pixel(const PatchView& patch, int i) noexcept {
+  return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) &&
+         is_finite(patch.intensity[i]);
+}
+
+inline int usable_pixels(const PatchView& patch) noexcept {
+  int n = 0;
+  for (int i = 0; i < patch.n; ++i) n += is_usable_pixel(patch, i);
+  return n;
+}
+
+// Lane `lane` of a group that is zero there. `pixels`: of the group, from its start on.
+inline void pack_lane(const PatchView& p, const Pinhole<double>& host_camera, const Vector3<double>& theta, int lane,
+                      simd::BatchGroup* group, float* pixels) noexcept {
+  int& n = group->n[lane];
+  float x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  for (int i = 0; i < p.n; ++i) {
+    if (!is_usable_pixel(p, i)) continue;
+    x0 = n ? (std::min)(x0, p.x[i]) : p.x[i];
+    x1 = n ? (std::max)(x1, p.x[i]) : p.x[i];
+    y0 = n ? (std::min)(y0, p.y[i]) : p.y[i];
+    y1 = n ? (std::max)(y1, p.y[i]) : p.y[i];
+    ++n;
+  }
+  const float fx = x0 + 0.5F * (x1 - x0), fy = y0 + 0.5F * (y1 - y0);
+  const double hx = static_cast<double>(fx), hy = static_cast<double>(fy);
+  group->ru[lane] = (std::max)(static_cast<double>(x1) - hx, hx - static_cast<double>(x0));
+  group->rv[lane] = (std::max)(static_cast<double>(y1) - hy, hy - static_cast<double>(y0));
+  group->ifx[lane] = 1.0 / host_camera.fx;
+  group->ify[lane] = 1.0 / host_camera.fy;
+  group->mu[lane] = (hx - host_camera.cx) * group->ifx[lane];
+  group->mv[lane] = (hy - host_camera.cy) * group->ify[lane];
+  for (int k = 0; k < 3; ++k) group->theta[k][lane] = theta[k];
+  if (n == 0) return;  // there may be no pixels at all
+  float* out = pixels + lane;
+  for (int i = 0; i < p.n; ++i) {
+    if (!is_usable_pixel(p, i)) continue;
+    out[0] = p.x[i] - fx;
+    out[simd::kBatchLanes] = p.y[i] - fy;
+    out[2 * simd::kBatchLanes] = p.intensity[i];
+    out += 3 * simd::kBatchLanes;
+  }
+}
+
+inline simd::Image8 batch_image(const ImageView8& target) noexcept {
+  return {target.data(), target.stride(), target.width(), target.height()};
+}
+
+// `T_t_h`: one pose an object.
+inline void set_batch_args(const ImageView8& target, const Pinhole<double>& camera, const SE3d* T_t_h,
+                           const PhotometricOptions& options, simd::BatchArgs* args) noexcept {
+  static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
+  args->pose = T_t_h->R.data();
+  args->pose_step = 12;
+  args->t_offset = 9;
+  args->camera[0] = camera.fx;
+  args->camera[1] = camera.fy;
+  args->camera[2] = camera.cx;
+  args->camera[3] = camera.cy;
+  args->target = batch_image(target);
+  args->exact = options.normalisation == Normalisation::exact;
+  args->robust = options.robust.kind;
+  args->delta = options.robust.delta;
+  args->min_contrast = options.min_contrast;
+  args->min_visible = options.min_visible;
+}
+}  // namespace detail
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_PHOTOMETRY_BATCH_TEXT_BATCH_PACK_HPP
+
+TEXTPLANE_BEGIN_NAMESPACE
+
 /// One object of a batch: host pixels of one level, the host's camera of that level, and the plane in the host frame.
 struct TextBatchItem {
   PatchView patch;                                  ///< Host pixels of one level.
@@ -35543,11 +35626,6 @@ class TextBatch {
   }
 
  private:
-  static bool usable(const PatchView& patch, int i) noexcept {
-    return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) &&
-           is_finite(patch.intensity[i]);
-  }
-
   // Floats that a group needs.
   std::size_t count_group(const TextBatchItem* items, int first, int members) {
     int most = 0;
@@ -35555,9 +35633,7 @@ class TextBatch {
       const PatchView& p = items[l].patch;
       const bool valid = p.x && p.y && p.intensity && p.n >= 0 && items[l].host_camera.valid();
       valid_[static_cast<std::size_t>(first + l)] = valid;
-      int n = 0;
-      for (int i = 0; valid && i < p.n; ++i) n += usable(p, i);
-      most = (std::max)(most, n);
+      if (valid) most = (std::max)(most, detail::usable_pixels(p));
     }
     most_ = (std::max)(most_, most);
     return static_cast<std::size_t>(most) * 3 * simd::kBatchLanes;
@@ -35569,39 +35645,9 @@ class TextBatch {
     group.start = static_cast<std::ptrdiff_t>(start);
     int most = 0;
     for (int l = 0; l < members; ++l) {
-      const TextBatchItem& item = items[l];
-      const PatchView& p = item.patch;
-      const auto at = static_cast<std::size_t>(first + l);
-      if (!valid_[at]) continue;
-      int& n = group.n[l];
-      float x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-      for (int i = 0; i < p.n; ++i) {
-        if (!usable(p, i)) continue;
-        x0 = n ? (std::min)(x0, p.x[i]) : p.x[i];
-        x1 = n ? (std::max)(x1, p.x[i]) : p.x[i];
-        y0 = n ? (std::min)(y0, p.y[i]) : p.y[i];
-        y1 = n ? (std::max)(y1, p.y[i]) : p.y[i];
-        ++n;
-      }
-      const float fx = x0 + 0.5F * (x1 - x0), fy = y0 + 0.5F * (y1 - y0);
-      const double hx = static_cast<double>(fx), hy = static_cast<double>(fy);
-      group.ru[l] = (std::max)(static_cast<double>(x1) - hx, hx - static_cast<double>(x0));
-      group.rv[l] = (std::max)(static_cast<double>(y1) - hy, hy - static_cast<double>(y0));
-      group.ifx[l] = 1.0 / item.host_camera.fx;
-      group.ify[l] = 1.0 / item.host_camera.fy;
-      group.mu[l] = (hx - item.host_camera.cx) * group.ifx[l];
-      group.mv[l] = (hy - item.host_camera.cy) * group.ify[l];
-      for (int k = 0; k < 3; ++k) group.theta[k][l] = item.theta[k];
-      most = (std::max)(most, n);
-      if (n == 0) continue;  // there may be no pixels at all
-      float* out = numbers(pixels_) + start + l;
-      for (int i = 0; i < p.n; ++i) {
-        if (!usable(p, i)) continue;
-        out[0] = p.x[i] - fx;
-        out[simd::kBatchLanes] = p.y[i] - fy;
-        out[2 * simd::kBatchLanes] = p.intensity[i];
-        out += 3 * simd::kBatchLanes;
-      }
+      if (!valid_[static_cast<std::size_t>(first + l)]) continue;
+      detail::pack_lane(items[l].patch, items[l].host_camera, items[l].theta, l, &group, numbers(pixels_) + start);
+      most = (std::max)(most, group.n[l]);
     }
     groups_.push_back(group);
     return start + static_cast<std::size_t>(most) * 3 * simd::kBatchLanes;
@@ -35708,26 +35754,14 @@ Status run_batch(const TextBatch& batch, const ImageView8& target, const CameraV
   simd::BatchArgs args;
   batch.fill(&args);
   result.fill(P, &args);
-  args.target = {target.data(), target.stride(), target.width(), target.height()};
-  if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() ||
+  if (!target.valid() || !simd::readable(batch_image(target)) || !camera.valid() || !options.valid() ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
     std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
     return Status::invalid_argument;
   }
   if (batch.size() == 0) return Status::ok;
-  static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
-  args.pose = T_t_h->R.data();
-  args.pose_step = 12;
-  args.t_offset = 9;
-  const Pinhole<double>& c = camera.pinhole;
-  const double intrinsics[] = {c.fx, c.fy, c.cx, c.cy};
-  std::copy_n(intrinsics, 4, args.camera);
-  args.exact = options.normalisation == Normalisation::exact;
-  args.robust = options.robust.kind;
-  args.delta = options.robust.delta;
-  args.min_contrast = options.min_contrast;
-  args.min_visible = options.min_visible;
+  detail::set_batch_args(target, camera.pinhole, T_t_h, options, &args);
   if (camera.lens) {
     run_batch_behind<P>(batch, args, target, camera, T_t_h, options, result.workspace());
   } else {
@@ -37175,12 +37209,14 @@ TEXTPLANE_END_NAMESPACE
 // E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega), and with it
 // every T_t_h = T_t_w T_w_h. Of a rig, the pose is the rig's, and each term is one of its camera (pose_rig.hpp). Behind
 // a rolling shutter (CameraView::rows) poses are those at the time stamp, and each point counts at the pose of the row
-// that shows it.
+// that shows it. Small texts of one camera go through the batch kernel (pose_batch.hpp).
 #ifndef TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 #define TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 // linearise() by a policy: gradients of the target (forward), the host (template Jacobian), both (ESM), or b by the
 // target's and H by the host's (hybrid).
@@ -43895,6 +43931,156 @@ TEXTPLANE_END_NAMESPACE
 #include <cstdint>
 #include <vector>
 
+// PoseBatch: the small texts of one image, linearised together by the batch kernel, one a lane (simd/batch.hpp).
+//
+// One text of 15 pixels takes as long as one of 60: its results wait for each other. In lanes beside others it takes a
+// third. Normal equations and cost come from one run of the kernel, so that an accepted trial is linearised already.
+#ifndef TEXTPLANE_SOLVER_POSE_BATCH_HPP
+#define TEXTPLANE_SOLVER_POSE_BATCH_HPP
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+TEXTPLANE_BEGIN_NAMESPACE
+
+namespace detail {
+constexpr int kBatchFewest = 4;        // texts: fewer go one by one
+constexpr int kBatchMostPixels = 128;  // of a text: larger ones do
+
+/// One text of a batch, on one level.
+struct PoseBatchItem {
+  int text = -1;  // its place among the terms
+  PatchView patch;
+  Pinhole<double> host_camera;
+  Vector3<double> theta = Vector3<double>::Zero();
+  SE3d T_w_h;
+};
+
+/// For one thread at a time. Only reserve() allocates.
+class PoseBatch {
+ public:
+  /// Room for all of `texts` terms.
+  void reserve(int texts) {
+    const auto count = static_cast<std::size_t>(texts > 0 ? texts : 0);
+    if (slots_.size() >= count) return;
+    const std::size_t groups = (count + simd::kBatchLanes - 1) / simd::kBatchLanes;
+    slots_ = std::vector<int>(count);  // made, not grown: see TextBatch::build()
+    items_.resize(count);
+    poses_.resize(count);
+    status_.resize(count);
+    groups_.resize(groups);
+    pixels_ = cache_lines<float>(groups * kGroupFloats);
+    out_ = cache_lines<float>(simd::batch_floats(texts, 6));
+    scratch_ = cache_lines<float>(simd::batch_scratch(kBatchMostPixels));
+  }
+
+  /// No text is in the batch.
+  void clear() noexcept {
+    count_ = 0;
+    has_run_ = false;
+    std::fill(slots_.begin(), slots_.end(), -1);
+  }
+
+  /// Whether the batch kernel computes against this image what the kernels of one text would.
+  static bool takes(const CameraView& camera, const ImageView8& target, const PhotometricOptions& options) noexcept {
+    return !camera.lens && !camera.rows && camera.valid() && !options.precise && options.valid() && target.valid() &&
+           simd::readable(batch_image(target));
+  }
+
+  /// Adds a text, or leaves it to the kernels of one text.
+  void add(const PoseBatchItem& item) noexcept {
+    const PatchView& p = item.patch;
+    if (p.x && p.y && p.intensity && p.n > 0 && p.n <= kBatchMostPixels && usable_pixels(p) == p.n &&
+        item.host_camera.valid())
+      items_[static_cast<std::size_t>(count_++)] = item;
+  }
+
+  /// Packs what was added, texts of one size beside each other. Too few of them leave the batch empty.
+  void pack() noexcept {
+    if (count_ < kBatchFewest) return clear();
+    std::sort(items_.begin(), items_.begin() + count_, [](const PoseBatchItem& a, const PoseBatchItem& b) {
+      return a.patch.n != b.patch.n ? a.patch.n < b.patch.n : a.text < b.text;
+    });
+    for (int i = 0; i < count_; ++i) {
+      const auto group = static_cast<std::size_t>(i / simd::kBatchLanes);
+      const int lane = i % simd::kBatchLanes;
+      const std::size_t start = group * kGroupFloats;
+      if (lane == 0) {
+        groups_[group] = simd::BatchGroup();
+        groups_[group].start = static_cast<std::ptrdiff_t>(start);
+      }
+      const PoseBatchItem& item = items_[static_cast<std::size_t>(i)];
+      pack_lane(item.patch, item.host_camera, item.theta, lane, &groups_[group], numbers(pixels_) + start);
+      slots_[static_cast<std::size_t>(item.text)] = i;
+    }
+  }
+
+  bool empty() const noexcept { return count_ == 0; }
+
+  /// Linearises all by the pose T_c_w, unless the last call did.
+  void run(const SE3d& T_c_w, const ImageView8& target, const Pinhole<double>& camera,
+           const PhotometricOptions& options) noexcept {
+    if (has_run_ && T_c_w.R == at_.R && T_c_w.t == at_.t) return;
+    has_run_ = true;
+    at_ = T_c_w;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) poses_[i] = T_c_w * items_[i].T_w_h;
+    simd::BatchArgs args;
+    args.groups = groups_.data();
+    args.count = count_;
+    args.pixels = numbers(pixels_);
+    set_batch_args(target, camera, poses_.data(), options, &args);
+    args.scratch = numbers(scratch_);
+    args.out = numbers(out_);
+    args.status = status_.data();
+    simd::batch_linearise_pose(args);
+  }
+
+  /// What run() found for a text, where it is in the batch and all of its pixels are visible; false elsewhere. With
+  /// `whole` also H and b.
+  bool take(int text, bool whole, NormalEquations<6>* out) const noexcept {
+    if (count_ == 0) return false;
+    const int slot = slots_[static_cast<std::size_t>(text)];
+    if (slot < 0 || !is_ok(status_[static_cast<std::size_t>(slot)])) return false;
+    const std::ptrdiff_t group = slot / simd::kBatchLanes;
+    const float* entry = numbers(out_) + group * simd::batch_entries(6) * simd::kBatchLanes + slot % simd::kBatchLanes;
+    const float* tail =
+        entry + (simd::batch_entries(6) - static_cast<int>(simd::BatchEntry::count)) * simd::kBatchLanes;
+    const auto of_tail = [tail](simd::BatchEntry which) {
+      return static_cast<double>(tail[static_cast<int>(which) * simd::kBatchLanes]);
+    };
+    out->visible = static_cast<int>(of_tail(simd::BatchEntry::visible));
+    if (out->visible != items_[static_cast<std::size_t>(slot)].patch.n) return false;
+    out->status = Status::ok;
+    out->cost = of_tail(simd::BatchEntry::cost);
+    if (!whole) return true;
+    out->error = range_error(of_tail(simd::BatchEntry::error));
+    out->zncc = 1 - 0.5 * out->error;
+    for (int r = 0; r < 6; ++r)
+      for (int c = r; c < 6; ++c, entry += simd::kBatchLanes) out->H(c, r) = static_cast<double>(*entry);
+    for (int r = 0; r < 6; ++r, entry += simd::kBatchLanes) out->b[r] = static_cast<double>(*entry);
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kGroupFloats = static_cast<std::size_t>(kBatchMostPixels) * 3 * simd::kBatchLanes;
+
+  std::vector<int> slots_;            // of each term; -1: not in the batch
+  std::vector<PoseBatchItem> items_;  // of each slot
+  std::vector<SE3d> poses_;
+  std::vector<Status> status_;
+  std::vector<simd::BatchGroup> groups_;
+  std::vector<CacheLine<float>> pixels_, out_, scratch_;
+  SE3d at_;
+  int count_ = 0;
+  bool has_run_ = false;
+};
+}  // namespace detail
+
+TEXTPLANE_END_NAMESPACE
+
+#endif  // TEXTPLANE_SOLVER_POSE_BATCH_HPP
 // lambda_w: the weight of a text object's photometric cost beside reprojection errors in one joint cost.
 //
 // A point adds rho(|e|^2 / sigma^2), e in px. A text observation adds lambda_w sum rho(r^2): r is the difference of two
@@ -44001,6 +44187,7 @@ class PoseWorkspace {
     if (point_count > 0 && points_.size() < static_cast<std::size_t>(point_count))
       points_.resize(static_cast<std::size_t>(point_count));
     if (rows_.size() < points_.size()) rows_.resize(points_.size());
+    if (text_count >= detail::kBatchFewest) batch_.reserve(text_count);
   }
 
   /// Whether it has room for these terms.
@@ -44026,6 +44213,7 @@ class PoseWorkspace {
   std::vector<detail::PoseTextState> texts_;
   std::vector<std::uint8_t> points_;  // 1: took part in the last linearisation.
   std::vector<SE3d> rows_;            // Of the points, behind a rolling shutter: increments of the pose.
+  detail::PoseBatch batch_;           // Of the small texts.
 };
 
 TEXTPLANE_END_NAMESPACE
@@ -44191,7 +44379,11 @@ class PoseProblem {
     set_rows();
   }
 
-  void set_level(int level) noexcept { level_ = level; }
+  void set_level(int level) noexcept {
+    level_ = level;
+    memory_.batch_.clear();
+    if constexpr (std::is_same<Pixel, std::uint8_t>::value) fill_batch();
+  }
 
   PoseSystem linearise(const SE3d& T_t_w) noexcept {
     PoseSystem system;
@@ -44263,11 +44455,12 @@ class PoseProblem {
 
   // The terms of camera c with the pose T_c_w: to the lower triangle of H, to b and to the cost.
   void add_terms(int c, const SE3d& T_c_w, PoseSystem& system, Status& trouble) noexcept {
+    run_batch(T_c_w);
     for (int i = 0; i < text_count_; ++i) {
       if (texts_[i].camera != c) continue;
       PoseTextState& state = text(i);
       state = PoseTextState{offset_, 0, 0, 0};
-      const Status status = add_text(texts_[i], T_c_w, state, system);
+      const Status status = add_text(i, T_c_w, state, system);
       if (!is_ok(status)) {
         if (trouble == Status::too_few) trouble = status;
         continue;
@@ -44287,9 +44480,15 @@ class PoseProblem {
   // Their cost on the residuals of the last linearisation.
   double cost(int c, const SE3d& T_c_w, int& lost_pixels, int& lost_points) noexcept {
     double sum = 0;
+    run_batch(T_c_w);
+    NormalEquations<6> together{Unset()};
     for (int i = 0; i < text_count_; ++i) {
       const PoseTextState& state = text(i);
       if (texts_[i].camera != c || state.visible == 0) continue;
+      if (memory_.batch_.take(i, false, &together) && together.visible == state.visible) {
+        sum += state.weight * together.cost;
+        continue;
+      }
       const PhotometricCost found =
           textplane::evaluate(request(texts_[i], T_c_w), memory_.photometric_, memory_.visible_.data() + state.offset);
       path_ = (std::max)(path_, found.path);
@@ -44313,6 +44512,31 @@ class PoseProblem {
     return sum;
   }
 
+  void fill_batch() noexcept {
+    if (rig_ || text_count_ < kBatchFewest || level_ >= one_.target.levels ||
+        !PoseBatch::takes(one_.camera, one_.target.level[static_cast<std::size_t>(level_)], options_.photometric))
+      return;
+    for (int i = 0; i < text_count_; ++i) {
+      const PoseTextTerm& term = texts_[i];
+      if (!is_usable(term) || term.scale_shift > 0 || term.patch->rows.active()) continue;
+      const PolicyRequest<Pixel> q = request(term, SE3d());
+      if (q.policy == LinearisePolicy::forward || q.policy == LinearisePolicy::hybrid)
+        memory_.batch_.add({i, q.input.patch, q.input.host_camera, term.theta, term.T_w_h});
+    }
+    memory_.batch_.pack();
+  }
+
+  void run_batch(const SE3d& T_c_w) noexcept {
+    if constexpr (std::is_same<Pixel, std::uint8_t>::value)
+      if (!memory_.batch_.empty())
+        memory_.batch_.run(T_c_w, one_.target.level[static_cast<std::size_t>(level_)],
+                           one_.camera.pinhole.at_level(level_), options_.photometric);
+  }
+
+  static bool is_usable(const PoseTextTerm& term) noexcept {
+    return term.patch && term.weight > 0 && is_finite(term.weight);
+  }
+
   PolicyRequest<Pixel> request(const PoseTextTerm& term, const SE3d& T_c_w) const noexcept {
     const int host_level = term.scale_shift < 0 ? level_ - term.scale_shift : level_;
     const BasicPoseCamera<View>& seen = camera(term.camera);
@@ -44326,27 +44550,42 @@ class PoseProblem {
 
   PoseTextState& text(int i) noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
 
-  Status add_text(const PoseTextTerm& term, const SE3d& T_c_w, PoseTextState& state, PoseSystem& system) noexcept {
-    if (!term.patch || !(term.weight > 0) || !is_finite(term.weight)) return Status::invalid_argument;
-    PhotometricWorkspace& workspace = memory_.photometric_;
-    const PolicyRequest<Pixel> q = request(term, T_c_w);
-    NormalEquations<6> n = textplane::linearise<Parameters::pose>(q, workspace);
-    path_ = (std::max)(path_, n.path);
-    if (!is_ok(n.status)) return n.status;
-    // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
-    if (q.prepared && q.policy != LinearisePolicy::forward && q.policy != LinearisePolicy::hybrid) {
-      const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
-      if (is_ok(c.status)) n.cost = c.cost;
+  Status add_text(int index, const SE3d& T_c_w, PoseTextState& state, PoseSystem& system) noexcept {
+    const PoseTextTerm& term = texts_[index];
+    if (!is_usable(term)) return Status::invalid_argument;
+    NormalEquations<6> n{Unset()};
+    std::uint8_t* visible = memory_.visible_.data() + state.offset;
+    if (memory_.batch_.take(index, true, &n)) {
+      std::fill_n(visible, n.visible, std::uint8_t{1});
+    } else {
+      const Status status = linearise_text(term, T_c_w, visible, &n);
+      if (!is_ok(status)) return status;
     }
     state.visible = n.visible;
     state.zncc = n.zncc;
     state.weight = term.weight * text_weight(options_.weighting, options_.sigma_rep, options_.sigma_photo, n.visible);
-    std::copy_n(workspace.visible(), q.input.patch.n, memory_.visible_.data() + state.offset);
     for (int i = 0; i < 6; ++i) {
       system.b[i] += state.weight * n.b[i];
       for (int j = 0; j <= i; ++j) system.H(i, j) += state.weight * n.H(i, j);
     }
     system.cost += state.weight * n.cost;
+    return Status::ok;
+  }
+
+  // By itself.
+  Status linearise_text(const PoseTextTerm& term, const SE3d& T_c_w, std::uint8_t* visible,
+                        NormalEquations<6>* n) noexcept {
+    PhotometricWorkspace& workspace = memory_.photometric_;
+    const PolicyRequest<Pixel> q = request(term, T_c_w);
+    *n = textplane::linearise<Parameters::pose>(q, workspace);
+    path_ = (std::max)(path_, n->path);
+    if (!is_ok(n->status)) return n->status;
+    // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
+    if (q.prepared && q.policy != LinearisePolicy::forward && q.policy != LinearisePolicy::hybrid) {
+      const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
+      if (is_ok(c.status)) n->cost = c.cost;
+    }
+    std::copy_n(workspace.visible(), q.input.patch.n, visible);
     return Status::ok;
   }
 

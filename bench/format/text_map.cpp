@@ -10,11 +10,12 @@ namespace textplane_bench {
 
 namespace {
 
-std::string cell(const Results& all, const std::string& name) {
+// In microseconds; `unit` nanoseconds else.
+std::string cell(const Results& all, const std::string& name, double unit = 1e3) {
   const auto found = all.find(name);
   if (found == all.end()) return " |";
-  return " " + short_number(least(found->second.ns_item) / 1e3) + ", " +
-         short_number(median(found->second.ns_item) / 1e3) + " |";
+  return " " + short_number(least(found->second.ns_item) / unit) + ", " +
+         short_number(median(found->second.ns_item) / unit) + " |";
 }
 
 // The sizes that a benchmark was run with.
@@ -44,12 +45,14 @@ std::string frames(const Results& all, const std::string& best) {
 std::string parts(const Results& all) {
   std::string out =
       "| pixels a text, `avx2` | packing | ZNCC: batch | one by one | normal equations, 9 parameters: batch | one by "
-      "one "
-      "|\n| ---: | --- | --- | --- | --- | --- |\n";
+      "one | `refine_pose()`, ns a text and iteration: together | one by one |\n"
+      "| ---: | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const int size : sizes_of(all, "text_map_pack")) {
     out += "| " + std::to_string(size) + " |";
     for (const char* part : {"pack", "cost_batch", "cost_single", "equations_batch", "equations_single"})
       out += cell(all, std::string("text_map_") + part + "/avx2/" + std::to_string(size));
+    for (const char* part : {"pose_batch", "pose_single"})
+      out += cell(all, std::string("text_map_") + part + "/avx2/" + std::to_string(size), 1);
     out += "\n";
   }
   return out;

@@ -1,9 +1,10 @@
 // TextMap::track(): a frame with at most twenty signs in view, against the number of mapped texts, with two hundred
 // points and with none. And what the batch kernel would take for its parts: twenty texts of n pixels each, by batch and
-// one by one.
+// one by one; and refine_pose() on them, which takes them together where they are small.
 #include "registry.hpp"
 #include "support/text_wall.hpp"
 #include "textplane/photometry/text_batch.hpp"
+#include "textplane/solver/pose.hpp"
 
 namespace textplane_bench {
 
@@ -55,6 +56,48 @@ struct Texts {
   tp::TextBatchResult result;
 };
 
+// refine_pose() on the finest level, from the wall's start; nanoseconds are of one text and iteration. A rig of one
+// camera takes the texts one by one.
+struct SmallTexts : Texts {
+  explicit SmallTexts(int n) : Texts(n) {
+    const textplane_test::TextWall& wall = the_wall();
+    for (const tp::TextObject& text : map.objects()) patches.push_back(text.patch);
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      textplane_test::keep_pixels(patches[i], n);
+      terms.push_back({&patches[i], map.objects()[i].theta, tp::SE3d()});
+    }
+    options.coarsest_level = 0;
+    memory.reserve(terms.data(), static_cast<int>(terms.size()), 0);
+    rig = {wall.camera, tp::SE3d(), wall.frame.view()};
+  }
+  tp::PoseFit together() {
+    return tp::refine_pose(terms.data(), static_cast<int>(terms.size()), nullptr, 0, rig.target, rig.camera,
+                           the_wall().start, options, memory);
+  }
+  tp::PoseFit one_by_one() {
+    return tp::refine_pose(terms.data(), static_cast<int>(terms.size()), nullptr, 0, &rig, 1, the_wall().start, options,
+                           memory);
+  }
+
+  std::vector<tp::TextPatch> patches;
+  std::vector<tp::PoseTextTerm> terms;
+  tp::PoseCamera rig;
+  tp::PoseOptions options;
+  tp::PoseWorkspace memory;
+};
+
+template <class Solve>
+void add_poses(const std::string& name, const Solve& solve) {
+  for (const int n : {15, 30, 60, 120})
+    add_targets("text_map_" + name, std::to_string(n), [n, solve] {
+      const auto texts = std::make_shared<SmallTexts>(n);
+      Work work;
+      work.items = static_cast<double>(texts->terms.size()) * solve(*texts).iterations;
+      work.call = [texts, solve](std::size_t) { keep(solve(*texts).iterations); };
+      return work;
+    });
+}
+
 template <class Call>
 void add_parts(const std::string& name, const Call& call) {
   for (const int n : {15, 30, 60, 120, 250})
@@ -87,6 +130,8 @@ void add_all_parts() {
 
 void add_text_map() {
   add_all_parts();
+  add_poses("pose_batch", [](SmallTexts& t) { return t.together(); });
+  add_poses("pose_single", [](SmallTexts& t) { return t.one_by_one(); });
   for (const int texts : {1, 10, 100, 1000, 10000}) {
     add_targets("text_map", std::to_string(texts), [texts] { return track(texts, true); });
     add_targets("text_map_without_points", std::to_string(texts), [texts] { return track(texts, false); });

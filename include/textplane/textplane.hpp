@@ -64,6 +64,7 @@
 #include "textplane/landmarks/text_window.hpp"
 #include "textplane/landmarks/words.hpp"
 
+#include "textplane/photometry/batch/text_batch_pack.hpp"
 #include "textplane/photometry/blur.hpp"
 #include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/lens/lens_fit.hpp"
@@ -100,6 +101,7 @@
 #include "textplane/solver/plane.hpp"
 #include "textplane/solver/plane_problem.hpp"
 #include "textplane/solver/pose.hpp"
+#include "textplane/solver/pose_batch.hpp"
 #include "textplane/solver/pose_problem.hpp"
 #include "textplane/solver/pose_rig.hpp"
 #include "textplane/solver/pose_terms.hpp"

@@ -4,6 +4,7 @@
 #include "allocation/count.hpp"
 #include "solver/synthetic.hpp"
 #include "solver/window_scene.hpp"
+#include "support/text_wall.hpp"
 #include "textplane/solver/plane.hpp"
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/search.hpp"
@@ -46,6 +47,30 @@ TEST(NoAllocation, RefinePoseAndRefinePlane) {
   EXPECT_GT(pose.iterations, 3);
   EXPECT_TRUE(is_ok(plane.status));
   EXPECT_GT(plane.iterations, 3);
+}
+
+// By the batch kernel.
+TEST(NoAllocation, RefinePoseOfManySmallTexts) {
+  namespace tp = textplane;
+  const textplane_test::TextWall wall;
+  tp::TextMap map(wall.camera);
+  wall.fill(map, 9);
+  std::vector<tp::TextPatch> patches;
+  for (const tp::TextObject& text : map.objects()) {
+    patches.push_back(text.patch);
+    textplane_test::keep_pixels(patches.back(), 40);
+  }
+  std::vector<tp::PoseTextTerm> texts;
+  for (const tp::TextPatch& patch : patches) texts.push_back({&patch, map.objects()[0].theta, tp::SE3d()});
+  tp::PoseWorkspace workspace;
+  workspace.reserve(texts.data(), 9, 0);
+  tp::PoseFit pose;
+  {
+    const NoAllocation guard;
+    pose = tp::refine_pose(texts.data(), 9, nullptr, 0, wall.frame.view(), wall.camera, wall.start, {}, workspace);
+  }
+  EXPECT_EQ(pose.texts, 9);
+  EXPECT_EQ(pose.path, tp::Path::kernel);
 }
 
 TEST(NoAllocation, SolveWindowAgain) {

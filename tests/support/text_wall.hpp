@@ -6,6 +6,7 @@
 #ifndef TEXTPLANE_TESTS_SUPPORT_TEXT_WALL_HPP
 #define TEXTPLANE_TESTS_SUPPORT_TEXT_WALL_HPP
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -112,6 +113,16 @@ class TextWall {
   Random random_{5};
   std::vector<textplane::TextObject> texts_;
 };
+
+/// Leaves the first n pixels of each level.
+inline void keep_pixels(textplane::TextPatch& patch, int n) {
+  for (textplane::PatchLevel& level : patch.levels) {
+    const std::size_t kept = (std::min)(level.x.size(), static_cast<std::size_t>(n));
+    for (std::vector<float>* values : {&level.x, &level.y, &level.intensity, &level.gx, &level.gy})
+      if (values->size() > kept) values->resize(kept);
+    level.find_bounds();
+  }
+}
 
 }  // namespace textplane_test
 

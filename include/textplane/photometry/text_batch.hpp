@@ -14,6 +14,7 @@
 #include "textplane/core/cache_line.hpp"
 #include "textplane/core/cameras/camera_view.hpp"
 #include "textplane/core/se3.hpp"
+#include "textplane/photometry/batch/text_batch_pack.hpp"
 #include "textplane/photometry/photometric_workspace.hpp"
 #include "textplane/photometry/residual_request.hpp"
 #include "textplane/photometry/residual_result.hpp"
@@ -73,11 +74,6 @@ class TextBatch {
   }
 
  private:
-  static bool usable(const PatchView& patch, int i) noexcept {
-    return (!patch.mask || patch.mask[i]) && is_finite(patch.x[i]) && is_finite(patch.y[i]) &&
-           is_finite(patch.intensity[i]);
-  }
-
   // Floats that a group needs.
   std::size_t count_group(const TextBatchItem* items, int first, int members) {
     int most = 0;
@@ -85,9 +81,7 @@ class TextBatch {
       const PatchView& p = items[l].patch;
       const bool valid = p.x && p.y && p.intensity && p.n >= 0 && items[l].host_camera.valid();
       valid_[static_cast<std::size_t>(first + l)] = valid;
-      int n = 0;
-      for (int i = 0; valid && i < p.n; ++i) n += usable(p, i);
-      most = (std::max)(most, n);
+      if (valid) most = (std::max)(most, detail::usable_pixels(p));
     }
     most_ = (std::max)(most_, most);
     return static_cast<std::size_t>(most) * 3 * simd::kBatchLanes;
@@ -99,39 +93,9 @@ class TextBatch {
     group.start = static_cast<std::ptrdiff_t>(start);
     int most = 0;
     for (int l = 0; l < members; ++l) {
-      const TextBatchItem& item = items[l];
-      const PatchView& p = item.patch;
-      const auto at = static_cast<std::size_t>(first + l);
-      if (!valid_[at]) continue;
-      int& n = group.n[l];
-      float x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-      for (int i = 0; i < p.n; ++i) {
-        if (!usable(p, i)) continue;
-        x0 = n ? (std::min)(x0, p.x[i]) : p.x[i];
-        x1 = n ? (std::max)(x1, p.x[i]) : p.x[i];
-        y0 = n ? (std::min)(y0, p.y[i]) : p.y[i];
-        y1 = n ? (std::max)(y1, p.y[i]) : p.y[i];
-        ++n;
-      }
-      const float fx = x0 + 0.5F * (x1 - x0), fy = y0 + 0.5F * (y1 - y0);
-      const double hx = static_cast<double>(fx), hy = static_cast<double>(fy);
-      group.ru[l] = (std::max)(static_cast<double>(x1) - hx, hx - static_cast<double>(x0));
-      group.rv[l] = (std::max)(static_cast<double>(y1) - hy, hy - static_cast<double>(y0));
-      group.ifx[l] = 1.0 / item.host_camera.fx;
-      group.ify[l] = 1.0 / item.host_camera.fy;
-      group.mu[l] = (hx - item.host_camera.cx) * group.ifx[l];
-      group.mv[l] = (hy - item.host_camera.cy) * group.ify[l];
-      for (int k = 0; k < 3; ++k) group.theta[k][l] = item.theta[k];
-      most = (std::max)(most, n);
-      if (n == 0) continue;  // there may be no pixels at all
-      float* out = numbers(pixels_) + start + l;
-      for (int i = 0; i < p.n; ++i) {
-        if (!usable(p, i)) continue;
-        out[0] = p.x[i] - fx;
-        out[simd::kBatchLanes] = p.y[i] - fy;
-        out[2 * simd::kBatchLanes] = p.intensity[i];
-        out += 3 * simd::kBatchLanes;
-      }
+      if (!valid_[static_cast<std::size_t>(first + l)]) continue;
+      detail::pack_lane(items[l].patch, items[l].host_camera, items[l].theta, l, &group, numbers(pixels_) + start);
+      most = (std::max)(most, group.n[l]);
     }
     groups_.push_back(group);
     return start + static_cast<std::size_t>(most) * 3 * simd::kBatchLanes;
@@ -238,26 +202,14 @@ Status run_batch(const TextBatch& batch, const ImageView8& target, const CameraV
   simd::BatchArgs args;
   batch.fill(&args);
   result.fill(P, &args);
-  args.target = {target.data(), target.stride(), target.width(), target.height()};
-  if (!target.valid() || !simd::readable(args.target) || !camera.valid() || !options.valid() ||
+  if (!target.valid() || !simd::readable(batch_image(target)) || !camera.valid() || !options.valid() ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
     std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
     return Status::invalid_argument;
   }
   if (batch.size() == 0) return Status::ok;
-  static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
-  args.pose = T_t_h->R.data();
-  args.pose_step = 12;
-  args.t_offset = 9;
-  const Pinhole<double>& c = camera.pinhole;
-  const double intrinsics[] = {c.fx, c.fy, c.cx, c.cy};
-  std::copy_n(intrinsics, 4, args.camera);
-  args.exact = options.normalisation == Normalisation::exact;
-  args.robust = options.robust.kind;
-  args.delta = options.robust.delta;
-  args.min_contrast = options.min_contrast;
-  args.min_visible = options.min_visible;
+  detail::set_batch_args(target, camera.pinhole, T_t_h, options, &args);
   if (camera.lens) {
     run_batch_behind<P>(batch, args, target, camera, T_t_h, options, result.workspace());
   } else {

@@ -6,12 +6,14 @@
 // E_point + lambda_w E_text. The pose is perturbed from the left, T_t_w <- Exp(xi) T_t_w, xi = (v, omega), and with it
 // every T_t_h = T_t_w T_w_h. Of a rig, the pose is the rig's, and each term is one of its camera (pose_rig.hpp). Behind
 // a rolling shutter (CameraView::rows) poses are those at the time stamp, and each point counts at the pose of the row
-// that shows it.
+// that shows it. Small texts of one camera go through the batch kernel (pose_batch.hpp).
 #ifndef TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 #define TEXTPLANE_SOLVER_POSE_PROBLEM_HPP
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 #include "textplane/photometry/residual_policy.hpp"
 #include "textplane/solver/levels.hpp"
@@ -60,7 +62,11 @@ class PoseProblem {
     set_rows();
   }
 
-  void set_level(int level) noexcept { level_ = level; }
+  void set_level(int level) noexcept {
+    level_ = level;
+    memory_.batch_.clear();
+    if constexpr (std::is_same<Pixel, std::uint8_t>::value) fill_batch();
+  }
 
   PoseSystem linearise(const SE3d& T_t_w) noexcept {
     PoseSystem system;
@@ -132,11 +138,12 @@ class PoseProblem {
 
   // The terms of camera c with the pose T_c_w: to the lower triangle of H, to b and to the cost.
   void add_terms(int c, const SE3d& T_c_w, PoseSystem& system, Status& trouble) noexcept {
+    run_batch(T_c_w);
     for (int i = 0; i < text_count_; ++i) {
       if (texts_[i].camera != c) continue;
       PoseTextState& state = text(i);
       state = PoseTextState{offset_, 0, 0, 0};
-      const Status status = add_text(texts_[i], T_c_w, state, system);
+      const Status status = add_text(i, T_c_w, state, system);
       if (!is_ok(status)) {
         if (trouble == Status::too_few) trouble = status;
         continue;
@@ -156,9 +163,15 @@ class PoseProblem {
   // Their cost on the residuals of the last linearisation.
   double cost(int c, const SE3d& T_c_w, int& lost_pixels, int& lost_points) noexcept {
     double sum = 0;
+    run_batch(T_c_w);
+    NormalEquations<6> together{Unset()};
     for (int i = 0; i < text_count_; ++i) {
       const PoseTextState& state = text(i);
       if (texts_[i].camera != c || state.visible == 0) continue;
+      if (memory_.batch_.take(i, false, &together) && together.visible == state.visible) {
+        sum += state.weight * together.cost;
+        continue;
+      }
       const PhotometricCost found =
           textplane::evaluate(request(texts_[i], T_c_w), memory_.photometric_, memory_.visible_.data() + state.offset);
       path_ = (std::max)(path_, found.path);
@@ -182,6 +195,31 @@ class PoseProblem {
     return sum;
   }
 
+  void fill_batch() noexcept {
+    if (rig_ || text_count_ < kBatchFewest || level_ >= one_.target.levels ||
+        !PoseBatch::takes(one_.camera, one_.target.level[static_cast<std::size_t>(level_)], options_.photometric))
+      return;
+    for (int i = 0; i < text_count_; ++i) {
+      const PoseTextTerm& term = texts_[i];
+      if (!is_usable(term) || term.scale_shift > 0 || term.patch->rows.active()) continue;
+      const PolicyRequest<Pixel> q = request(term, SE3d());
+      if (q.policy == LinearisePolicy::forward || q.policy == LinearisePolicy::hybrid)
+        memory_.batch_.add({i, q.input.patch, q.input.host_camera, term.theta, term.T_w_h});
+    }
+    memory_.batch_.pack();
+  }
+
+  void run_batch(const SE3d& T_c_w) noexcept {
+    if constexpr (std::is_same<Pixel, std::uint8_t>::value)
+      if (!memory_.batch_.empty())
+        memory_.batch_.run(T_c_w, one_.target.level[static_cast<std::size_t>(level_)],
+                           one_.camera.pinhole.at_level(level_), options_.photometric);
+  }
+
+  static bool is_usable(const PoseTextTerm& term) noexcept {
+    return term.patch && term.weight > 0 && is_finite(term.weight);
+  }
+
   PolicyRequest<Pixel> request(const PoseTextTerm& term, const SE3d& T_c_w) const noexcept {
     const int host_level = term.scale_shift < 0 ? level_ - term.scale_shift : level_;
     const BasicPoseCamera<View>& seen = camera(term.camera);
@@ -195,27 +233,42 @@ class PoseProblem {
 
   PoseTextState& text(int i) noexcept { return memory_.texts_[static_cast<std::size_t>(i)]; }
 
-  Status add_text(const PoseTextTerm& term, const SE3d& T_c_w, PoseTextState& state, PoseSystem& system) noexcept {
-    if (!term.patch || !(term.weight > 0) || !is_finite(term.weight)) return Status::invalid_argument;
-    PhotometricWorkspace& workspace = memory_.photometric_;
-    const PolicyRequest<Pixel> q = request(term, T_c_w);
-    NormalEquations<6> n = textplane::linearise<Parameters::pose>(q, workspace);
-    path_ = (std::max)(path_, n.path);
-    if (!is_ok(n.status)) return n.status;
-    // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
-    if (q.prepared && q.policy != LinearisePolicy::forward && q.policy != LinearisePolicy::hybrid) {
-      const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
-      if (is_ok(c.status)) n.cost = c.cost;
+  Status add_text(int index, const SE3d& T_c_w, PoseTextState& state, PoseSystem& system) noexcept {
+    const PoseTextTerm& term = texts_[index];
+    if (!is_usable(term)) return Status::invalid_argument;
+    NormalEquations<6> n{Unset()};
+    std::uint8_t* visible = memory_.visible_.data() + state.offset;
+    if (memory_.batch_.take(index, true, &n)) {
+      std::fill_n(visible, n.visible, std::uint8_t{1});
+    } else {
+      const Status status = linearise_text(term, T_c_w, visible, &n);
+      if (!is_ok(status)) return status;
     }
     state.visible = n.visible;
     state.zncc = n.zncc;
     state.weight = term.weight * text_weight(options_.weighting, options_.sigma_rep, options_.sigma_photo, n.visible);
-    std::copy_n(workspace.visible(), q.input.patch.n, memory_.visible_.data() + state.offset);
     for (int i = 0; i < 6; ++i) {
       system.b[i] += state.weight * n.b[i];
       for (int j = 0; j <= i; ++j) system.H(i, j) += state.weight * n.H(i, j);
     }
     system.cost += state.weight * n.cost;
+    return Status::ok;
+  }
+
+  // By itself.
+  Status linearise_text(const PoseTextTerm& term, const SE3d& T_c_w, std::uint8_t* visible,
+                        NormalEquations<6>* n) noexcept {
+    PhotometricWorkspace& workspace = memory_.photometric_;
+    const PolicyRequest<Pixel> q = request(term, T_c_w);
+    *n = textplane::linearise<Parameters::pose>(q, workspace);
+    path_ = (std::max)(path_, n->path);
+    if (!is_ok(n->status)) return n->status;
+    // Trials are compared with this cost, so it must equal evaluate()'s to the last digit.
+    if (q.prepared && q.policy != LinearisePolicy::forward && q.policy != LinearisePolicy::hybrid) {
+      const PhotometricCost c = textplane::evaluate(q, workspace, workspace.visible());
+      if (is_ok(c.status)) n->cost = c.cost;
+    }
+    std::copy_n(workspace.visible(), q.input.patch.n, visible);
     return Status::ok;
   }
 

@@ -11,6 +11,7 @@
 #include "textplane/photometry/residual_request.hpp"
 #include "textplane/photometry/template_patch.hpp"
 #include "textplane/solver/gauss_newton.hpp"
+#include "textplane/solver/pose_batch.hpp"
 #include "textplane/solver/weighting.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -89,6 +90,7 @@ class PoseWorkspace {
     if (point_count > 0 && points_.size() < static_cast<std::size_t>(point_count))
       points_.resize(static_cast<std::size_t>(point_count));
     if (rows_.size() < points_.size()) rows_.resize(points_.size());
+    if (text_count >= detail::kBatchFewest) batch_.reserve(text_count);
   }
 
   /// Whether it has room for these terms.
@@ -114,6 +116,7 @@ class PoseWorkspace {
   std::vector<detail::PoseTextState> texts_;
   std::vector<std::uint8_t> points_;  // 1: took part in the last linearisation.
   std::vector<SE3d> rows_;            // Of the points, behind a rolling shutter: increments of the pose.
+  detail::PoseBatch batch_;           // Of the small texts.
 };
 
 TEXTPLANE_END_NAMESPACE
