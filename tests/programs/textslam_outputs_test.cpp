@@ -1,4 +1,5 @@
 // What the outputs of a run mean: against each other, against the rendered truth, and asked by textslam-map.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -230,6 +231,13 @@ TEST_F(TextslamRun, TimingsCoverEveryFrame) {
     EXPECT_GE(t.at("median").get<double>(), 0.0);
     EXPECT_GE(t.at("p95").get<double>(), t.at("median").get<double>());
   }
+  const Json& whole = timing.at("stages").at("frame");
+  EXPECT_GE(whole.at("p99").get<double>(), whole.at("p95").get<double>());
+  double longest = 0;
+  for (const Json& frame : timing.at("frames"))
+    longest = std::max(longest, frame.at("tracking").get<double>() + frame.at("mapping").get<double>());
+  EXPECT_GE(whole.at("longest").get<double>(), whole.at("p99").get<double>());
+  EXPECT_LE(whole.at("longest").get<double>(), longest) << "of the live frames, which are some of all";
 }
 
 }  // namespace

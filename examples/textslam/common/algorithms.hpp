@@ -13,11 +13,11 @@ namespace textslam {
 using textplane::evenly_spaced;
 using textplane::median;
 
-/// The value that 95 of 100 do not exceed; 0 of nothing.
-inline double percentile95(std::vector<double> values) {
+/// The value that `percent` of 100 do not exceed; 0 of nothing.
+inline double percentile(std::vector<double> values, std::size_t percent) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, values.size() * 95 / 100)];
+  return values[std::min(values.size() - 1, values.size() * percent / 100)];
 }
 
 /// As std::erase_if of C++20.

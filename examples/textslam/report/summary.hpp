@@ -40,6 +40,7 @@ struct RunSummary {
   std::optional<MetricScale> metric;  ///< Where the widths of signs were known.
   double reprojection_px = 0;         ///< See reprojection_error(), of the map.
   double median_ms = 0;               ///< A frame, detection aside.
+  double p99_ms = 0, longest_ms = 0;  ///< Likewise.
   double median_detect_ms = 0;        ///< A frame that the detector saw.
   std::vector<double> latency_ms;     ///< Real time: of each frame, from its arrival to its pose.
 };

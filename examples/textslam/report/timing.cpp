@@ -14,13 +14,24 @@ std::vector<double> of_live_frames(const System& system, double FrameRecord::*ms
   return values;
 }
 
-Json statistics(const std::vector<double>& ms) { return {{"median", median(ms)}, {"p95", percentile95(ms)}}; }
+Json statistics(const std::vector<double>& ms) { return {{"median", median(ms)}, {"p95", percentile(ms, 95)}}; }
 
 }  // namespace
+
+std::vector<double> whole_frames_ms(const System& system) {
+  std::vector<double> ms;
+  for (const FrameRecord& record : system.records())
+    if (record.live) ms.push_back(record.track_ms + record.map_ms);
+  return ms;
+}
 
 std::string timing_json(const System& system, const std::vector<double>& latency_ms) {
   Json stages, frames = Json::array();
   for (const Stage& stage : kStages) stages[stage.in_file] = statistics(of_live_frames(system, stage.ms));
+  const std::vector<double> whole = whole_frames_ms(system);
+  stages["frame"] = statistics(whole);
+  stages["frame"]["p99"] = percentile(whole, 99);
+  stages["frame"]["longest"] = percentile(whole, 100);
   if (!latency_ms.empty()) stages["latency"] = statistics(latency_ms);
   for (const FrameRecord& record : system.records()) {
     Json frame{{"timestamp", record.timestamp}};
@@ -40,7 +51,7 @@ Json page_timing(const System& system) {
       values.push_back(short_number(std::round(100 * record.*stage.ms) / 100));
     stages.push_back({{"name", stage.on_page},
                       {"median", short_number(median(live))},
-                      {"p95", short_number(percentile95(live))},
+                      {"p95", short_number(percentile(live, 95))},
                       {"ms", values}});
   }
   return stages;

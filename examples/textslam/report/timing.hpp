@@ -27,7 +27,11 @@ constexpr std::array<Stage, 7> kStages = {{
     {"mapping.adjustment", "mapping: adjustment", &FrameRecord::adjust_ms, false, false},
 }};
 
-/// The text of timing.json: the median and 95th percentile of each stage over the live frames, and the frames.
+/// Tracking and mapping together, of each live frame.
+std::vector<double> whole_frames_ms(const System& system);
+
+/// The text of timing.json: the median and 95th percentile of each stage over the live frames, and the frames. The
+/// stage `frame` is tracking and mapping together, with the 99th percentile and the longest.
 std::string timing_json(const System& system, const std::vector<double>& latency_ms);
 
 /// For the page: by stage, the same and the milliseconds of every frame.
