@@ -9,6 +9,15 @@ if [ -z "${CMAKE_CXX_COMPILER_LAUNCHER:-}" ] && command -v ccache >/dev/null 2>&
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
 
+# Ninja compiles what uses a library while the library is compiled; make waits for it. It is used where there is one, in
+# new build folders. Asked again after packages were installed.
+use_ninja() {
+  if [ -z "${CMAKE_GENERATOR:-}" ] && command -v ninja >/dev/null 2>&1; then
+    export CMAKE_GENERATOR=Ninja
+  fi
+}
+use_ninja
+
 # Debian and Ubuntu package names. "a|b": either will do; a gets installed. A rendered room uses the fonts that it finds on its
 # signs, and tests and measurements need the same four everywhere: hence both packages of fonts.
 packages_build='cmake g++ make libeigen3-dev'
@@ -16,7 +25,7 @@ packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-de
   nlohmann-json3-dev libyaml-cpp-dev libsqlite3-dev fonts-dejavu-core fonts-dejavu-extra"
 packages_page='cmake g++ make libeigen3-dev emscripten node-acorn nlohmann-json3-dev libstb-dev'
 packages_test="$packages_build libgtest-dev"
-packages_ci="$packages_demo libgtest-dev libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
+packages_ci="$packages_demo ninja-build libgtest-dev libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
   pandoc libjs-katex fonts-katex clang-format pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel
   python3-pip python3-pytest mypy"
@@ -78,6 +87,7 @@ install_packages() {
   # shellcheck disable=SC2086  # a list of words
   apt_get install -y -qq --no-install-recommends $missing ||
     warn "apt could not install all of them: install them yourself if the build does not find them"
+  use_ninja
 }
 
 # build_page: the preset page. A node that is not Debian's looks elsewhere for Debian's modules, which Emscripten needs.

@@ -87,8 +87,9 @@ def lightness(browser):
 
 def test_page(browser, path, screenshots):
     """No overflow, formulas set in KaTeX's fonts, light and dark."""
-    for width, height in (DESKTOP, PHONE):
-        browser.open(path, width, height, settle=0)
+    browser.open(path, *PHONE, settle=0)
+    for width, height in (PHONE, DESKTOP):
+        browser.show(width, height)
         shown = browser.run("document.documentElement.scrollWidth")
         check(shown <= width, f"{path} is {shown} px wide on a screen of {width}")
         formulas, missing = browser.run("""document.fonts.ready.then(() => [...document.querySelectorAll('span.math')])
