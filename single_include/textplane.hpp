@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 183 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 1a98d40968db1c5d
+// Hash of these files: 4ae0820e6a45a649
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 1a98d40968db1c5d"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 4ae0820e6a45a649"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -47,13 +47,12 @@
 // Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of
 // the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's two largest
 // alignments, the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp), and the moves that MinGW's wide
-// targets need (simd/targets.hpp). Two translation units built
-// with different flags therefore keep their own copies, and passing a type from one to the other is a link error
-// instead of a corrupt heap. It protects textplane's own functions. Those of Eigen and of the standard library that a
-// compiler does not inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none
-// (tests/simd/isa).
+// targets need (simd/targets.hpp). Two translation units built with different flags therefore keep their own copies,
+// and passing a type from one to the other is a link error instead of a corrupt heap. It protects textplane's own
+// functions. Those of Eigen and of the standard library that a compiler does not inline stay shared, whichever copy the
+// linker keeps; so kernels and small solvers call none (tests/simd/isa).
 //
-// This header and simd/targets are the only ones that read compiler macros.
+// This header and simd/targets.hpp are the only ones that read compiler macros.
 #ifndef TEXTPLANE_CONFIG_HPP
 #define TEXTPLANE_CONFIG_HPP
 
@@ -142,7 +141,8 @@
 // expression of Vector3<Real> alone until the function is called, while one of Vector3<double> costs Eigen's templates
 // wherever the header is included. A program with compiled kernels (simd/targets.hpp) compiles a function once:
 // TEXTPLANE_INSTANCE(signature), with `name<>`, at the end of the header defines it in the one file that defines the
-// kernels, and declares it in all others. In other programs it does nothing.
+// kernels, and declares it in all others. In other programs it does nothing. Of a class, TEXTPLANE_INSTANCE(class
+// Name<double>), it keeps those members from other files that are defined below the class: those within it are inline.
 #define TEXTPLANE_DEFERRED template <class Real = double>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
 #undef TEXTPLANE_EXTERN_KERNELS
@@ -31964,12 +31964,13 @@ const T* numbers(const std::vector<CacheLine<T>>& lines) noexcept {
 TEXTPLANE_END_NAMESPACE
 
 #endif  // TEXTPLANE_CORE_CACHE_LINE_HPP
-// What goes into a batch (simd/batch.hpp): the host pixels of an object into its lane, image, camera and options of a
-// call.
+// What goes into a batch (simd/batch.hpp) and comes out: the host pixels of an object into its lane, image, camera and
+// options of a call, entries of a result.
 #ifndef TEXTPLANE_PHOTOMETRY_BATCH_TEXT_BATCH_PACK_HPP
 #define TEXTPLANE_PHOTOMETRY_BATCH_TEXT_BATCH_PACK_HPP
 
 #include <algorithm>
+#include <cstddef>
 
 // Batch kernels: many text objects of a few pixels each against one image, one object a lane. photometry/text_batch.hpp
 // is the typed form; what r, E, H and b are is said in photometry/residual.hpp.
@@ -35544,6 +35545,16 @@ inline void pack_lane(const PatchView& p, const Pinhole<double>& host_camera, co
   }
 }
 
+// Where BatchArgs::out has an entry of an object.
+inline std::ptrdiff_t batch_place(int parameters, int object, int entry) noexcept {
+  const std::ptrdiff_t row =
+      static_cast<std::ptrdiff_t>(object / simd::kBatchLanes) * simd::batch_entries(parameters) + entry;
+  return row * simd::kBatchLanes + object % simd::kBatchLanes;
+}
+inline std::ptrdiff_t batch_place(int parameters, int object, simd::BatchEntry entry) noexcept {
+  return batch_place(parameters, object, parameters * (parameters + 1) / 2 + parameters + static_cast<int>(entry));
+}
+
 inline simd::Image8 batch_image(const ImageView8& target) noexcept {
   return {target.data(), target.stride(), target.width(), target.height()};
 }
@@ -35725,12 +35736,10 @@ class TextBatchResult {
   static std::size_t floats(const TextBatch& batch) noexcept { return simd::batch_floats(batch.size(), 9); }
 
   double at(int i, int entry) const noexcept {
-    const int group = i / simd::kBatchLanes, lane = i % simd::kBatchLanes;
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(group) * simd::batch_entries(parameters_) + entry;
-    return static_cast<double>(numbers(out_)[row * simd::kBatchLanes + lane]);
+    return static_cast<double>(numbers(out_)[detail::batch_place(parameters_, i, entry)]);
   }
   double tail(int i, simd::BatchEntry entry) const noexcept {
-    return at(i, parameters_ * (parameters_ + 1) / 2 + parameters_ + static_cast<int>(entry));
+    return static_cast<double>(numbers(out_)[detail::batch_place(parameters_, i, entry)]);
   }
 
   std::vector<CacheLine<float>> out_, scratch_;
@@ -43940,7 +43949,6 @@ TEXTPLANE_END_NAMESPACE
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <vector>
 
 TEXTPLANE_BEGIN_NAMESPACE
@@ -44043,19 +44051,16 @@ class PoseBatch {
     if (count_ == 0) return false;
     const int slot = slots_[static_cast<std::size_t>(text)];
     if (slot < 0 || !is_ok(status_[static_cast<std::size_t>(slot)])) return false;
-    const std::ptrdiff_t group = slot / simd::kBatchLanes;
-    const float* entry = numbers(out_) + group * simd::batch_entries(6) * simd::kBatchLanes + slot % simd::kBatchLanes;
-    const float* tail =
-        entry + (simd::batch_entries(6) - static_cast<int>(simd::BatchEntry::count)) * simd::kBatchLanes;
-    const auto of_tail = [tail](simd::BatchEntry which) {
-      return static_cast<double>(tail[static_cast<int>(which) * simd::kBatchLanes]);
+    const auto result = [&](simd::BatchEntry which) {
+      return static_cast<double>(numbers(out_)[batch_place(6, slot, which)]);
     };
-    out->visible = static_cast<int>(of_tail(simd::BatchEntry::visible));
+    out->visible = static_cast<int>(result(simd::BatchEntry::visible));
     if (out->visible != items_[static_cast<std::size_t>(slot)].patch.n) return false;
     out->status = Status::ok;
-    out->cost = of_tail(simd::BatchEntry::cost);
+    out->cost = result(simd::BatchEntry::cost);
     if (!whole) return true;
-    out->error = range_error(of_tail(simd::BatchEntry::error));
+    out->error = range_error(result(simd::BatchEntry::error));
+    const float* entry = numbers(out_) + batch_place(6, slot, 0);
     out->zncc = 1 - 0.5 * out->error;
     for (int r = 0; r < 6; ++r)
       for (int c = r; c < 6; ++c, entry += simd::kBatchLanes) out->H(c, r) = static_cast<double>(*entry);

@@ -3,13 +3,12 @@
 // Every public symbol lives in `textplane::<abi>`, an inline namespace whose name encodes the version and the flags of
 // the translation unit that change code or layout: the instruction-set baseline, fast-math, Eigen's two largest
 // alignments, the SIMD target where TEXTPLANE_TARGET fixes one (simd/dispatch.hpp), and the moves that MinGW's wide
-// targets need (simd/targets.hpp). Two translation units built
-// with different flags therefore keep their own copies, and passing a type from one to the other is a link error
-// instead of a corrupt heap. It protects textplane's own functions. Those of Eigen and of the standard library that a
-// compiler does not inline stay shared, whichever copy the linker keeps; so kernels and small solvers call none
-// (tests/simd/isa).
+// targets need (simd/targets.hpp). Two translation units built with different flags therefore keep their own copies,
+// and passing a type from one to the other is a link error instead of a corrupt heap. It protects textplane's own
+// functions. Those of Eigen and of the standard library that a compiler does not inline stay shared, whichever copy the
+// linker keeps; so kernels and small solvers call none (tests/simd/isa).
 //
-// This header and simd/targets are the only ones that read compiler macros.
+// This header and simd/targets.hpp are the only ones that read compiler macros.
 #ifndef TEXTPLANE_CONFIG_HPP
 #define TEXTPLANE_CONFIG_HPP
 
@@ -98,7 +97,8 @@
 // expression of Vector3<Real> alone until the function is called, while one of Vector3<double> costs Eigen's templates
 // wherever the header is included. A program with compiled kernels (simd/targets.hpp) compiles a function once:
 // TEXTPLANE_INSTANCE(signature), with `name<>`, at the end of the header defines it in the one file that defines the
-// kernels, and declares it in all others. In other programs it does nothing.
+// kernels, and declares it in all others. In other programs it does nothing. Of a class, TEXTPLANE_INSTANCE(class
+// Name<double>), it keeps those members from other files that are defined below the class: those within it are inline.
 #define TEXTPLANE_DEFERRED template <class Real = double>
 #if defined(TEXTPLANE_DEFINE_KERNELS)
 #undef TEXTPLANE_EXTERN_KERNELS

@@ -173,12 +173,10 @@ class TextBatchResult {
   static std::size_t floats(const TextBatch& batch) noexcept { return simd::batch_floats(batch.size(), 9); }
 
   double at(int i, int entry) const noexcept {
-    const int group = i / simd::kBatchLanes, lane = i % simd::kBatchLanes;
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(group) * simd::batch_entries(parameters_) + entry;
-    return static_cast<double>(numbers(out_)[row * simd::kBatchLanes + lane]);
+    return static_cast<double>(numbers(out_)[detail::batch_place(parameters_, i, entry)]);
   }
   double tail(int i, simd::BatchEntry entry) const noexcept {
-    return at(i, parameters_ * (parameters_ + 1) / 2 + parameters_ + static_cast<int>(entry));
+    return static_cast<double>(numbers(out_)[detail::batch_place(parameters_, i, entry)]);
   }
 
   std::vector<CacheLine<float>> out_, scratch_;

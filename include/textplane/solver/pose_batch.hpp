@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <vector>
 
 #include "textplane/core/cache_line.hpp"
@@ -118,19 +117,16 @@ class PoseBatch {
     if (count_ == 0) return false;
     const int slot = slots_[static_cast<std::size_t>(text)];
     if (slot < 0 || !is_ok(status_[static_cast<std::size_t>(slot)])) return false;
-    const std::ptrdiff_t group = slot / simd::kBatchLanes;
-    const float* entry = numbers(out_) + group * simd::batch_entries(6) * simd::kBatchLanes + slot % simd::kBatchLanes;
-    const float* tail =
-        entry + (simd::batch_entries(6) - static_cast<int>(simd::BatchEntry::count)) * simd::kBatchLanes;
-    const auto of_tail = [tail](simd::BatchEntry which) {
-      return static_cast<double>(tail[static_cast<int>(which) * simd::kBatchLanes]);
+    const auto result = [&](simd::BatchEntry which) {
+      return static_cast<double>(numbers(out_)[batch_place(6, slot, which)]);
     };
-    out->visible = static_cast<int>(of_tail(simd::BatchEntry::visible));
+    out->visible = static_cast<int>(result(simd::BatchEntry::visible));
     if (out->visible != items_[static_cast<std::size_t>(slot)].patch.n) return false;
     out->status = Status::ok;
-    out->cost = of_tail(simd::BatchEntry::cost);
+    out->cost = result(simd::BatchEntry::cost);
     if (!whole) return true;
-    out->error = range_error(of_tail(simd::BatchEntry::error));
+    out->error = range_error(result(simd::BatchEntry::error));
+    const float* entry = numbers(out_) + batch_place(6, slot, 0);
     out->zncc = 1 - 0.5 * out->error;
     for (int r = 0; r < 6; ++r)
       for (int c = r; c < 6; ++c, entry += simd::kBatchLanes) out->H(c, r) = static_cast<double>(*entry);

@@ -1,9 +1,10 @@
-// What goes into a batch (simd/batch.hpp): the host pixels of an object into its lane, image, camera and options of a
-// call.
+// What goes into a batch (simd/batch.hpp) and comes out: the host pixels of an object into its lane, image, camera and
+// options of a call, entries of a result.
 #ifndef TEXTPLANE_PHOTOMETRY_BATCH_TEXT_BATCH_PACK_HPP
 #define TEXTPLANE_PHOTOMETRY_BATCH_TEXT_BATCH_PACK_HPP
 
 #include <algorithm>
+#include <cstddef>
 
 #include "textplane/core/cameras/pinhole.hpp"
 #include "textplane/core/image_view.hpp"
@@ -59,6 +60,16 @@ inline void pack_lane(const PatchView& p, const Pinhole<double>& host_camera, co
     out[2 * simd::kBatchLanes] = p.intensity[i];
     out += 3 * simd::kBatchLanes;
   }
+}
+
+// Where BatchArgs::out has an entry of an object.
+inline std::ptrdiff_t batch_place(int parameters, int object, int entry) noexcept {
+  const std::ptrdiff_t row =
+      static_cast<std::ptrdiff_t>(object / simd::kBatchLanes) * simd::batch_entries(parameters) + entry;
+  return row * simd::kBatchLanes + object % simd::kBatchLanes;
+}
+inline std::ptrdiff_t batch_place(int parameters, int object, simd::BatchEntry entry) noexcept {
+  return batch_place(parameters, object, parameters * (parameters + 1) / 2 + parameters + static_cast<int>(entry));
 }
 
 inline simd::Image8 batch_image(const ImageView8& target) noexcept {
