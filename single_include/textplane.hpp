@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 183 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 4ae0820e6a45a649
+// Hash of these files: 578ae3c71ef1b633
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 4ae0820e6a45a649"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 578ae3c71ef1b633"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -43943,7 +43943,8 @@ TEXTPLANE_END_NAMESPACE
 // PoseBatch: the small texts of one image, linearised together by the batch kernel, one a lane (simd/batch.hpp).
 //
 // One text of 15 pixels takes as long as one of 60: its results wait for each other. In lanes beside others it takes a
-// third. Normal equations and cost come from one run of the kernel, so that an accepted trial is linearised already.
+// third; of larger ones little is gained. Normal equations and cost come from one run of the kernel, so that an
+// accepted trial is linearised already.
 #ifndef TEXTPLANE_SOLVER_POSE_BATCH_HPP
 #define TEXTPLANE_SOLVER_POSE_BATCH_HPP
 
@@ -43954,8 +43955,8 @@ TEXTPLANE_END_NAMESPACE
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-constexpr int kBatchFewest = 4;        // texts: fewer go one by one
-constexpr int kBatchMostPixels = 128;  // of a text: larger ones do
+constexpr int kBatchFewest = 4;       // texts: fewer go one by one
+constexpr int kBatchMostPixels = 32;  // of a text: larger ones do
 
 /// One text of a batch, on one level.
 struct PoseBatchItem {

@@ -88,7 +88,7 @@ struct SmallTexts : Texts {
 
 template <class Solve>
 void add_poses(const std::string& name, const Solve& solve) {
-  for (const int n : {15, 30, 60, 120})
+  for (const int n : {15, 30})
     add_targets("text_map_" + name, std::to_string(n), [n, solve] {
       const auto texts = std::make_shared<SmallTexts>(n);
       Work work;

@@ -58,7 +58,7 @@ TEST(NoAllocation, RefinePoseOfManySmallTexts) {
   std::vector<tp::TextPatch> patches;
   for (const tp::TextObject& text : map.objects()) {
     patches.push_back(text.patch);
-    textplane_test::keep_pixels(patches.back(), 40);
+    textplane_test::keep_pixels(patches.back(), 30);
   }
   std::vector<tp::PoseTextTerm> texts;
   for (const tp::TextPatch& patch : patches) texts.push_back({&patch, map.objects()[0].theta, tp::SE3d()});

@@ -56,7 +56,7 @@ class PoseBatchTest : public testing::Test {
                            zncc ? zncc->data() : nullptr);
   }
 
-  // The same texts, the same information, and the same pose as far as the costs tell it: a motion xi from the minimum
+  // The same texts and the same pose as far as the costs tell it: a motion xi from the minimum
   // costs xi^T information xi, and sums of N floats err by N 6e-8 (simd/batch.hpp); the least N here is 15.
   static void expect_same(const tp::PoseFit& a, const tp::PoseFit& b) {
     ASSERT_TRUE(is_ok(b.status) || b.status == tp::Status::diverged) << to_string(b.status);
@@ -68,11 +68,6 @@ class PoseBatchTest : public testing::Test {
     tp::Vector6<double> xi;
     xi << apart.t, tp::so3_log<double>(apart.R);
     EXPECT_LT(xi.dot(b.information * xi), 15 * 6e-8 * b.cost);
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j)
-        EXPECT_NEAR(a.information(i, j), b.information(i, j),
-                    1e-3 * std::sqrt(b.information(i, i) * b.information(j, j)))
-            << i << ", " << j;
   }
 
   tp::TextMap map_;
@@ -81,11 +76,28 @@ class PoseBatchTest : public testing::Test {
   tp::PoseOptions options_;
 };
 
+// At one pose, as no step is taken: at poses that differ by next to nothing pixels may lie in other cells.
+TEST_F(PoseBatchTest, SumsUpToTheSameInformation) {
+  options_.coarsest_level = 0;
+  options_.solve.step_tolerance = 1e9;
+  for (const int n : {32, 19, 15}) {
+    cut_all(n);
+    const tp::PoseFit a = together(), b = one_by_one();
+    ASSERT_EQ(a.iterations + b.iterations, 0);
+    EXPECT_NEAR(a.cost, b.cost, 1e-5 * b.cost);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)
+        EXPECT_NEAR(a.information(i, j), b.information(i, j),
+                    1e-4 * std::sqrt(b.information(i, i) * b.information(j, j)))
+            << i << ", " << j;
+  }
+}
+
 TEST_F(PoseBatchTest, FindsThePoseThatTextsOneByOneFind) {
   for (const tp::simd::Target target : textplane_test::testable_targets()) {
     const textplane_test::TargetScope scope(target);
     SCOPED_TRACE(tp::simd::to_string(target));
-    for (const int n : {96, 61, 30, 15}) {
+    for (const int n : {33, 32, 25, 15}) {
       SCOPED_TRACE(n);
       cut_all(n);
       std::vector<float> a, b;
@@ -94,7 +106,7 @@ TEST_F(PoseBatchTest, FindsThePoseThatTextsOneByOneFind) {
       expect_same(fit, one_by_one(&b));
       for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-4F) << i;
       const double error = (fit.T_t_w.inverse().t - wall().T_c_w.inverse().t).norm();
-      EXPECT_LT(error, n < 30 ? 0.02 : 0.005) << "m from the truth";
+      EXPECT_LT(error, n < 30 ? 0.02 : 0.01) << "m from the truth";
     }
   }
 }
@@ -102,7 +114,7 @@ TEST_F(PoseBatchTest, FindsThePoseThatTextsOneByOneFind) {
 // What the batch does not take goes one by one, beside it.
 TEST_F(PoseBatchTest, TextsOfAllSortsKeepTheirPlace) {
   for (std::size_t i = 0; i < patches_.size(); ++i)
-    textplane_test::keep_pixels(patches_[i], 10 + 8 * static_cast<int>(i));  // some have too many
+    textplane_test::keep_pixels(patches_[i], 10 + 2 * static_cast<int>(i));  // some have too many
   patches_[2].levels[0].intensity[3] = std::numeric_limits<float>::quiet_NaN();
   terms_[4].scale_shift = 1;
   terms_[5].weight = 0;
@@ -118,7 +130,7 @@ TEST_F(PoseBatchTest, TextsOfAllSortsKeepTheirPlace) {
 
 // A text of which a part leaves the image counts by what is left of it.
 TEST_F(PoseBatchTest, TextsAtTheBorderLosePixels) {
-  cut_all(40);
+  cut_all(30);
   options_.solve.max_lost_fraction = 1;
   for (int i = 0; i < 8; ++i) {
     // The image begins in the middle of the first column of texts.
@@ -126,7 +138,7 @@ TEST_F(PoseBatchTest, TextsAtTheBorderLosePixels) {
   }
   const tp::PoseFit fit = together();
   expect_same(fit, one_by_one());
-  EXPECT_LT(fit.visible_pixels, 40 * fit.texts);
+  EXPECT_LT(fit.visible_pixels, 30 * fit.texts);
 }
 
 TEST_F(PoseBatchTest, ImagesThatTheKernelDoesNotTakeGoTheOldWay) {

@@ -1,7 +1,8 @@
 // PoseBatch: the small texts of one image, linearised together by the batch kernel, one a lane (simd/batch.hpp).
 //
 // One text of 15 pixels takes as long as one of 60: its results wait for each other. In lanes beside others it takes a
-// third. Normal equations and cost come from one run of the kernel, so that an accepted trial is linearised already.
+// third; of larger ones little is gained. Normal equations and cost come from one run of the kernel, so that an
+// accepted trial is linearised already.
 #ifndef TEXTPLANE_SOLVER_POSE_BATCH_HPP
 #define TEXTPLANE_SOLVER_POSE_BATCH_HPP
 
@@ -20,8 +21,8 @@
 TEXTPLANE_BEGIN_NAMESPACE
 
 namespace detail {
-constexpr int kBatchFewest = 4;        // texts: fewer go one by one
-constexpr int kBatchMostPixels = 128;  // of a text: larger ones do
+constexpr int kBatchFewest = 4;       // texts: fewer go one by one
+constexpr int kBatchMostPixels = 32;  // of a text: larger ones do
 
 /// One text of a batch, on one level.
 struct PoseBatchItem {
