@@ -85,6 +85,8 @@ std::vector<PlaceRank> old_places(const Map& map, const LocalMap& local, const P
                                   const Frame& frame, FrameLooks& looks) {
   std::vector<int> ids = map.keyframe_ids();
   erase_if(ids, [&](int id) { return local.has_keyframe(id); });
+  if (ids.empty()) return {};
+  keep_corners(map, map.newest_keyframe(), looks);  // the ranking describes the frame anyway
   return rank_places(map, parameters, looks, ids, parameters.place_compared_in_passing, frame.index);
 }
 
@@ -126,7 +128,6 @@ Loop find_loop(const Map& map, const LocalMap& local, const Parameters& paramete
     loop.seen = relocalise_by_texts(old, parameters, frame, {WordMatch::same, WordMatch::unread});
   if (!loop.seen.ok) {
     FrameLooks looks(frame, parameters);
-    keep_corners(map, loop.keyframe, looks);
     const std::vector<PlaceRank> places = old_places(map, local, parameters, frame, looks);
     if (places.empty()) return loop;
     old = old_part(map, local);

@@ -204,7 +204,7 @@ const std::vector<CornerLook>& FrameLooks::all() {
 const std::vector<CornerLook>& FrameLooks::strong() {
   if (!std::exchange(has_strong_, true))
     for (const CornerLook& look : in_sizes())
-      if (look.size == 2 * (look.point / parameters_.place_rank_corners)) strong_.push_back(look);
+      if (look.size % 2 == 0) strong_.push_back(look);  // of its level; half octaves are between
   return strong_;
 }
 

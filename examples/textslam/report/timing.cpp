@@ -1,16 +1,19 @@
 #include "textslam/report/timing.hpp"
 
 #include <cmath>
+#include <functional>
 
 #include "textslam/common/algorithms.hpp"
 
 namespace textslam {
 namespace {
 
-std::vector<double> of_live_frames(const System& system, double FrameRecord::*ms) {
+// `ms`: a member of FrameRecord, or a function of one.
+template <class Ms>
+std::vector<double> of_live_frames(const System& system, Ms ms) {
   std::vector<double> values;
   for (const FrameRecord& record : system.records())
-    if (record.live) values.push_back(record.*ms);
+    if (record.live) values.push_back(std::invoke(ms, record));
   return values;
 }
 
@@ -19,10 +22,7 @@ Json statistics(const std::vector<double>& ms) { return {{"median", median(ms)},
 }  // namespace
 
 std::vector<double> whole_frames_ms(const System& system) {
-  std::vector<double> ms;
-  for (const FrameRecord& record : system.records())
-    if (record.live) ms.push_back(record.track_ms + record.map_ms);
-  return ms;
+  return of_live_frames(system, [](const FrameRecord& record) { return record.track_ms + record.map_ms; });
 }
 
 std::string timing_json(const System& system, const std::vector<double>& latency_ms) {

@@ -242,10 +242,7 @@ void System::cull_keyframes() {
 void System::take_over(const Adjuster::Collected& adjusted) {
   if (!adjusted.changed) return;
   records_[static_cast<std::size_t>(adjusted.frame)].adjust_ms = adjusted.ms;
-  if (adjusted.corrected) {
-    settled(open_loop_ ? &*open_loop_ : nullptr);
-    open_loop_.reset();
-  }
+  if (adjusted.corrected) settled();
   map_changed(tracker_ ? tracker_->pose() * adjusted.moved.inverse() : SE3d{}, nullptr);
 }
 

@@ -145,7 +145,7 @@ class System {
   // system_loops.cpp
   void close_loops(FrameRecord& record);
   void apply(const LoopCorrection& correction);
-  void settled(const Loop* loop);
+  void settled();
 
   // system_maps.cpp
   bool recover(const Frame& taken, FrameRecord& record);

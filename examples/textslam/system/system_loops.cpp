@@ -41,11 +41,8 @@ void System::close_loops(FrameRecord& record) {
   if (parameters_.mode == Mode::text)
     textplane::merge_duplicate_texts(parameters_.text, textplane::KeyframeLookup(map_), map_.texts);
   if (correction.corrected) {
-    if (adjuster_.map_corrected(map_)) {
-      settled(&loop);
-    } else {
-      open_loop_ = loop;
-    }
+    open_loop_ = loop;
+    if (adjuster_.map_corrected(map_)) settled();
   } else {
     adjuster_.keyframe_added(map_);
     loops_.back().left = drift_left(map_, parameters_, loop);
@@ -55,10 +52,11 @@ void System::close_loops(FrameRecord& record) {
               correction.scales[static_cast<std::size_t>(last_keyframe_)]);
 }
 
-// After a loop (null: a join) moved parts of the map, and all of it was adjusted.
-void System::settled(const Loop* loop) {
+// After a loop or a join moved parts of the map, and all of it was adjusted.
+void System::settled() {
   if (parameters_.mode == Mode::text) text_mapper_.observe_again();
-  if (loop) loops_.back().left = drift_left(map_, parameters_, *loop);
+  if (open_loop_) loops_.back().left = drift_left(map_, parameters_, *open_loop_);
+  open_loop_.reset();
 }
 
 }  // namespace textslam

@@ -96,7 +96,7 @@ void System::join(std::size_t stored, const MapLink& link) {
   last_keyframe_ += ids.first_keyframe;
 
   roll_all();
-  if (adjuster_.map_corrected(map_)) settled(nullptr);
+  if (adjuster_.map_corrected(map_)) settled();
   erase_bad_tracks(map_, tracks);
 }
 
