@@ -39,6 +39,7 @@ inline Parameters at_size(Parameters parameters, int width, int height) {
   parameters.keyframe_flow *= scale;
   parameters.relocation_search *= scale;
   parameters.normal_reach *= scale;
+  parameters.loop_max_shift *= scale;
   const double levels = std::log2(std::min(width, height) / static_cast<double>(parameters.coarsest_side));
   parameters.pyramid_levels =
       std::clamp(1 + static_cast<int>(levels), parameters.text.levels, textplane::kMaxPyramidLevels);

@@ -6,6 +6,7 @@
 #include "textslam/loop/loop_alignment.hpp"
 #include "textslam/loop/loop_closure.hpp"
 #include "textslam/loop/pose_graph.hpp"
+#include "textslam/loop/spanner.hpp"
 #include "textslam/map/observations.hpp"
 
 namespace textslam {
@@ -22,8 +23,7 @@ class DriftCorrection {
     if (!(unit_ > 0)) return false;
     for (const KeyFrame& keyframe : map_.keyframes) before_.push_back(similarity_of(keyframe.T_w_c));
     nodes_ = before_;
-    add_neighbours();
-    add_sequence();
+    add_paths();
     const LoopAlignment aligned = align_loop(map_, parameters_, loop_.link, loop_.keyframe);
     const Similarity& newest = node(before_, loop_.keyframe);
     GraphEdge edge = edge_of(loop_.met, loop_.keyframe, parameters_.loop_min_length);
@@ -79,31 +79,32 @@ class DriftCorrection {
     return edge;
   }
 
-  void add_edge(int a, int b) {
-    const Similarity S_a_b = compose(inverse(node(before_, a)), node(before_, b));
-    edges_.push_back(edge_of(
-        a, b, parameters_.loop_min_length + S_a_b.t.norm() / unit_ + textplane::so3_log<double>(S_a_b.R).norm()));
-  }
-
-  void add_neighbours() {
+  // The shortest ways between key frames that share points, and between neighbours in time, which connect the graph
+  // where nothing else does. Culled key frames hang on it by one edge.
+  void add_paths() {
+    std::vector<PathEdge> paths;
+    const auto add = [&](int a, int b) {
+      const Similarity S_a_b = compose(inverse(node(before_, a)), node(before_, b));
+      const double turn = textplane::so3_log<double>(S_a_b.R).norm();
+      paths.push_back({a, b, parameters_.loop_min_length + S_a_b.t.norm() / unit_ + turn});
+    };
+    std::vector<int> order;
     for (int b = 0; b < static_cast<int>(nodes_.size()); ++b) {
+      order.push_back(b);
       const std::vector<int> shared = shared_points(map_, map_.keyframe(b).points);
       for (int a = 0; a < b; ++a)
-        if (shared[static_cast<std::size_t>(a)] >= parameters_.local_min_shared) add_edge(a, b);
+        if (shared[static_cast<std::size_t>(a)] >= parameters_.local_min_shared) add(a, b);
     }
-  }
-
-  // Neighbours in time connect the graph where nothing else does. Culled key frames hang on it by one edge.
-  void add_sequence() {
-    std::vector<int> order;
-    for (int id = 0; id < static_cast<int>(nodes_.size()); ++id) order.push_back(id);
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return map_.keyframe(a).frame.index < map_.keyframe(b).frame.index; });
     int before = order.front();
     for (std::size_t i = 1; i < order.size(); ++i) {
-      add_edge(before, order[i]);
+      add(before, order[i]);
       if (!map_.keyframe(order[i]).culled) before = order[i];
     }
+    for (const PathEdge& path :
+         greedy_spanner(static_cast<int>(nodes_.size()), std::move(paths), parameters_.loop_stretch))
+      edges_.push_back(edge_of(path.a, path.b, path.length));
   }
 
   Map& map_;

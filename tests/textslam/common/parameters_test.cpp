@@ -59,6 +59,7 @@ TEST(ParametersAtSize, AreTheListsAt640By480) {
   EXPECT_DOUBLE_EQ(p.keyframe_flow, listed.keyframe_flow);
   EXPECT_DOUBLE_EQ(p.relocation_search, listed.relocation_search);
   EXPECT_DOUBLE_EQ(p.init_view_flow, listed.init_view_flow);
+  EXPECT_DOUBLE_EQ(p.loop_max_shift, listed.loop_max_shift);
 }
 
 // An image of any size has room for about as many corners, so that a small one is not starved.
@@ -73,7 +74,9 @@ TEST(ParametersAtSize, LeaveRoomForTheCorners) {
     EXPECT_GE(p.pyramid_levels, p.text.levels);
     EXPECT_LE(p.pyramid_levels, textplane::kMaxPyramidLevels);
     EXPECT_GE(std::min(width, height) >> (p.pyramid_levels - 1), p.coarsest_side);
-    EXPECT_NEAR(p.keyframe_flow / listed.keyframe_flow, std::sqrt(width * height / (640.0 * 480.0)), 1e-9);
+    const double scale = std::sqrt(width * height / (640.0 * 480.0));
+    EXPECT_NEAR(p.keyframe_flow / listed.keyframe_flow, scale, 1e-9);
+    EXPECT_NEAR(p.loop_max_shift / listed.loop_max_shift, scale, 1e-9);
   }
 }
 

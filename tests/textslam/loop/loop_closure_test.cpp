@@ -16,15 +16,15 @@
 namespace textslam {
 namespace loop_closure_test {
 
-// A map of a walk round a circle and some steps on: points in front of each key frame, seen by it and the next two. The
-// last key frames look at what the first ones saw, and the map does not know. From each key frame to the next, lengths
-// grow by a factor that they should not.
+// A map of a walk round a circle and some steps on: points in front of each key frame, seen by it and the next two, or
+// more. The last key frames look at what the first ones saw, and the map does not know. From each key frame to the
+// next, lengths grow by a factor that they should not.
 class LoopClosureTest : public testing::Test {
  protected:
   static constexpr int kRound = 30, kKeyFrames = 33, kEach = 20;
   static constexpr double kGrowth = 1.004;
 
-  explicit LoopClosureTest(const textplane::LensMap* lens = nullptr) {
+  explicit LoopClosureTest(const textplane::LensMap* lens = nullptr, int seen_by = 3) : seen_by_(seen_by) {
     map.camera = {{262, 262, 159.5, 119.5}, lens};
     map.width = 320;
     map.height = 240;
@@ -54,7 +54,7 @@ class LoopClosureTest : public testing::Test {
         map.points.emplace_back();
         map.points.back().p_w = S * in_k;
         true_points.push_back(true_nodes[static_cast<std::size_t>(k)] * in_k);
-        for (int seen = k; seen <= k + 2 && seen < kKeyFrames; ++seen)
+        for (int seen = k; seen < std::min(k + seen_by_, kKeyFrames); ++seen)
           add_observation(map, k * kEach + i, seen,
                           map.camera.project(inverse(true_nodes[static_cast<std::size_t>(seen)]) * true_points.back()));
       }
@@ -94,6 +94,7 @@ class LoopClosureTest : public testing::Test {
   const Similarity& node(int k) const { return true_nodes[static_cast<std::size_t>(k)]; }
   double error(int k) const { return (map.keyframe(k).T_w_c.t - true_nodes[static_cast<std::size_t>(k)].t).norm(); }
 
+  int seen_by_;
   Map map;
   Parameters parameters;
   Loop loop;
@@ -139,6 +140,18 @@ TEST_F(LoopClosureTest, DriftIsSpreadAndEverythingFollows) {
   const double s = correction.scales[15];
   EXPECT_LT((map.texts[0].theta - text.theta / s).norm(), 1e-12);
   EXPECT_LT((map.texts[0].covariance - text.covariance / (s * s)).norm(), 1e-12);
+}
+
+// The drift is that of the path: it comes back whole, however many key frames share the points on the way.
+class DenseLoopClosureTest : public LoopClosureTest {
+ protected:
+  DenseLoopClosureTest() : LoopClosureTest(nullptr, 6) {}
+};
+TEST_F(DenseLoopClosureTest, DriftIsCorrected) {
+  parameters.loop_drift = 0.01;
+  const double before = error(loop.keyframe);
+  ASSERT_TRUE(close_loop(map, parameters, loop).corrected);
+  EXPECT_LT((map.keyframe(loop.keyframe).T_w_c.t - map.keyframe(loop.met).T_w_c.t).norm(), 0.02 * before);
 }
 
 // The same behind a lens, which the derivatives of the pixels have, too.
