@@ -17,6 +17,10 @@ void know_rows(const RunOptions& options, CameraModel* camera);
 std::optional<SelfCalibration> know_camera(const RunOptions& options, const std::vector<std::size_t>& frames,
                                            Sequence* sequence);
 
+/// Where the readout is to be estimated: gives the camera the one that the turns in these frames tell, if they do. A
+/// map that begins without it may be lost, or take its shape from it, before it can tell.
+void know_turns(const RunOptions& options, const std::vector<std::size_t>& frames, Sequence* sequence);
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_RUN_CAMERA_HPP

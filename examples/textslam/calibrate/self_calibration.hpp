@@ -23,6 +23,7 @@ struct CalibrationOptions {
   int probe_frames = 200;        ///< Mapped with each guess; the best one goes on.
   int most_frames = 900;         ///< Mapped to refine it.
   int passes = 6;                ///< At most, of mapping and calibrating.
+  int turn_frames = 400;         ///< At most, of which the turns tell the readout that a map begins with.
   double converged_px = 0.1;     ///< camera_distance() of two passes that ends them.
   double converged_sigma = 0.1;  ///< So does a focal length that moved by less than this share of its deviation.
   /// Of the frames mapped that must be tracked for a guess to count.

@@ -17,6 +17,7 @@ System::System(const CameraView& camera, int width, int height, const Parameters
                const textplane::RollingShutter& shutter)
     : parameters_(at_view(at_size(parameters, width, height), camera, width, height)),
       stamp_row_(shutter.rows > 1 ? shutter.row0 : all_at_once(height).row0),
+      start_readout_(at_middle(shutter, height).readout),
       initialiser_(parameters_),
       text_mapper_(map_, local_, parameters_),
       adjuster_(parameters_) {

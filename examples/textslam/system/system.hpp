@@ -157,7 +157,8 @@ class System {
   std::map<int, std::size_t> frames_by_map() const;
 
   Parameters parameters_;
-  double stamp_row_;  // that time stamps belong to; see at_stamp()
+  double stamp_row_;            // that time stamps belong to; see at_stamp()
+  const double start_readout_;  // s; 0: not known before the map
   Map map_;
   LocalMap local_;           // around the newest key frame
   std::vector<Map> stored_;  // in the order in which they were left

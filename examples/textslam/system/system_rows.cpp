@@ -12,6 +12,14 @@ namespace textslam {
 namespace {
 
 constexpr double kLongest = 0.1;  // s, readout either way
+// Shares of a readout that was known before the map, by turns: noise of the speeds makes that one too short.
+constexpr double kLeastShare = 0.7, kMostShare = 2;
+
+// While a camera turns fast a young map errs by more than that.
+double within_bounds(double readout, double start) {
+  if (start == 0) return std::clamp(readout, -kLongest, kLongest);
+  return start * std::clamp(readout / start, kLeastShare, kMostShare);
+}
 
 }  // namespace
 
@@ -128,7 +136,7 @@ void System::estimate_readout() {
     const double step = -now.slope / std::max(change, 0.005 * now.curvature);
     before = readout;
     slope_before = now.slope;
-    set_readout(std::clamp(readout + (round > 0 ? step : -now.slope / now.curvature), -kLongest, kLongest));
+    set_readout(within_bounds(readout + (round > 0 ? step : -now.slope / now.curvature), start_readout_));
     if (std::abs(map_.shutter.readout - before) < kSettled) return;
   }
 }

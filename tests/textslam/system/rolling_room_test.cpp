@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "textslam/calibrate/frame_pairs.hpp"
 #include "textslam/system/room_run_support.hpp"
 
 namespace textslam {
@@ -36,6 +38,50 @@ TEST(RollingRoom, PosesAndPlanesKnowTheRows) {
   // What is asked above is no matter of course.
   const RunSummary without = run_on(room, ignored);
   EXPECT_TRUE(!is_aligned(without) || without.trajectory.ate.rmse > 5e-3);
+}
+
+// By the images alone, before there is a map.
+TEST(RollingRoom, TurnsTellTheReadout) {
+  constexpr std::size_t kFrames = 80;
+  const ShortRoom room(kFrames, "shutter");
+  std::vector<std::size_t> frames(kFrames);
+  std::iota(frames.begin(), frames.end(), 0);
+  const auto follow = [&](const Sequence& sequence, std::size_t most) {
+    return follow_frames(sequence, frames, most, Parameters(), [](std::size_t, std::size_t) {});
+  };
+  const std::vector<FramePair> pairs = follow(room.sequence(), 1000);
+  ASSERT_EQ(pairs.size(), kFrames - 1);
+  for (const FramePair& pair : pairs) {
+    EXPECT_NEAR(pair.seconds, 1 / room.sequence().camera.fps, 1e-6);
+    EXPECT_GT(pair.rays.size(), 100U);
+    for (const RayPair& rays : pair.rays) {
+      EXPECT_NEAR(rays.ray_a.norm() * rays.ray_b.norm(), 1, 1e-12);
+      EXPECT_LE(std::max(std::abs(rays.row_a), std::abs(rays.row_b)), 0.5);
+      // What moved by more than a tenth of the image in 33 ms was followed to somewhere else.
+      EXPECT_LT(std::abs(rays.row_b - rays.row_a), 0.2);
+    }
+  }
+  const TurnReadout told = readout_of_turns(pairs);
+  EXPECT_TRUE(told.determined) << told.readout << " +- " << told.sigma;
+  EXPECT_GT(told.readout, 0.012);
+  EXPECT_LT(told.readout, 0.035);
+
+  EXPECT_EQ(follow(room.sequence(), 10).size(), 9U);
+  Sequence broken = room.sequence();
+  broken.frames[5].path += ".gone";
+  EXPECT_EQ(follow(broken, 1000).size(), 4U) << "the frames before it are there all the same";
+}
+
+// What is known before the map bounds what a map may take it for.
+TEST(RollingRoom, TheMapStaysByWhatWasKnown) {
+  const ShortRoom room(80, "shutter");
+  const CameraModel& camera = room.sequence().camera;
+  Parameters parameters;
+  parameters.estimate_readout = true;
+  textplane::RollingShutter shutter = camera.shutter;
+  shutter.readout = 0.06;
+  System system(camera.pinhole(), camera.width, camera.height, parameters, shutter);
+  EXPECT_NEAR(run_on(room, system).readout, 0.7 * 0.06, 1e-12) << "it is .03";
 }
 
 double rmse(const Similarity& alignment, const std::vector<StampedPose>& poses, const std::vector<Vec3>& truth) {
