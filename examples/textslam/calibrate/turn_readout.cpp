@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "textplane/solver/jackknife.hpp"
 #include "textslam/common/algorithms.hpp"
 
 namespace textslam {
@@ -18,7 +19,8 @@ constexpr double kDirectionSigma = 0.1;  // radians, of a step of the way's dire
 constexpr double kLeastReadout = 3e-3;   // s: about what errors of the stamps and of the lens come to
 constexpr double kLeastSigmas = 4;
 constexpr double kSettled = 2e-5;  // s
-constexpr int kMostRounds = 40, kBlocks = 10;
+constexpr int kMostRounds = 40;
+constexpr std::size_t kTenths = 10;
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
@@ -110,26 +112,25 @@ void refine(const FramePair& pair, double readout, const std::array<Vec3, 2>& om
   }
 }
 
-// Without those of block `without` of the pairs: where a step from here leads. 0 where nothing tells.
-double step_without(const std::vector<PairState>& told, int without) {
-  double information = 0, gradient = 0;
+// What each tenth of the pairs says of the readout.
+std::vector<textplane::GroupEquations<1>> tenths(const std::vector<PairState>& told) {
+  std::vector<textplane::GroupEquations<1>> groups(kTenths);
   for (std::size_t i = 0; i < told.size(); ++i) {
-    if (static_cast<int>(i * kBlocks / told.size()) == without) continue;
-    information += told[i].information;
-    gradient += told[i].gradient;
+    textplane::GroupEquations<1>& group = groups[i * kTenths / told.size()];
+    group.H(0, 0) += told[i].information;
+    group.b[0] += told[i].gradient;
   }
-  return information > 0 ? gradient / information : 0;
+  return groups;
 }
 
-double jackknife_sigma(const std::vector<PairState>& told) {
-  std::array<double, kBlocks> steps;
-  double mean = 0, sum = 0;
-  for (int block = 0; block < kBlocks; ++block) {
-    steps[static_cast<std::size_t>(block)] = step_without(told, block);
-    mean += steps[static_cast<std::size_t>(block)] / kBlocks;
+// Where they lead together. 0 where nothing tells.
+double step_of(const std::vector<textplane::GroupEquations<1>>& groups) {
+  double information = 0, gradient = 0;
+  for (const textplane::GroupEquations<1>& group : groups) {
+    information += group.H(0, 0);
+    gradient += group.b[0];
   }
-  for (const double step : steps) sum += (step - mean) * (step - mean);
-  return std::sqrt(sum * (kBlocks - 1) / kBlocks);
+  return information > 0 ? gradient / information : 0;
 }
 
 }  // namespace
@@ -153,11 +154,12 @@ TurnReadout readout_of_turns(const std::vector<FramePair>& pairs) {
       if (states[i].ok) told.push_back(states[i]);
     }
     if (told.size() < kLeastPairs) return {};
-    const double step = step_without(told, -1);
+    const auto groups = tenths(told);
+    const double step = step_of(groups);
+    out.sigma = std::sqrt(textplane::jackknife_covariance(groups)(0, 0));
     out.readout += step;
     if (std::abs(step) < kSettled) break;
   }
-  out.sigma = jackknife_sigma(told);
   out.determined = std::abs(out.readout) > std::max(kLeastReadout, kLeastSigmas * out.sigma);
   return out;
 }

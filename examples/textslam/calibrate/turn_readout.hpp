@@ -31,10 +31,9 @@ struct FramePair {
 };
 
 struct TurnReadout {
-  bool determined =
-      false;           ///< It is longer than its sigma and errors of stamps and lens explain; otherwise 0 it stays.
-  double readout = 0;  ///< s, from the first row to the last: negative where the last comes first.
-  double sigma = 0;    ///< s, by leaving out each tenth of the pairs in turn (jackknife).
+  bool determined = false;  ///< Longer than its sigma and errors of stamps and lens explain.
+  double readout = 0;       ///< s, from the first row to the last: negative where the last comes first.
+  double sigma = 0;         ///< s, by leaving out each tenth of the pairs in turn (jackknife).
 };
 
 /// By Gauss-Newton over the readout, the turns, and the directions of the ways, robustly. Not determined with fewer
