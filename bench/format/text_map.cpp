@@ -26,14 +26,19 @@ std::set<int> sizes_of(const Results& all, const std::string& kind) {
   return sizes;
 }
 
+// Of AVX2 and, where the CPU has more, of the best target.
 std::string frames(const Results& all, const std::string& best) {
-  std::string out = "| mapped texts | `avx2`: texts and points | texts alone | `" + best +
-                    "`: texts and points | texts alone | error of the position, mm | texts alone |\n"
-                    "| ---: | --- | --- | --- | --- | ---: | ---: |\n";
+  const std::set<std::string> targets = {"avx2", best};
+  std::string head = "| mapped texts |", line = "| ---: |";
+  for (const std::string& target : targets) {
+    head += " `" + target + "`: texts and points | texts alone |";
+    line += " --- | --- |";
+  }
+  std::string out = head + " error of the position, mm | texts alone |\n" + line + " ---: | ---: |\n";
   for (const int size : sizes_of(all, "text_map")) {
     const std::string n = "/" + std::to_string(size);
     out += "| " + std::to_string(size) + " |";
-    for (const std::string& target : {std::string("avx2"), best})
+    for (const std::string& target : targets)
       for (const char* kind : {"text_map/", "text_map_without_points/"}) out += cell(all, kind + target + n);
     for (const char* kind : {"text_map/", "text_map_without_points/"})
       out += " " + fixed(all.at(kind + best + n).errors.at("error"), 2) + " |";
