@@ -36,6 +36,7 @@ struct CameraModel {
   int width = 0, height = 0;          ///< px
   double fps = 0;                     ///< 0: not known
   textplane::RollingShutter shutter;  ///< Its rows are the height; by default all rows are taken at once.
+  bool knows_readout = false;         ///< That of `shutter` is said, 0 too; else it is a default.
 
   // The members of a camera model (textplane/core/cameras/camera.hpp) that the programs use.
   Vector2<double> project(const Vector3<double>& p) const noexcept;

@@ -53,6 +53,7 @@ CameraModel camera_of(const RenderOptions& options, const Shot& shot) {
   camera.height = options.height;
   camera.fps = kFramesPerSecond;
   camera.shutter = {shot.readout, 0.5 * (options.height - 1), options.height};
+  camera.knows_readout = true;
   return camera;
 }
 

@@ -54,7 +54,8 @@ void add_run_options(CLI::App& app, textslam::RunOptions& run) {
            run.readout = run.parameters.estimate_readout ? 0 : std::stod(text);
          },
          "Of a rolling shutter, from the first row to the last, s, in place of what the camera file says; 0: all rows "
-         "at once; auto: estimated by the turns of the camera and with the map")
+         "at once; auto: estimated by the turns of the camera and with the map. Where nobody says it, auto if "
+         "fast turns tell one that counts")
       ->check(CLI::IsMember({"auto"}) | CLI::Range(-textslam::kLongestReadout, textslam::kLongestReadout));
   app.add_flag("--real-time", run.parameters.real_time,
                "Frames come at their time stamps; the adjustments and the detector run in threads of their own. "

@@ -50,6 +50,7 @@ MapSession::MapSession(const RunOptions& options, Sequence* sequence) : options_
                      "its camera is not that of " + sequence->camera_source +
                          ": a map has one camera, with the same numbers in all sessions");
   sequence->camera = camera;
+  sequence->camera.knows_readout = true;
   sequence->approximate_fov = 0;
 }
 

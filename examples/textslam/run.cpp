@@ -292,8 +292,9 @@ RunResult run(const RunOptions& options) {
   MapSession session(options, &sequence);
   std::optional<SelfCalibration> calibration;
   if (!session.has_earlier()) calibration = know_camera(options, asked, &sequence);
-  know_turns(options, asked, &sequence);
-  return run_with_camera(options, sequence, asked, calibration, session);
+  RunOptions known = options;
+  known.parameters.estimate_readout = know_turns(options, asked, &sequence);
+  return run_with_camera(known, sequence, asked, calibration, session);
 }
 
 }  // namespace textslam

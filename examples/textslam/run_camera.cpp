@@ -1,6 +1,7 @@
 #include "textslam/run_camera.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/progress.hpp"
 #include "textslam/calibrate/frame_pairs.hpp"
@@ -33,14 +34,26 @@ std::optional<SelfCalibration> know_camera(const RunOptions& options, const std:
   return estimate_camera(options, frames, sequence);
 }
 
-void know_turns(const RunOptions& options, const std::vector<std::size_t>& frames, Sequence* sequence) {
-  if (!options.parameters.estimate_readout) return;
+bool know_turns(const RunOptions& options, const std::vector<std::size_t>& frames, Sequence* sequence,
+                const CalibrationOptions& calibration) {
+  const bool asked = options.parameters.estimate_readout;
+  CameraModel& camera = sequence->camera;
+  if (!asked && (options.readout || camera.knows_readout)) return false;
+  const auto counts = [&](double shear) {
+    return asked || shear * camera.pinhole().fx >= calibration.least_shear * camera.width;
+  };
   Progress progress("following turns");
-  const auto most = static_cast<std::size_t>(CalibrationOptions().turn_frames);
-  const TurnReadout told = readout_of_turns(
-      follow_frames(*sequence, frames, most, options.parameters,
-                    [&](std::size_t done, std::size_t total) { progress.show(done, total, "for the shutter"); }));
-  if (told.determined) sequence->camera.shutter.readout = std::clamp(told.readout, -kLongestReadout, kLongestReadout);
+  const auto go_on = [&](const std::vector<FramePair>& pairs, std::size_t total) {
+    progress.show(pairs.size() + 1, total, "for the shutter");
+    // No readout is longer than the time between frames, so that their turn bounds the shear.
+    return asked || static_cast<int>(pairs.size()) != calibration.turn_probe_frames ||
+           counts(readout_of_turns(pairs).turn / std::sqrt(12));
+  };
+  const auto most = static_cast<std::size_t>(calibration.turn_frames);
+  const TurnReadout told = readout_of_turns(follow_frames(*sequence, frames, most, options.parameters, go_on));
+  const bool takes = told.determined && counts(told.shear);
+  if (takes) camera.shutter.readout = std::clamp(told.readout, -kLongestReadout, kLongestReadout);
+  return asked || takes;
 }
 
 }  // namespace textslam

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "textslam/calibrate/self_calibration.hpp"
 #include "textslam/run.hpp"
 
 namespace textslam {
@@ -17,9 +18,11 @@ void know_rows(const RunOptions& options, CameraModel* camera);
 std::optional<SelfCalibration> know_camera(const RunOptions& options, const std::vector<std::size_t>& frames,
                                            Sequence* sequence);
 
-/// Where the readout is to be estimated: gives the camera the one that the turns in these frames tell, if they do. A
-/// map that begins without it may be lost, or take its shape from it, before it can tell.
-void know_turns(const RunOptions& options, const std::vector<std::size_t>& frames, Sequence* sequence);
+/// Where the readout is to be estimated, or nobody said it: gives the camera the one that the turns in these frames
+/// tell, if they do; in the second case only one that counts (CalibrationOptions::least_shear). A map that begins
+/// without it may be lost, or take its shape from it, before it can tell. Returns whether the map goes on estimating.
+bool know_turns(const RunOptions& options, const std::vector<std::size_t>& frames, Sequence* sequence,
+                const CalibrationOptions& calibration = {});
 
 }  // namespace textslam
 

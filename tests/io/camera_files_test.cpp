@@ -82,6 +82,11 @@ TEST_F(CameraFiles, SettingsOfARollingShutter) {
       "Camera.cy: 240.125\n";
   EXPECT_FALSE(read(text).shutter.active());
   EXPECT_EQ(read(text).shutter.rows, 480);
+  const CameraModel at_once = read(text + "Camera.readout: 0\n"), unsaid = read(text);
+  EXPECT_TRUE(at_once.knows_readout);
+  EXPECT_FALSE(unsaid.knows_readout);
+  EXPECT_TRUE(read(format_camera(at_once)).knows_readout);
+  EXPECT_FALSE(read(format_camera(unsaid)).knows_readout);
   const CameraModel middle = read(text + "Camera.readout: 0.025\n"),
                     first = read(text + "Camera.readout: -0.025\nCamera.readout_row: 0\n");
   EXPECT_EQ(middle.shutter.readout, 0.025);

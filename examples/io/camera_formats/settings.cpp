@@ -10,12 +10,14 @@ bool is_settings(const YamlMap& file) { return file.has_prefix("Camera.") || fil
 
 namespace {
 
+const std::string kReadout = "Camera.readout";
+
 textplane::RollingShutter read_shutter(const YamlMap& file, int height) {
-  const std::string readout = "Camera.readout", row = "Camera.readout_row";
+  const std::string row = "Camera.readout_row";
   textplane::RollingShutter shutter = all_at_once(height);
-  if (file.has(readout)) shutter.readout = file.number(readout);
+  if (file.has(kReadout)) shutter.readout = file.number(kReadout);
   if (file.has(row)) shutter.row0 = file.number(row);
-  if (shutter.readout != 0 && height < 2) file.refuse(file.at(readout), "an image of one row has no readout");
+  if (shutter.readout != 0 && height < 2) file.refuse(file.at(kReadout), "an image of one row has no readout");
   return shutter;
 }
 
@@ -36,6 +38,7 @@ CameraFile read_settings(const YamlMap& file) {
   camera.height = file.side("Camera.height");
   if (file.has("Camera.fps")) camera.fps = file.positive("Camera.fps");
   camera.shutter = read_shutter(file, camera.height);
+  camera.knows_readout = file.has(kReadout);
   const std::string prefix = file.has_prefix("Camera1.") ? "Camera1." : "Camera.";
   const auto is_given = [&](const std::string& name) { return file.has(prefix + name); };
   if (type == &camera_types().front() && std::none_of(type->coefficients.begin(), type->coefficients.end(), is_given))
@@ -60,10 +63,8 @@ std::string format_settings(const CameraModel& camera) {
   add("width", std::to_string(camera.width));
   add("height", std::to_string(camera.height));
   if (camera.fps > 0) add("fps", shortest(camera.fps));
-  if (camera.shutter.active()) {
-    add("readout", shortest(camera.shutter.readout));
-    add("readout_row", shortest(camera.shutter.row0));
-  }
+  if (camera.shutter.active() || camera.knows_readout) add("readout", shortest(camera.shutter.readout));
+  if (camera.shutter.active()) add("readout_row", shortest(camera.shutter.row0));
   const CameraType::Names keys = type.parameters();
   const std::vector<double> parameters = parameters_of(camera);
   for (std::size_t i = 0; i < keys.size(); ++i) add(keys[i], shortest(parameters[i]));

@@ -13,7 +13,7 @@ namespace textslam {
 
 std::vector<FramePair> follow_frames(const Sequence& sequence, const std::vector<std::size_t>& frames, std::size_t most,
                                      const Parameters& parameters,
-                                     const std::function<void(std::size_t, std::size_t)>& progress) {
+                                     const std::function<bool(const std::vector<FramePair>&, std::size_t)>& go_on) {
   const CameraModel& model = sequence.camera;
   const SequenceCamera camera(model);
   const Parameters sized = at_size(parameters, model.width, model.height);
@@ -42,7 +42,7 @@ std::vector<FramePair> follow_frames(const Sequence& sequence, const std::vector
     }
     add_corners(frame, camera.view(), 0, {}, sized, tracks);
     before = std::move(frame);
-    progress(i + 1, count);
+    if (!go_on(pairs, count)) break;
   }
   return pairs;
 }

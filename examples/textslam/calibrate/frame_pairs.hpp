@@ -13,11 +13,12 @@
 namespace textslam {
 
 /// The corners that neighbouring frames share, by the sequence's camera: of the frames with these indices, in order,
-/// the first `most`. `progress` is called with the frames done and how many there are. Ends before a frame that cannot
-/// be read, which is for the run to report, and when the program is told to.
+/// the first `most`. `go_on` is called after each frame with the pairs so far and the number of frames there are, and
+/// says whether to. Ends before a frame that cannot be read, which is for the run to report, and when the program is
+/// told to.
 std::vector<FramePair> follow_frames(const Sequence& sequence, const std::vector<std::size_t>& frames, std::size_t most,
                                      const Parameters& parameters,
-                                     const std::function<void(std::size_t, std::size_t)>& progress);
+                                     const std::function<bool(const std::vector<FramePair>&, std::size_t)>& go_on);
 
 }  // namespace textslam
 

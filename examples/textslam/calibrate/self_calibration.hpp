@@ -18,12 +18,16 @@ struct CalibrationOptions {
   CalibrationPriors priors;
   /// Degrees, horizontal: what is tried in turn where nothing is known, the most likely first.
   std::vector<double> guesses = {60, 85, 45};
-  double assumed_focal = 0.5;    ///< Standard deviation of the focal length of these, as a share of it.
-  double given_focal = 0.2;      ///< The same of a camera that a file, EXIF data or the user gave.
-  int probe_frames = 200;        ///< Mapped with each guess; the best one goes on.
-  int most_frames = 900;         ///< Mapped to refine it.
-  int passes = 6;                ///< At most, of mapping and calibrating.
-  int turn_frames = 400;         ///< At most, of which the turns tell the readout that a map begins with.
+  double assumed_focal = 0.5;  ///< Standard deviation of the focal length of these, as a share of it.
+  double given_focal = 0.2;    ///< The same of a camera that a file, EXIF data or the user gave.
+  int probe_frames = 200;      ///< Mapped with each guess; the best one goes on.
+  int most_frames = 900;       ///< Mapped to refine it.
+  int passes = 6;              ///< At most, of mapping and calibrating.
+  int turn_frames = 400;       ///< At most, of which the turns tell the readout that a map begins with.
+  int turn_probe_frames = 60;  ///< After so many it is known whether the camera turns fast enough to look on.
+  /// Of the image's width, rms over the rows: what a readout that nobody asked for must move. With less a map without
+  /// it tracks as well, and is the one that truths made without it agree with.
+  double least_shear = 0.004;
   double converged_px = 0.1;     ///< camera_distance() of two passes that ends them.
   double converged_sigma = 0.1;  ///< So does a focal length that moved by less than this share of its deviation.
   /// Of the frames mapped that must be tracked for a guess to count.

@@ -133,6 +133,19 @@ double step_of(const std::vector<textplane::GroupEquations<1>>& groups) {
   return information > 0 ? gradient / information : 0;
 }
 
+// How far the camera turned, and what that did to its images.
+void measure(const std::vector<FramePair>& pairs, const std::vector<PairState>& states, TurnReadout* out) {
+  double turn = 0, speed = 0, count = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!states[i].ok) continue;
+    turn += states[i].turn.squaredNorm();
+    speed += (states[i].turn / pairs[i].seconds).squaredNorm();
+    ++count;
+  }
+  out->turn = std::sqrt(turn / count);
+  out->shear = std::abs(out->readout) * std::sqrt(speed / count / 12);  // rows evenly from -1/2 to 1/2: 1 / 12
+}
+
 }  // namespace
 
 TurnReadout readout_of_turns(const std::vector<FramePair>& pairs) {
@@ -160,6 +173,7 @@ TurnReadout readout_of_turns(const std::vector<FramePair>& pairs) {
     out.readout += step;
     if (std::abs(step) < kSettled) break;
   }
+  measure(pairs, states, &out);
   out.determined = std::abs(out.readout) > std::max(kLeastReadout, kLeastSigmas * out.sigma);
   return out;
 }

@@ -34,6 +34,8 @@ struct TurnReadout {
   bool determined = false;  ///< Longer than its sigma and errors of stamps and lens explain.
   double readout = 0;       ///< s, from the first row to the last: negative where the last comes first.
   double sigma = 0;         ///< s, by leaving out each tenth of the pairs in turn (jackknife).
+  double turn = 0;          ///< Radians, from frame to frame, rms.
+  double shear = 0;         ///< Radians, by which the readout moves what frames show, rms over their rows.
 };
 
 /// By Gauss-Newton over the readout, the turns, and the directions of the ways, robustly. Not determined with fewer

@@ -91,7 +91,7 @@ void Initialiser::roll(const Eigen::Matrix3d& R_newest_last, const textplane::Ro
   newest->rows = turning_rows(turns_.newest(), shutter);
   if (last_.index == reference_.index) {
     reference_.rows = turning_rows(turns_.before(), shutter);
-    reference_unsure_ = turns_.unsure();
+    reference_unsure_ = turns_.unsure_before();
   }
 }
 

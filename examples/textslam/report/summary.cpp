@@ -74,7 +74,10 @@ void add_counts(Fields& fields, const RunSummary& s) {
     fields.row("scale", "metres to %.2f %%, by %d %s", 100 * s.metric->sigma, s.metric->texts,
                s.metric->texts == 1 ? "text" : "texts");
   }
-  if (s.readout != 0) fields.add("readout_s", nullptr, s.readout);
+  if (s.readout != 0) {
+    fields.add("readout_s", nullptr, s.readout);
+    fields.row("readout of the rows", "%.1f ms", 1000 * s.readout);
+  }
   if (s.approximate_fov > 0) fields.add("approximate_camera", nullptr, Json{{"fov_deg", s.approximate_fov}});
   if (s.calibration) add_calibration(fields, *s.calibration, s.true_camera);
 }

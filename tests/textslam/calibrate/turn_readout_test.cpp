@@ -83,6 +83,25 @@ TEST(TurnReadoutTest, IsTold) {
   }
 }
 
+TEST(TurnReadoutTest, TellsWhatItDoesToTheImages) {
+  Walk walk;
+  walk.readout = 0.03;
+  const TurnReadout told = readout_of_turns(pairs_of(walk));
+  double turn = 0;
+  for (int k = 0; k + 1 < walk.frames; ++k) {
+    const Eigen::Matrix3d R = pose_at(walk, (k + 1) / 30.0).R * pose_at(walk, k / 30.0).R.transpose();
+    turn += textplane::so3_log<double>(R).squaredNorm() / (walk.frames - 1);
+  }
+  turn = std::sqrt(turn);
+  EXPECT_NEAR(told.turn, turn, 0.02 * turn);
+  double rows = 0;
+  constexpr int kRows = 480;
+  for (int row = 0; row < kRows; ++row) rows += std::pow((row + 0.5) / kRows - 0.5, 2) / kRows;
+  EXPECT_NEAR(told.shear, told.readout * told.turn * 30 * std::sqrt(rows), 1e-6);
+  walk.readout = -0.03;
+  EXPECT_GT(readout_of_turns(pairs_of(walk)).shear, 0);
+}
+
 TEST(TurnReadoutTest, WhatMovesByItselfCountsForNothing) {
   Walk walk;
   walk.readout = 0.03;

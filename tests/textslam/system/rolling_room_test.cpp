@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "textslam/calibrate/frame_pairs.hpp"
+#include "textslam/run_camera.hpp"
 #include "textslam/system/room_run_support.hpp"
 
 namespace textslam {
@@ -47,7 +49,7 @@ TEST(RollingRoom, TurnsTellTheReadout) {
   std::vector<std::size_t> frames(kFrames);
   std::iota(frames.begin(), frames.end(), 0);
   const auto follow = [&](const Sequence& sequence, std::size_t most) {
-    return follow_frames(sequence, frames, most, Parameters(), [](std::size_t, std::size_t) {});
+    return follow_frames(sequence, frames, most, Parameters(), [](const auto&, std::size_t) { return true; });
   };
   const std::vector<FramePair> pairs = follow(room.sequence(), 1000);
   ASSERT_EQ(pairs.size(), kFrames - 1);
@@ -67,9 +69,41 @@ TEST(RollingRoom, TurnsTellTheReadout) {
   EXPECT_LT(told.readout, 0.035);
 
   EXPECT_EQ(follow(room.sequence(), 10).size(), 9U);
+  const auto until_seven = [](const std::vector<FramePair>& some, std::size_t) { return some.size() < 7; };
+  EXPECT_EQ(follow_frames(room.sequence(), frames, 1000, Parameters(), until_seven).size(), 7U);
   Sequence broken = room.sequence();
   broken.frames[5].path += ".gone";
   EXPECT_EQ(follow(broken, 1000).size(), 4U) << "the frames before it are there all the same";
+}
+
+// A readout that nobody speaks of is looked for, and taken where it counts.
+TEST(RollingRoom, TheRunKnowsTheReadout) {
+  constexpr std::size_t kFrames = 80;
+  const ShortRoom room(kFrames, "shutter");
+  std::vector<std::size_t> frames(kFrames);
+  std::iota(frames.begin(), frames.end(), 0);
+  CalibrationOptions slight, usual;
+  slight.least_shear = 1e-4;
+  const auto run = [&](const RunOptions& options, bool is_said, const CalibrationOptions& calibration) {
+    Sequence sequence = room.sequence();
+    sequence.camera.knows_readout = is_said;
+    sequence.camera.shutter.readout = is_said ? 0.07 : 0;
+    const bool estimates = know_turns(options, frames, &sequence, calibration);
+    return std::make_pair(estimates, sequence.camera.shutter.readout);
+  };
+  EXPECT_EQ(run({}, true, slight), std::make_pair(false, 0.07)) << "the camera file says it";
+  EXPECT_EQ(run({}, false, usual), std::make_pair(false, 0.0)) << "this camera turns slowly";
+  const auto [estimates, readout] = run({}, false, slight);
+  EXPECT_TRUE(estimates);
+  EXPECT_GT(readout, 0.012);
+  EXPECT_LT(readout, 0.035);
+  RunOptions given;
+  given.readout = 0;
+  EXPECT_EQ(run(given, false, slight), std::make_pair(false, 0.0));
+  RunOptions asked;
+  asked.parameters.estimate_readout = true;
+  EXPECT_EQ(run(asked, false, usual), std::make_pair(true, readout)) << "whether it counts or not";
+  EXPECT_EQ(run(asked, true, usual), std::make_pair(true, readout)) << "whatever the camera file says";
 }
 
 // What is known before the map bounds what a map may take it for.

@@ -27,11 +27,43 @@ TEST(FrameTurnsTest, AnEvenlyChangingTurnIsKnownAtBothFrames) {
     turns.add(turn_between(times[i - 1], times[i], omega, change), times[i] - times[i - 1]);
     EXPECT_LT((turns.newest() - (omega + times[i] * change)).norm(), 1e-9);
     EXPECT_LT((turns.before() - (omega + times[i - 1] * change)).norm(), 1e-9);
+    if (i > 2) continue;
     EXPECT_NEAR(turns.unsure(), 0.25 * (times[i] - times[i - 2]) * change.norm(), 1e-9);
+    EXPECT_EQ(turns.unsure(), turns.unsure_before());
   }
+  EXPECT_LT(turns.unsure(), 1e-9) << "three turns change evenly";
   turns.clear();
   turns.add(turn_between(0, 0.03, omega, change), 0.03);
   EXPECT_EQ(turns.newest(), turns.before()) << "nothing of the frames before";
+}
+
+// A hand that shakes: what may be wrong is, in the mean of the squares, what is; now and then it is twice as much, where
+// the changes of three turns happen to be even.
+TEST(FrameTurnsTest, AnUnevenTurnSaysItsError) {
+  const Vec3 axis = Vec3(0.3, 0.8, -0.2).normalized();
+  constexpr double kPeriod = 1.0 / 30, kLargest = 1.2;  // s; radians a s
+  for (const double shake : {3.0, 6.0, 12.0}) {         // radians a s, of the phase
+    SCOPED_TRACE(shake);
+    const auto angle = [&](double t) { return kLargest / shake * std::sin(shake * t); };
+    const auto speed = [&](double t) { return Vec3(kLargest * std::cos(shake * t) * axis); };
+    FrameTurns turns;
+    double newest = 0, before = 0, unsure = 0, unsure_before = 0;
+    for (int i = 1; i < 200; ++i) {
+      const double t = i * kPeriod;
+      turns.add(textplane::so3_exp<double>(Vec3((angle(t) - angle(t - kPeriod)) * axis)), kPeriod);
+      if (i < 4) continue;
+      const double off = (turns.newest() - speed(t)).norm(), off_before = (turns.before() - speed(t - kPeriod)).norm();
+      EXPECT_LT(off, 2.5 * turns.unsure()) << i;
+      EXPECT_LT(off_before, 2.5 * turns.unsure_before()) << i;
+      newest += off * off;
+      before += off_before * off_before;
+      unsure += turns.unsure() * turns.unsure();
+      unsure_before += turns.unsure_before() * turns.unsure_before();
+    }
+    EXPECT_NEAR(std::sqrt(newest / unsure), 0.9, 0.1);
+    EXPECT_NEAR(std::sqrt(before / unsure_before), 0.9, 0.1);
+    EXPECT_LT(std::sqrt(unsure / 196), 0.1 * kLargest);
+  }
 }
 
 TEST(FrameTurnsTest, RaysAtThePoseAreThoseOfWhatTheRowsShow) {
