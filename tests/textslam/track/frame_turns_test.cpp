@@ -37,7 +37,7 @@ TEST(FrameTurnsTest, AnEvenlyChangingTurnIsKnownAtBothFrames) {
   EXPECT_EQ(turns.newest(), turns.before()) << "nothing of the frames before";
 }
 
-// A hand that shakes: what may be wrong is, in the mean of the squares, what is; now and then it is twice as much, where
+// A hand that shakes: what may be wrong is, in the mean of the squares, what is. Now and then that is twice as much, as
 // the changes of three turns happen to be even.
 TEST(FrameTurnsTest, AnUnevenTurnSaysItsError) {
   const Vec3 axis = Vec3(0.3, 0.8, -0.2).normalized();
