@@ -43,14 +43,18 @@ bool know_turns(const RunOptions& options, const std::vector<std::size_t>& frame
     return asked || shear * camera.pinhole().fx >= calibration.least_shear * camera.width;
   };
   Progress progress("following turns");
+  std::optional<TurnReadout> slow;  // what a camera told that turns too slowly to look on
   const auto go_on = [&](const std::vector<FramePair>& pairs, std::size_t total) {
     progress.show(pairs.size() + 1, total, "for the shutter");
+    if (asked || static_cast<int>(pairs.size()) != calibration.turn_probe_frames) return true;
+    const TurnReadout probed = readout_of_turns(pairs);
     // No readout is longer than the time between frames, so that their turn bounds the shear.
-    return asked || static_cast<int>(pairs.size()) != calibration.turn_probe_frames ||
-           counts(readout_of_turns(pairs).turn / std::sqrt(12));
+    if (!counts(probed.turn / std::sqrt(12))) slow = probed;
+    return !slow;
   };
   const auto most = static_cast<std::size_t>(calibration.turn_frames);
-  const TurnReadout told = readout_of_turns(follow_frames(*sequence, frames, most, options.parameters, go_on));
+  const std::vector<FramePair> pairs = follow_frames(*sequence, frames, most, options.parameters, go_on);
+  const TurnReadout told = slow ? *slow : readout_of_turns(pairs);
   const bool takes = told.determined && counts(told.shear);
   if (takes) camera.shutter.readout = std::clamp(told.readout, -kLongestReadout, kLongestReadout);
   return asked || takes;
