@@ -22,9 +22,10 @@ ReadoutSlope readout_slope(const Map& map, const Parameters& parameters) {
       const Vec2 e = map.camera.project(p, &J) - *seen;
       const double share = (seen->y() - map.shutter.row0) / (map.shutter.rows - 1);
       const Vec2 d = share * (J * (v + omega.cross(p)));
-      const double weight = information * robust.weight(information * e.squaredNorm());
+      const double chi2 = information * e.squaredNorm(), weight = information * robust.weight(chi2);
       out.slope += weight * e.dot(d);
-      out.curvature += weight * d.squaredNorm();
+      // The cost of an outlier does not bend: a wrong point close to the camera would have nearly all of the curvature.
+      if (chi2 <= parameters.outlier_chi2) out.curvature += weight * d.squaredNorm();
     }
   }
   return out;

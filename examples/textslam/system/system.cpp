@@ -190,7 +190,7 @@ void System::add_keyframe(const Frame& frame, FrameRecord& record) {
   const double start = now_ms();
   if (parameters_.estimate_readout && is_readout_due()) {
     take_over(adjuster_.settle(map_));
-    estimate_readout();
+    estimate_readout(2e-4);
   } else {
     adjuster_.keyframe_added(map_);
   }

@@ -126,7 +126,7 @@ class System {
   bool is_rolling() const;
   bool is_readout_due() const;
   void set_readout(double seconds);
-  void estimate_readout();
+  void estimate_readout(double settled);  // s, the last change of it
   Frame turned(const Frame& frame);
   void roll_first_keyframe();
   void roll(std::size_t index);
@@ -159,6 +159,7 @@ class System {
   Parameters parameters_;
   double stamp_row_;            // that time stamps belong to; see at_stamp()
   const double start_readout_;  // s; 0: not known before the map
+  double readout_bend_ = 0.1;   // curvature of the adjusted cost by the readout, in parts of that with the map held
   Map map_;
   LocalMap local_;           // around the newest key frame
   std::vector<Map> stored_;  // in the order in which they were left

@@ -58,7 +58,7 @@ void System::finish() {
   if (map_.keyframes.size() < 2) return;
   if (parameters_.mode == Mode::text && parameters_.loop_closure)
     textplane::merge_duplicate_texts(parameters_.text, textplane::KeyframeLookup(map_), map_.texts);
-  if (parameters_.estimate_readout) estimate_readout();
+  if (parameters_.estimate_readout) estimate_readout(2e-5);
   roll_all();
   adjust_all(map_, parameters_, parameters_.final_iterations);
   roll_all();
