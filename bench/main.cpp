@@ -13,9 +13,13 @@ int main(int argc, char** argv) {
   add_straightforward();
 #if defined(TEXTPLANE_BENCH_OPENCV)
   add_opencv();
+  add_ecc();
 #endif
 #if defined(TEXTPLANE_BENCH_VISP)
   add_visp();
+#endif
+#if defined(TEXTPLANE_BENCH_DLIB)
+  add_dlib();
 #endif
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -68,6 +68,8 @@ void add_growth();           ///< kernels/growth.cpp: cost against pixels, objec
 void add_text_map();         ///< kernels/text_map.cpp: frames tracked by a map of texts.
 void add_straightforward();  ///< peers/straightforward.cpp: Eigen double; Ceres and numeric differences where built.
 void add_opencv();           ///< peers/opencv.cpp
+void add_ecc();              ///< peers/ecc.cpp
+void add_dlib();             ///< peers/boxes.cpp
 void add_visp();             ///< peers/visp.cpp
 
 }  // namespace textplane_bench

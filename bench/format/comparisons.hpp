@@ -11,10 +11,18 @@ struct Comparison {
   const char* size;
   const char* peer;  ///< Whole name.
   double aim;        ///< Least ratio of the minima; 0 where there is no aim.
+  /// One of several forms of a peer, of which one can be built: no row where it was not run.
+  bool alternative = false;
 };
 
 inline constexpr const char* kNine = "straightforward double, 9 parameters, Huber";
 inline constexpr const char* kTemplate = "the same against our template form, L2, another algorithm";
+inline constexpr const char* kManyScales = "cv::findTransformECCMultiScale, 3 levels, from 3 px; exact";
+inline constexpr const char* kDescribed =
+    "cv::findTransformECCMultiScale from its description, 3 levels, from 3 px; exact";
+inline constexpr const char* kFarManyScales = "cv::findTransformECCMultiScale, 3 levels, from 10 px; ESM, then exact";
+inline constexpr const char* kFarDescribed =
+    "cv::findTransformECCMultiScale from its description, 3 levels, from 10 px; ESM, then exact";
 inline constexpr Comparison kComparisons[] = {
     {kNine, "pose_plane", "avx512", "4000", "eigen_double_9/native/4000", 15},
     {kNine, "pose_plane", "avx512", "1000", "eigen_double_9/native/1000", 14},
@@ -59,6 +67,14 @@ inline constexpr Comparison kComparisons[] = {
     {"cv::findTransformECC, to convergence from 3 px; template, least squares as ECC's", "converge_template_l2", "best",
      "4000", "ecc_converge/opencv/4000", 60},
     {"the same; template, Huber", "converge_template", "best", "4000", "ecc_converge/opencv/4000", 0},
+    {kManyScales, "converge_forward", "best", "4000", "ecc_multiscale/opencv/4000", 0, true},
+    {kDescribed, "converge_forward", "best", "4000", "ecc_multiscale_described/opencv/4000", 0, true},
+    {"cv::findTransformECC, to convergence from 10 px; ESM, then exact", "converge_automatic_far", "best", "4000",
+     "ecc_converge_far/opencv/4000", 0},
+    {kFarManyScales, "converge_automatic_far", "best", "4000", "ecc_multiscale_far/opencv/4000", 0, true},
+    {kFarDescribed, "converge_automatic_far", "best", "4000", "ecc_multiscale_described_far/opencv/4000", 0, true},
+    {"dlib::correlation_tracker, a box learnt beforehand, one update from 3 px; exact", "converge_forward", "best",
+     "4000", "correlation_tracker/dlib/4000", 0},
     {"cv::warpPerspective, 8-bit in, float out (its float path)", "warp_u8_f32", "best", "100x40",
      "warpPerspective_f32/opencv/100x40", 8},
     {"cv::warpPerspective, 8-bit in and out", "warp_u8_u8", "best", "100x40", "warpPerspective_u8/opencv/100x40", 5},

@@ -26,6 +26,15 @@ std::string machine(const Json& context, const Json& benchmarks) {
          benchmarks.at(0).at("repetitions").dump() + " interleaved repetitions, " + date.substr(0, date.find('T'));
 }
 
+// The versions of the peers, as a sentence; empty where there are none.
+std::string versions(const Json& context) {
+  std::string list;
+  for (const char* peer : {"OpenCV", "Ceres", "ViSP", "dlib"})
+    if (context.contains(peer))
+      list += (list.empty() ? " Peers: " : ", ") + std::string(peer) + " " + context.at(peer).get<std::string>();
+  return list.empty() ? list : list + ".";
+}
+
 std::string basin_section(const Json& rows) {
   return "\n## Basin\n\nSuccess is a final corner error below 0.5 px, from starts that are off by so many px on "
          "average; a 100 x 40 patch.\n\n" +
@@ -66,8 +75,8 @@ int run(int argc, char** argv) {
   std::string page =
       "# Benchmarks\n\nWritten by `bench/report`, in one process, single thread unless said. Ratios are of the peer's "
       "time to ours.\n\nMachine: " +
-      machine(context, benchmarks) + ". Best target: `" + best +
-      "`.\n\n## Against the peers\n\nErrors are those of the results that were timed, against the double reference (H "
+      machine(context, benchmarks) + ". Best target: `" + best + "`." + versions(context) +
+      "\n\n## Against the peers\n\nErrors are those of the results that were timed, against the double reference (H "
       "over sqrt(H_ii H_jj), b over sqrt(H_ii)), or against the truth of the scene (corners, end points). An item is a "
       "pixel, a pixel and iteration, or a point; for convergence the whole is divided by the pixels.\n\n" +
       table;

@@ -37,10 +37,12 @@ std::string measured_cells(const Comparison& c, const Measured& ours, const Meas
          " | " + least_and_median(peer) + " | " + error_text(ours.errors) + " | " + error_text(peer.errors) + " |\n";
 }
 
-// Why there is no ratio; empty where the row is left out: a CPU without a target need not say so where there is no aim.
+// Why there is no ratio; empty where the row is left out: a CPU without a target need not say so where there is no aim,
+// nor a peer that has another form.
 std::string reason(const Comparison& c, const std::string& target, bool has_ours, bool has_peer) {
   const bool lacks_target = !has_ours && (target == "avx512" || target == "neon");
   if (lacks_target) return c.aim > 0 ? "not run: this CPU lacks it" : "";
+  if (c.alternative && !has_peer) return "";
   return has_peer ? "not run" : "not run: the peer is not installed";
 }
 

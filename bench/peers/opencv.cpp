@@ -1,4 +1,4 @@
-// OpenCV on the same work: findTransformECC, warpPerspective, remap, FAST, calcOpticalFlowPyrLK, pyrDown.
+// OpenCV on the same work: warpPerspective, remap, FAST, calcOpticalFlowPyrLK, pyrDown; ecc.cpp has findTransformECC.
 #include <memory>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -6,23 +6,13 @@
 
 #include "kernels/klt_task.hpp"
 #include "kernels/warp_task.hpp"
+#include "peers/as_mat.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 
 namespace textplane_bench {
 
 namespace {
-
-template <class T>
-cv::Mat as_mat(const tp::Image<T>& image) {
-  return cv::Mat(image.height(), image.width(), cv::DataType<T>::type, const_cast<T*>(image.data()));
-}
-
-cv::Mat as_mat(const tp::Matrix3<double>& H) {
-  cv::Mat out(3, 3, CV_64F);
-  for (int i = 0; i < 9; ++i) out.at<double>(i / 3, i % 3) = H(i / 3, i % 3);
-  return out;
-}
 
 template <class T>
 Work warp_work(bool remap) {
@@ -124,75 +114,11 @@ Work pyramid_work() {
   return work;
 }
 
-// ECC on the patch and the target: a cut-out with a margin, as a careful user makes it, or the whole frame, as ours
-// gets it.
-constexpr int kEccMargin = 24;
-struct EccTask {
-  Scene scene;
-  cv::Mat patch, cut;
-  tp::Matrix3<double> start, to_patch, from_cut;
-  EccTask(const cv::Size& size, unsigned seed, double px, bool whole = false)
-      : scene(make_dense_scene(size.width, size.height, seed, px)) {
-    const cv::Rect box(scene.left, scene.top, size.width, size.height);
-    patch = as_mat(scene.host)(box).clone();
-    const tp::Matrix3<double> truth = scene.pixel_homography(scene.T_t_h, scene.theta);
-    const tp::Vector3<double> centre =
-        truth * tp::Vector3<double>(box.x + 0.5 * size.width, box.y + 0.5 * size.height, 1);
-    const int left = static_cast<int>(centre[0] / centre[2]) - size.width / 2 - kEccMargin;
-    const int top = static_cast<int>(centre[1] / centre[2]) - size.height / 2 - kEccMargin;
-    const cv::Rect frame(0, 0, Scene::kWidth, Scene::kHeight);
-    const cv::Rect around =
-        whole ? frame : cv::Rect(left, top, size.width + 2 * kEccMargin, size.height + 2 * kEccMargin) & frame;
-    cut = as_mat(scene.target)(around).clone();
-    to_patch.setIdentity();
-    to_patch(0, 2) = scene.left;
-    to_patch(1, 2) = scene.top;
-    from_cut.setIdentity();
-    from_cut(0, 2) = around.x;
-    from_cut(1, 2) = around.y;
-    start = from_cut.inverse() * scene.pixel_homography(scene.T_start, scene.theta_start) * to_patch;
-    start /= start(2, 2);
-  }
-  // Corner error in px after at most `iterations`, `epsilon` as in cv::TermCriteria (negative: never met).
-  double run(int iterations, double epsilon) const {
-    cv::Mat warp;
-    as_mat(start).convertTo(warp, CV_32F);
-    try {
-      cv::findTransformECC(patch, cut, warp, cv::MOTION_HOMOGRAPHY,
-                           cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, iterations, epsilon));
-    } catch (const cv::Exception&) {
-      return 1e3;
-    }
-    tp::Matrix3<double> H;
-    for (int i = 0; i < 9; ++i) H(i / 3, i % 3) = static_cast<double>(warp.at<float>(i / 3, i % 3));
-    return scene.corner_error(from_cut * H * to_patch.inverse());
-  }
-};
-
-// Time for a pixel and iteration: 20 iterations, with the preparation that each call repeats.
-Work ecc_iteration_work(const cv::Size& size, bool whole = false) {
-  const auto task = std::make_shared<EccTask>(size, 1, 1.0, whole);
-  Work work;
-  work.items = 20.0 * size.area();
-  work.errors["corner_error"] = task->run(20, -1);
-  work.call = [=](std::size_t) { keep(task->run(20, -1)); };
-  return work;
-}
-
-Work ecc_converge_work(const cv::Size& size) {
-  const auto tasks = std::make_shared<std::vector<EccTask>>();
-  for (unsigned seed = 1; seed <= 4; ++seed) tasks->emplace_back(size, seed, 3.0);
-  Work work;
-  work.items = size.area();
-  for (const EccTask& t : *tasks) work.errors["corner_error"] += t.run(50, 1e-4) / 4;
-  work.call = [=](std::size_t i) { keep((*tasks)[i % 4].run(50, 1e-4)); };
-  return work;
-}
-
 }  // namespace
 
 void add_opencv() {
   cv::setNumThreads(1);
+  benchmark::AddCustomContext("OpenCV", CV_VERSION);
   add("warpPerspective_u8/opencv/100x40", [] { return warp_work<std::uint8_t>(false); });
   add("warpPerspective_f32/opencv/100x40", [] { return warp_work<float>(false); });
   add("remap_u8/opencv/100x40", [] { return warp_work<std::uint8_t>(true); });
@@ -201,10 +127,6 @@ void add_opencv() {
   add("klt_light/opencv/points", [] { return klt_work(true); });
   add("klt_steady/opencv/points", [] { return klt_work(false); });
   add("pyramid3/opencv/640x480", pyramid_work);
-  for (const cv::Size& size : {cv::Size(16, 16), cv::Size(40, 25), cv::Size(100, 40)})
-    add("ecc_iteration/opencv/" + std::to_string(size.area()), [=] { return ecc_iteration_work(size); });
-  add("ecc_iteration_frame/opencv/4000", [] { return ecc_iteration_work(cv::Size(100, 40), true); });
-  add("ecc_converge/opencv/4000", [] { return ecc_converge_work(cv::Size(100, 40)); });
 }
 
 }  // namespace textplane_bench

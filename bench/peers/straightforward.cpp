@@ -115,6 +115,9 @@ Work numeric_work(int n) {
 }  // namespace
 
 void add_straightforward() {
+#if defined(TEXTPLANE_BENCH_CERES)
+  benchmark::AddCustomContext("Ceres", TEXTPLANE_BENCH_CERES);
+#endif
   for (const int n : {15, 64, 256, 1000, 4000}) {
     const std::string size = "/native/" + std::to_string(n);
     add("eigen_double_9" + size, [=] { return eigen_work<9>(n); });

@@ -23,6 +23,12 @@ vpImage<unsigned char> as_visp(const tp::Image<std::uint8_t>& image) {
   return out;
 }
 
+vpHomography homography(vpTemplateTrackerWarpHomography& warp, const vpColVector& p) { return warp.getHomography(p); }
+vpHomography homography(vpTemplateTrackerWarpHomographySL3& warp, const vpColVector& p) {
+  warp.computeCoeff(p);
+  return warp.getHomography();
+}
+
 // The patch with a margin of 24 px, from the host and from the target, about 1 px apart. The trackers start from the
 // identity and use all of the image that they get.
 template <class Tracker, class Warp>
@@ -32,14 +38,14 @@ Work visp_work(int n) {
     Warp warp;
     Tracker tracker;
     vpColVector start;
+    Scene scene = make_scene(4000, 1, 1.0);
+    tp::Matrix3<double> shift = tp::Matrix3<double>::Identity();  // cut px to host px
     explicit Kept(int m) : tracker(&warp) {
       const int columns = m == 4000 ? 100 : m == 1000 ? 40 : 16, rows = m / columns, margin = 24;
-      const Scene scene = make_scene(4000, 1, 1.0);
       tp::Image<std::uint8_t> cut(columns + 2 * margin, rows + 2 * margin);
       for (int y = 0; y < cut.height(); ++y)
         for (int x = 0; x < cut.width(); ++x) cut(x, y) = scene.host(scene.left - margin + x, scene.top - margin + y);
       host = as_visp(cut);
-      tp::Matrix3<double> shift = tp::Matrix3<double>::Identity();
       shift(0, 2) = scene.left - margin;
       shift(1, 2) = scene.top - margin;
       tp::reference::warp_patch(scene.target_view(), scene.pixel_homography(scene.T_start, scene.theta_start) * shift,
@@ -56,6 +62,14 @@ Work visp_work(int n) {
         corners.emplace_back(y, x);
       tracker.initFromPoints(host, corners);
       start = tracker.getp();
+      scene.columns = columns;
+      scene.rows = rows;
+    }
+    double corner_error() {
+      const vpHomography found = homography(warp, tracker.getp());
+      tp::Matrix3<double> H;
+      for (unsigned i = 0; i < 9; ++i) H(static_cast<int>(i / 3), static_cast<int>(i % 3)) = found[i / 3][i % 3];
+      return scene.corner_error(scene.pixel_homography(scene.T_start, scene.theta_start) * shift * H * shift.inverse());
     }
   };
   const auto kept = std::make_shared<Kept>(n);
@@ -65,6 +79,7 @@ Work visp_work(int n) {
   };
   run();
   Work work;
+  work.errors["corner_error"] = kept->corner_error();
   work.items = static_cast<double>(n) * kept->tracker.getNbIteration();
   work.errors["iterations"] = kept->tracker.getNbIteration();
   work.call = [=](std::size_t) { run(); };
@@ -74,6 +89,8 @@ Work visp_work(int n) {
 }  // namespace
 
 void add_visp() {
+  benchmark::AddCustomContext("ViSP", std::to_string(VISP_VERSION_MAJOR) + "." + std::to_string(VISP_VERSION_MINOR) +
+                                          "." + std::to_string(VISP_VERSION_PATCH));
   for (const int n : {256, 1000, 4000}) {
     const std::string size = "/visp/" + std::to_string(n);
     add("visp_zncc_inverse" + size,
