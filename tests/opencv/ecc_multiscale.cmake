@@ -1,5 +1,5 @@
-#Sets TEXTPLANE_HAS_ECC_MULTISCALE : whether the OpenCV that was found has cv::findTransformECCMultiScale.No version of
-#its headers says so.
+# Sets TEXTPLANE_HAS_ECC_MULTISCALE: whether the OpenCV that was found has cv::findTransformECCMultiScale. No version of
+# its headers says so.
 include(CheckCXXSourceCompiles)
 set(CMAKE_REQUIRED_INCLUDES ${OpenCV_INCLUDE_DIRS})
 set(CMAKE_REQUIRED_LIBRARIES opencv_core opencv_imgproc opencv_video)
