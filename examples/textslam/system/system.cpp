@@ -52,7 +52,7 @@ const FrameRecord& System::process(const Frame& frame, double detect_ms) {
     refit(oldest);
     std::vector<SeenPoint>().swap(oldest.seen);
   }
-  if (is_rolling()) previous_ = frame;
+  remember(frame, record);
   return record;
 }
 

@@ -61,6 +61,14 @@ struct FrameRecord {
   std::vector<SeenPoint> seen;                            ///< Between key frames: what the pose rests on.
   std::shared_ptr<const textplane::RowMotion> rows = {};  ///< See Frame.
   double detect_ms = 0, track_ms = 0, klt_ms = 0, pose_ms = 0, reobserve_ms = 0, map_ms = 0, adjust_ms = 0;
+
+  /// What the pose rests on, as the tracker reports it.
+  void take(const TrackReport& report) {
+    points = report.inliers;
+    texts = report.texts;
+    information = report.information;
+    position_sigma = report.position_sigma;
+  }
 };
 
 class System {
@@ -82,7 +90,8 @@ class System {
   /// they count for known texts; elsewhere they are ignored. Only between two calls of process(), before finish().
   void add_detections(int frame, std::vector<Detection> detections, double detect_ms);
 
-  /// Gives poses to frames before the map began or was found again, tracking backwards. `load` returns a frame again.
+  /// After finish(): gives poses to frames that have none, tracking on from others or looking for them in the whole
+  /// map. `load` returns a frame again.
   void fill_in(const std::function<Frame(int)>& load);
 
   /// The map with most frames becomes the result; the adjustment over all its key frames.
@@ -109,6 +118,10 @@ class System {
   SE3d final_pose(const FrameRecord& record) const { return at_stamp(record, middle_pose(record)); }
 
  private:
+  void follow_on(const std::function<Frame(int)>& load, int step);
+  bool find_rest(const std::function<Frame(int)>& load);
+  void give_pose(FrameRecord& record, int keyframe, const TrackReport& report, const Frame& frame);
+  void remember(const Frame& frame, const FrameRecord& record);
   bool track(const Frame& frame, FrameRecord& record);
   void follow(const Frame& frame, FrameRecord& record);
   void lose(FrameRecord& record);

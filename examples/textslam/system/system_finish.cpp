@@ -2,7 +2,6 @@
 #include "textplane/landmarks/text_merge.hpp"
 #include "textslam/adjust/adjustment.hpp"
 #include "textslam/map/scale_map.hpp"
-#include "textslam/relocalise/relocalisation.hpp"
 #include "textslam/system/system.hpp"
 #include "textslam/text/loose_planes.hpp"
 #include "textslam/text/text_reading.hpp"
@@ -18,37 +17,6 @@ void System::refit(FrameRecord& record) const {
   if (!refit_pose(map_, parameters_, camera, record.seen, &pose)) return;
   record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * pose.T_c_w.inverse();
   record.information = pose.information;
-}
-
-void System::fill_in(const std::function<Frame(int)>& load) {
-  if (map_.keyframes.size() < 2 || only_localises_) return;
-  Tracker backwards(map_, parameters_);
-  bool going = false;  // the frame after this one was tracked backwards
-  for (int index = static_cast<int>(records_.size()) - 2; index >= 0; --index) {
-    FrameRecord& record = records_[static_cast<std::size_t>(index)];
-    const FrameRecord& next = records_[static_cast<std::size_t>(index) + 1];
-    if (record.state == FrameState::tracked || next.state != FrameState::tracked) {
-      going = false;
-      continue;
-    }
-    if (!going) {
-      Frame start = load(index + 1);
-      start.rows = rows_of(next);
-      const SE3d T_c_w = middle_pose(next).inverse();
-      backwards.start(start, T_c_w, observe_from(map_, parameters_, start, T_c_w).tracks);
-    }
-    const TrackReport report = backwards.track(load(index));
-    going = report.ok;
-    if (!going) continue;
-    record.state = FrameState::tracked;
-    record.map = map_.number;
-    record.keyframe = next.keyframe;
-    record.T_k_c = map_.keyframe(record.keyframe).T_w_c.inverse() * report.T_c_w.inverse();
-    record.points = report.inliers;
-    record.texts = report.texts;
-    record.information = report.information;
-    record.position_sigma = report.position_sigma;
-  }
 }
 
 void System::finish() {

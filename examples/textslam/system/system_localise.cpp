@@ -41,7 +41,7 @@ const FrameRecord& System::localise(const Frame& frame, FrameRecord& record) {
     record.by = FoundBy::nothing;
     ++lost_frames_;
   }
-  if (is_rolling()) previous_ = frame;
+  remember(frame, record);
   return record;
 }
 
@@ -51,10 +51,7 @@ bool System::track_or_find(const Frame& frame, FrameRecord& record) {
     const TrackReport report = tracker_->track(frame);
     if (holds(map_, parameters_, report, tracker_->tracks())) {
       record.by = FoundBy::tracking;
-      record.points = report.inliers;
-      record.texts = report.texts;
-      record.information = report.information;
-      record.position_sigma = report.position_sigma;
+      record.take(report);
       local_ = local_map(map_, parameters_, report.found);
       return true;
     }

@@ -41,10 +41,7 @@ bool System::recover(const Frame& taken, FrameRecord& record) {
   }
   if (!found.ok) return false;
   record.by = found.by;
-  record.points = found.inliers;
-  record.texts = found.texts;
-  record.information = found.information;
-  record.position_sigma = found.position_sigma;
+  record.take(found);
   last_keyframe_points_ = found.inliers;
   // The motion since the last frame is not known: the tracker starts without a velocity.
   local_ = local_map(map_, parameters_, found.found);

@@ -47,11 +47,16 @@ Frame System::turned(const Frame& frame) {
   Frame out = frame;
   const double seconds = frame.timestamp - previous_.timestamp;
   if (!is_rolling() || records_.size() < 2 || !(seconds > 0)) return out;
-  if (records_[records_.size() - 2].state == FrameState::tracked) turns_.clear();
   const RotationPrior prior = find_rotation(previous_, frame, map_.camera, Eigen::Matrix3d::Identity(), parameters_);
   turns_.add(prior.R_b_a, seconds);
   out.rows = turning_rows(turns_.newest(), map_.shutter);
   return out;
+}
+
+void System::remember(const Frame& frame, const FrameRecord& record) {
+  if (!is_rolling()) return;
+  previous_ = frame;
+  if (record.state == FrameState::tracked) turns_.clear();
 }
 
 // The first key frame of a new map has no frame before it: the one after it tells.
