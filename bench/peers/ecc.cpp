@@ -2,14 +2,16 @@
 #include <memory>
 #include <opencv2/video/tracking.hpp>
 
+#include "opencv/as_mat.hpp"
 #include "opencv/ecc_multiscale.hpp"
-#include "peers/as_mat.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 
 namespace textplane_bench {
 
 namespace {
+
+using textplane_test::as_mat;
 
 // ECC on the patch and the target: a cut-out with a margin, as a careful user makes it, or the whole frame, as ours
 // gets it.

@@ -6,13 +6,15 @@
 
 #include "kernels/klt_task.hpp"
 #include "kernels/warp_task.hpp"
-#include "peers/as_mat.hpp"
+#include "opencv/as_mat.hpp"
 #include "registry.hpp"
 #include "scene.hpp"
 
 namespace textplane_bench {
 
 namespace {
+
+using textplane_test::as_mat;
 
 template <class T>
 Work warp_work(bool remap) {

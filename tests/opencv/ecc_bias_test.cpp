@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "opencv/as_mat.hpp"
 #include "opencv/ecc_multiscale.hpp"
 #include "solver/bias/scale_trials.hpp"
 #include "textplane/solver/pose.hpp"
@@ -26,10 +27,6 @@ struct Found {
     corners += trial.corner_error(H) / kTrials;
   }
 };
-
-cv::Mat as_mat(const tp::Image<std::uint8_t>& image) {
-  return cv::Mat(image.height(), image.width(), CV_8U, const_cast<std::uint8_t*>(image.data()));
-}
 
 using Ecc = std::function<void(const cv::Mat&, const cv::Mat&, cv::Mat*)>;
 

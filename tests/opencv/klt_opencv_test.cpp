@@ -7,6 +7,7 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "features/synthetic.hpp"
+#include "opencv/as_mat.hpp"
 #include "textplane/features/select.hpp"
 
 namespace {
@@ -32,10 +33,6 @@ Score score(const std::vector<double>& error, const std::vector<double>& other) 
   for (const double e : common) s.mean += e / s.points;
   s.p90 = common[common.size() * 9 / 10];
   return s;
-}
-
-cv::Mat as_mat(const Image<std::uint8_t>& image) {
-  return cv::Mat(image.height(), image.width(), CV_8U, const_cast<std::uint8_t*>(image.data()));
 }
 
 struct Scenario {

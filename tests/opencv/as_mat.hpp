@@ -1,13 +1,13 @@
 // Our images and matrices as OpenCV's.
-#ifndef TEXTPLANE_BENCH_PEERS_AS_MAT_HPP
-#define TEXTPLANE_BENCH_PEERS_AS_MAT_HPP
+#ifndef TEXTPLANE_TESTS_OPENCV_AS_MAT_HPP
+#define TEXTPLANE_TESTS_OPENCV_AS_MAT_HPP
 
 #include <opencv2/core.hpp>
 
 #include "textplane/core/image_view.hpp"
 #include "textplane/core/numeric.hpp"
 
-namespace textplane_bench {
+namespace textplane_test {
 
 /// A view of the same pixels.
 template <class T>
@@ -22,6 +22,6 @@ inline cv::Mat as_mat(const textplane::Matrix3<double>& H) {
   return out;
 }
 
-}  // namespace textplane_bench
+}  // namespace textplane_test
 
-#endif  // TEXTPLANE_BENCH_PEERS_AS_MAT_HPP
+#endif  // TEXTPLANE_TESTS_OPENCV_AS_MAT_HPP
