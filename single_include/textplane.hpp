@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 183 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 578ae3c71ef1b633
+// Hash of these files: 5d7ccbc5a8361476
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 578ae3c71ef1b633"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 5d7ccbc5a8361476"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -15497,7 +15497,7 @@ struct TextOptions {
   double blur_variance = 0.25;      ///< px^2 of a camera's own blur.
   double blur_spread = 2.5;         ///< See match_blur().
   double refine_most_bend = 0.35;   ///< Tangent of the turn of the normal from end to end: less counts as planar.
-  double refine_bend_sigmas = 3;    ///< Standard deviations: a larger bend makes a plane less sure.
+  double refine_bend_sigmas = 3;    ///< Standard deviations: a larger bend makes a plane less sure, or is refused.
   double refine_bend_share = 0.25;  ///< Of the views' disagreement: a bend that explains less is not believed.
   double refine_max_sigma = 5;      ///< Degrees: a text is dropped in the end if its normal is less certain.
 
@@ -36840,16 +36840,19 @@ class BasicTextRefiner {
     return out->theta.norm() > 0;
   }
 
-  // Not planar: a bend, the mean over the hosts, explains much of why the views disagree.
-  bool is_bent(const std::vector<Estimate>& estimates) const {
+  // Not planar: a bend, the mean over the hosts less `sigmas` standard deviations, is large, and explains much of why
+  // the views disagree.
+  bool is_bent(const std::vector<Estimate>& estimates, double sigmas) const {
     const double n = static_cast<double>(estimates.size());
-    Vector2<Real> bend = Vector2<Real>::Zero();
+    Vector2<Real> bend = Vector2<Real>::Zero(), sigma = Vector2<Real>::Zero();
     double explained = 0;
     for (const Estimate& e : estimates) {
       bend += e.bend.value / n;
+      sigma += e.bend.sigma / n;
       explained += e.bend.explained / n;
     }
-    return explained >= options_.refine_bend_share && bend.cwiseAbs().maxCoeff() >= options_.refine_most_bend;
+    return explained >= options_.refine_bend_share &&
+           (bend.cwiseAbs() - sigmas * sigma).maxCoeff() >= options_.refine_most_bend;
   }
 
   const TextOptions& options_;
@@ -36894,7 +36897,8 @@ Refinement BasicTextRefiner<Real>::refine(TextObject& text, const PointLookup* p
   refined.covariance = covariance;
   if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
   const bool uncertain = is_uncertain(refined, options_);
-  if (!uncertain && is_bent(estimates)) return Refinement::bent;
+  // A bend makes the plane uncertain, which is no reason to doubt the bend.
+  if (is_bent(estimates, uncertain ? options_.refine_bend_sigmas : 0)) return Refinement::bent;
   text.theta = refined.theta;
   text.covariance = refined.covariance;
   text.variance_factor = 0;
@@ -36968,7 +36972,7 @@ class BasicTextMapping {
         !all_finite(text.covariance) || !(text.variance_factor > 0) || !is_finite(text.variance_factor))
       return false;
     TextNotes notes;
-    notes.refined_views = text.views.size();
+    if (text.state == TextState::mapped) notes.refined_views = text.views.size();
     next_id_ = text.id + 1;
     objects_.push_back(std::move(text));
     notes_.push_back(std::move(notes));
@@ -37103,7 +37107,7 @@ class BasicTextMapping {
       refine_text_plane(options_, keyframes_,
                         evenly_spaced(with_images(text.views), static_cast<std::size_t>(options_.views)), text.theta,
                         options_.cull_zncc, text);
-      if (!is_proven(text, options_) || !refined(text)) return;
+      if (!is_proven(text, options_) || !has_grown(text, notes) || !refined(text, notes)) return;
       text.state = TextState::mapped;
       notes.mapped_by = id;
       notes.refined_views = text.views.size();
@@ -37112,14 +37116,24 @@ class BasicTextMapping {
       return;
     }
     if (rehost(options_, keyframes_, id, text)) notes.refined_views = 0;
-    if (2 * text.views.size() < 3 * notes.refined_views) return;
+    if (!has_grown(text, notes)) return;
     notes.refined_views = text.views.size();
-    if (!refined(text)) ++text.failures;
+    if (!refined(text, notes)) ++text.failures;
   }
 
-  // Whether its plane is worth having; how well it is known, its covariance says.
-  bool refined(TextObject& text) {
+  // Has it half as many views again as when it was last looked at?
+  static bool has_grown(const TextObject& text, const TextNotes& notes) noexcept {
+    return 2 * text.views.size() >= 3 * notes.refined_views;
+  }
+
+  // Whether its plane is worth having; how well it is known, its covariance says. What is bent never enters the map,
+  // or leaves it; as long as it waits, its place is taken.
+  bool refined(TextObject& text, TextNotes& notes) {
     const Refinement result = refiner_.refine(text);
+    if (result == Refinement::bent) {
+      notes.refined_views = text.views.size();
+      if (text.state == TextState::mapped) drop(text);
+    }
     return (result == Refinement::refined || result == Refinement::uncertain) &&
            normal_sigma(text) <= detail::radians(kMostSigma);
   }

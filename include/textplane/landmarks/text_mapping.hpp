@@ -75,7 +75,7 @@ class BasicTextMapping {
         !all_finite(text.covariance) || !(text.variance_factor > 0) || !is_finite(text.variance_factor))
       return false;
     TextNotes notes;
-    notes.refined_views = text.views.size();
+    if (text.state == TextState::mapped) notes.refined_views = text.views.size();
     next_id_ = text.id + 1;
     objects_.push_back(std::move(text));
     notes_.push_back(std::move(notes));
@@ -210,7 +210,7 @@ class BasicTextMapping {
       refine_text_plane(options_, keyframes_,
                         evenly_spaced(with_images(text.views), static_cast<std::size_t>(options_.views)), text.theta,
                         options_.cull_zncc, text);
-      if (!is_proven(text, options_) || !refined(text)) return;
+      if (!is_proven(text, options_) || !has_grown(text, notes) || !refined(text, notes)) return;
       text.state = TextState::mapped;
       notes.mapped_by = id;
       notes.refined_views = text.views.size();
@@ -219,14 +219,24 @@ class BasicTextMapping {
       return;
     }
     if (rehost(options_, keyframes_, id, text)) notes.refined_views = 0;
-    if (2 * text.views.size() < 3 * notes.refined_views) return;
+    if (!has_grown(text, notes)) return;
     notes.refined_views = text.views.size();
-    if (!refined(text)) ++text.failures;
+    if (!refined(text, notes)) ++text.failures;
   }
 
-  // Whether its plane is worth having; how well it is known, its covariance says.
-  bool refined(TextObject& text) {
+  // Has it half as many views again as when it was last looked at?
+  static bool has_grown(const TextObject& text, const TextNotes& notes) noexcept {
+    return 2 * text.views.size() >= 3 * notes.refined_views;
+  }
+
+  // Whether its plane is worth having; how well it is known, its covariance says. What is bent never enters the map,
+  // or leaves it; as long as it waits, its place is taken.
+  bool refined(TextObject& text, TextNotes& notes) {
     const Refinement result = refiner_.refine(text);
+    if (result == Refinement::bent) {
+      notes.refined_views = text.views.size();
+      if (text.state == TextState::mapped) drop(text);
+    }
     return (result == Refinement::refined || result == Refinement::uncertain) &&
            normal_sigma(text) <= detail::radians(kMostSigma);
   }

@@ -60,7 +60,7 @@ struct TextOptions {
   double blur_variance = 0.25;      ///< px^2 of a camera's own blur.
   double blur_spread = 2.5;         ///< See match_blur().
   double refine_most_bend = 0.35;   ///< Tangent of the turn of the normal from end to end: less counts as planar.
-  double refine_bend_sigmas = 3;    ///< Standard deviations: a larger bend makes a plane less sure.
+  double refine_bend_sigmas = 3;    ///< Standard deviations: a larger bend makes a plane less sure, or is refused.
   double refine_bend_share = 0.25;  ///< Of the views' disagreement: a bend that explains less is not believed.
   double refine_max_sigma = 5;      ///< Degrees: a text is dropped in the end if its normal is less certain.
 

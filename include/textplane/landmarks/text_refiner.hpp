@@ -225,16 +225,19 @@ class BasicTextRefiner {
     return out->theta.norm() > 0;
   }
 
-  // Not planar: a bend, the mean over the hosts, explains much of why the views disagree.
-  bool is_bent(const std::vector<Estimate>& estimates) const {
+  // Not planar: a bend, the mean over the hosts less `sigmas` standard deviations, is large, and explains much of why
+  // the views disagree.
+  bool is_bent(const std::vector<Estimate>& estimates, double sigmas) const {
     const double n = static_cast<double>(estimates.size());
-    Vector2<Real> bend = Vector2<Real>::Zero();
+    Vector2<Real> bend = Vector2<Real>::Zero(), sigma = Vector2<Real>::Zero();
     double explained = 0;
     for (const Estimate& e : estimates) {
       bend += e.bend.value / n;
+      sigma += e.bend.sigma / n;
       explained += e.bend.explained / n;
     }
-    return explained >= options_.refine_bend_share && bend.cwiseAbs().maxCoeff() >= options_.refine_most_bend;
+    return explained >= options_.refine_bend_share &&
+           (bend.cwiseAbs() - sigmas * sigma).maxCoeff() >= options_.refine_most_bend;
   }
 
   const TextOptions& options_;
@@ -279,7 +282,8 @@ Refinement BasicTextRefiner<Real>::refine(TextObject& text, const PointLookup* p
   refined.covariance = covariance;
   if (points) fit_to_surface(options_, *points, keyframes_(text.host).T_w_c, refined);
   const bool uncertain = is_uncertain(refined, options_);
-  if (!uncertain && is_bent(estimates)) return Refinement::bent;
+  // A bend makes the plane uncertain, which is no reason to doubt the bend.
+  if (is_bent(estimates, uncertain ? options_.refine_bend_sigmas : 0)) return Refinement::bent;
   text.theta = refined.theta;
   text.covariance = refined.covariance;
   text.variance_factor = 0;
