@@ -7,7 +7,8 @@ import re
 from pathlib import Path
 
 MODES = ("text", "points", "loose")
-KINDS = ("room", "corridor", "rapid", "lights", "night", "sparse", "loop", "notext", "crowd", "cuts", "covered")
+KINDS = ("room", "corridor", "rapid", "lights", "night", "sparse", "loop", "notext", "crowd", "cuts", "covered", "fisheye",
+         "shutter")
 SEEDS = (1, 2, 3)
 # First frames of the runs on a real sequence: there is only one of it, and its first frame changes every number by chance.
 STARTS = (0, 3, 6, 9, 12, 15, 18, 21)
