@@ -68,7 +68,7 @@ TEST_F(PlanarityTest, AFlatTextHasNone) {
   EXPECT_EQ(refinement(), Refinement::refined);
 }
 
-// Bends of .4 to 1.2: the more a text is bent, the less it knows its plane, and that must not save it.
+// Bends of .5 and 1.2: the more a text is bent, the less it knows its plane, and that must not save it.
 TEST_F(PlanarityTest, ATextRoundACylinderIsBent) {
   for (const double radius : {1.2, 0.5}) {
     walk(cylinder(radius));
