@@ -67,6 +67,8 @@ class Tracker {
                       const std::vector<textplane::PoseTextTerm>& texts, TrackReport* report) const;
   int agreeing(const Frame& frame, const std::vector<const TextObject*>& texts, const SE3d& T_c_w,
                const std::vector<float>& zncc) const;
+  float chi2_of(const Track& track, const CameraView& camera, const SE3d& T_c_w) const;
+  std::vector<std::size_t> tracks_of_points(const CameraView& camera, const SE3d& T_c_w, std::size_t* heard) const;
   bool fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report);
   bool looks_for_point(int id) const { return !map_.point(id).bad && (!local_ || local_->has_point(id)); }
 

@@ -48,16 +48,42 @@ int Tracker::agreeing(const Frame& frame, const std::vector<const TextObject*>& 
   return count;
 }
 
+// Squared distance of a track from where the pose shows its point, in sigmas; -1 where it does not.
+float Tracker::chi2_of(const Track& track, const CameraView& camera, const SE3d& T_c_w) const {
+  Vec2 px;
+  if (!show(camera, T_c_w * map_.point(track.point).p_w, &px)) return -1;
+  const double sigmas = (px - track.px.cast<double>()).norm() / parameters_.point_sigma;
+  return static_cast<float>(sigmas * sigmas);
+}
+
+// The tracks of map points: first the `heard` ones, which may move the pose. One that did not fit the last pose, and
+// that this one expects beyond outlier_reach, may not: a Huber weight bounds the error, but not its Jacobian. A point
+// at a wrong depth that the camera passes would pull harder than all others together.
+std::vector<std::size_t> Tracker::tracks_of_points(const CameraView& camera, const SE3d& T_c_w,
+                                                   std::size_t* heard) const {
+  std::vector<std::size_t> tracks;
+  for (std::size_t i = 0; i < tracks_.size(); ++i)
+    if (tracks_[i].point >= 0 && looks_for_point(tracks_[i].point)) tracks.push_back(i);
+  const auto rest = std::stable_partition(tracks.begin(), tracks.end(), [&](std::size_t i) {
+    if (tracks_[i].inlier) return true;
+    const float chi2 = chi2_of(tracks_[i], camera, T_c_w);
+    return chi2 >= 0 && chi2 < parameters_.outlier_reach * parameters_.outlier_reach;
+  });
+  *heard = static_cast<std::size_t>(rest - tracks.begin());
+  if (*heard < static_cast<std::size_t>(parameters_.min_inliers)) *heard = tracks.size();
+  return tracks;
+}
+
 // False where the pose does not hold. The report gets what it rests on.
 bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report) {
+  std::size_t heard = 0;
+  const std::vector<std::size_t> track_of = tracks_of_points(map_.view_of(frame), *T_c_w, &heard);
   std::vector<textplane::PosePointTerm> points;
-  std::vector<std::size_t> track_of;
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (tracks_[i].point < 0 || !looks_for_point(tracks_[i].point)) continue;
-    points.push_back({map_.point(tracks_[i].point).p_w, tracks_[i].px.cast<double>(), parameters_.point_sigma});
-    track_of.push_back(i);
+  for (std::size_t k = 0; k < heard; ++k) {
+    const Track& track = tracks_[track_of[k]];
+    points.push_back({map_.point(track.point).p_w, track.px.cast<double>(), parameters_.point_sigma});
   }
-  const int map_points = static_cast<int>(points.size());
+  const int map_points = static_cast<int>(heard);
   if (map_points < parameters_.hold_points) add_unmapped(*T_c_w, points);
   std::vector<textplane::PoseTextTerm> texts;
   std::vector<const TextObject*> seen;
@@ -71,7 +97,7 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
     }
 
   const int text_count = static_cast<int>(texts.size()), point_count = static_cast<int>(points.size());
-  report->points = map_points;
+  report->points = static_cast<int>(track_of.size());
   report->inliers = report->texts = 0;
   if (point_count < parameters_.pose_min_points && texts.empty()) return false;
   textplane::PoseWorkspace workspace;
@@ -86,10 +112,10 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
   *T_c_w = textplane::renormalised(result.T_t_w);
   report->information = result.information;
   int held = 0;
-  for (std::size_t k = track_of.size(); k < points.size(); ++k) held += is_pose_inlier(parameters_, chi2[k]) ? 1 : 0;
+  for (std::size_t k = heard; k < points.size(); ++k) held += is_pose_inlier(parameters_, chi2[k]) ? 1 : 0;
   for (std::size_t k = 0; k < track_of.size(); ++k) {
     Track& track = tracks_[track_of[k]];
-    track.inlier = is_pose_inlier(parameters_, chi2[k]);
+    track.inlier = is_pose_inlier(parameters_, k < heard ? chi2[k] : chi2_of(track, map_.view_of(frame), *T_c_w));
     report->inliers += track.inlier ? 1 : 0;
   }
   report->texts = agreeing(frame, seen, *T_c_w, zncc);
