@@ -43,10 +43,7 @@ class Draws {
 };
 
 bool agrees(const PointMatch& match, const CameraView& camera, const Parameters& parameters, const SE3d& T_c_w) {
-  Vec2 px;
-  if (!show(camera, T_c_w * match.p_w, &px)) return false;
-  const double chi2 = (px - match.px).squaredNorm() / (match.sigma * match.sigma);
-  return is_pose_inlier(parameters, static_cast<float>(chi2));
+  return is_pose_inlier(parameters, pose_chi2(camera, T_c_w, match.p_w, match.px, match.sigma));
 }
 
 std::vector<PointMatch> agreeing(const std::vector<PointMatch>& matches, const CameraView& camera,

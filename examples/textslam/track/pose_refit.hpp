@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "textslam/common/rays.hpp"
 #include "textslam/track/track.hpp"
 
 namespace textslam {
@@ -13,6 +14,13 @@ struct SeenPoint {
   int point;
   Vec2f px;
 };
+
+/// Chi-square of a point's reprojection error, as a pose solve has it; negative where the pose does not show the point.
+inline float pose_chi2(const CameraView& camera, const SE3d& T_c_w, const Vec3& p_w, const Vec2& px, double sigma) {
+  Vec2 shown;
+  if (!show(camera, T_c_w * p_w, &shown)) return -1;
+  return static_cast<float>((shown - px).squaredNorm() / (sigma * sigma));
+}
 
 /// Is a point an inlier of a frame's pose, by the chi-square of its reprojection error; negative where it has none?
 inline bool is_pose_inlier(const Parameters& parameters, float chi2) {

@@ -48,12 +48,8 @@ int Tracker::agreeing(const Frame& frame, const std::vector<const TextObject*>& 
   return count;
 }
 
-// Squared distance of a track from where the pose shows its point, in sigmas; -1 where it does not.
 float Tracker::chi2_of(const Track& track, const CameraView& camera, const SE3d& T_c_w) const {
-  Vec2 px;
-  if (!show(camera, T_c_w * map_.point(track.point).p_w, &px)) return -1;
-  const double sigmas = (px - track.px.cast<double>()).norm() / parameters_.point_sigma;
-  return static_cast<float>(sigmas * sigmas);
+  return pose_chi2(camera, T_c_w, map_.point(track.point).p_w, track.px.cast<double>(), parameters_.point_sigma);
 }
 
 // The tracks of map points: first the `heard` ones, which may move the pose. One that did not fit the last pose, and
