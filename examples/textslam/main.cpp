@@ -44,7 +44,8 @@ void add_run_options(CLI::App& app, textslam::RunOptions& run) {
       "camera file");
   app.add_flag_callback(
          "--no-calibrate", [&run] { run.calibrate = textslam::Calibrate::never; },
-         "Take the camera as it is given, by --fov too")
+         "Take the camera as it is given, by --fov too; else a camera file that the map shows to be off is mended, and "
+         "the frames are mapped again")
       ->excludes("--calibrate");
   textslam::add_detector_options(app, run.detector);
   app.add_option_function<std::string>(

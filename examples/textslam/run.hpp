@@ -16,7 +16,7 @@ namespace textslam {
 constexpr double kLongestReadout = 0.2;  // s, either way
 
 /// Whether the camera is estimated from the images first, see calibrate/self_calibration.hpp. automatic: where there is
-/// no calibration.
+/// no calibration; one that is there is checked after mapping, see calibrate/camera_check.hpp.
 enum class Calibrate { automatic, always, never };
 
 struct RunOptions {

@@ -1,4 +1,4 @@
-// Runs on sequences without a camera file, as a user would start them.
+// Runs on sequences without a camera file, or with one that is off, as a user would start them.
 #include "programs/textslam_input.hpp"
 
 namespace textslam {
@@ -41,6 +41,37 @@ TEST_F(TextslamInput, WhatTheImagesDoNotTellIsAssumed) {
   EXPECT_TRUE(says(result.err, "a pinhole of 60 degrees")) << result.err;
   EXPECT_FALSE(metrics().at("calibration").at("determined").get<bool>());
   EXPECT_EQ(read_camera(output("camera.yaml")).pinhole().fx, camera_from_fov(60, 320, 240).pinhole().fx);
+}
+
+// A calibration that leaves a part of the lens out: the map says so, and is made again.
+TEST_F(TextslamInput, ACalibrationThatIsOffIsMended) {
+  render(sequence(), "uncalibrated", 120, 320);
+  const CameraModel truth = read_camera(sequence("true_camera.yaml"));
+  CameraModel off = truth;
+  auto values = truth.raw.parameters();
+  values[4] += 0.03;
+  ASSERT_TRUE(textplane::is_ok(textplane::AnyCamera<double>::make(truth.raw.name(), values, &off.raw)));
+  write("camera.yaml", format_camera(off));
+  expect_success(run({"--no-calibrate"}));
+  const double before = metrics().at("trajectory").at("ate_rmse").get<double>();
+  EXPECT_FALSE(fs::exists(output("camera.yaml")));
+
+  const ProgramResult result = run();
+  expect_success(result);
+  EXPECT_TRUE(says(result.out, "begun with the camera file")) << result.out;
+  const Json found = metrics().at("calibration");
+  EXPECT_LT(found.at("largest_error_px").get<double>(), 0.3);
+  EXPECT_EQ(found.at("focal_error_percent").get<double>(), 0);
+  EXPECT_LT(metrics().at("trajectory").at("ate_rmse").get<double>(), 0.7 * before);
+
+  // With the camera that it wrote there is nothing to mend, and the map is the same.
+  const std::string trajectory = bytes_of(output("trajectory.txt"));
+  const std::string again = folder_.path("again");
+  const ProgramResult second =
+      textslam_program({sequence(), "--camera", output("camera.yaml"), "--output", again, "--no-report"});
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_EQ(bytes_of(again + "/trajectory.txt"), trajectory);
+  EXPECT_FALSE(fs::exists(again + "/camera.yaml"));
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ std::vector<Guess> guesses_of(const Sequence& sequence, const CalibrationOptions
   switch (sequence.camera_origin) {
     case CameraOrigin::fov: return {{camera, view(sequence.approximate_fov) + ", given", options.given_focal}};
     case CameraOrigin::exif: return {{camera, view(sequence.approximate_fov) + ", by EXIF", options.given_focal}};
-    case CameraOrigin::file: return {{camera, "the camera file", options.given_focal}};
+    case CameraOrigin::file: return {{camera, kCameraFile, options.given_focal}};
     default: break;
   }
   std::vector<Guess> out;

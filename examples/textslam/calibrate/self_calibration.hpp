@@ -34,13 +34,15 @@ struct CalibrationOptions {
   double least_tracked = 0.3;
 };
 
+constexpr const char* kCameraFile = "the camera file";  ///< SelfCalibration::origin of a calibration.
+
 /// What was assumed, and what came of it.
 struct SelfCalibration {
   CameraModel camera;         ///< The estimate; the start where `determined` is false.
   std::vector<double> sigma;  ///< Standard deviations in the order of its parameters; 0: it kept its start.
   bool determined = false;
   CameraModel start;             ///< What it began with,
-  std::string origin;            ///< and where that came from, for people: "the camera file".
+  std::string origin;            ///< and where that came from, for people.
   std::size_t frames = 0;        ///< Mapped in the last pass.
   std::size_t observations = 0;  ///< Of points, that fit the estimate,
   double reprojection_px = 0;    ///< and how well, rms.

@@ -3,60 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "textslam/scene_support.hpp"
+#include "textslam/calibrate/calibration_map.hpp"
 
 namespace textslam {
 namespace map_calibration_test {
 
-using namespace scene_support;
-using textplane::RadialTangential;
-
-CameraModel model_of(const textplane::AnyCamera<double>& raw) {
-  CameraModel out;
-  out.raw = raw;
-  out.width = 640;
-  out.height = 480;
-  return out;
-}
-CameraModel lens(double f, double k1, double k2, double cx = 319.5) {
-  return model_of(RadialTangential<double>{{f, f, cx, 239.5}, k1, k2, 0, 0, 0});
-}
-
-// Twelve key frames about 300 points, seen by `truth` with an even error of up to `noise` px.
-struct CalibrationMap {
-  Map map;
-
-  explicit CalibrationMap(const CameraModel& truth, double noise = 0.2, bool turning = true) {
-    std::mt19937 random(5);
-    map.width = truth.width;
-    map.height = truth.height;
-    for (int i = 0; i < 12; ++i) {
-      KeyFrame keyframe;
-      const double a = turning ? 0.05 * i : 0;
-      const SE3d T_c_w = moved({-0.15 * i, 0.1 * std::sin(1.7 * i), 0.05 * i}, {0.3 * a, a, 0.5 * std::sin(9 * a)});
-      keyframe.frame.index = i;
-      keyframe.T_w_c = T_c_w.inverse();
-      map.keyframes.push_back(keyframe);
-    }
-    for (const Vec3& p : scene(300, false, random)) {
-      MapPoint point{p};
-      for (int i = 0; i < 12; ++i) {
-        const Vec3 p_c = map.keyframe(i).T_w_c.inverse() * p;
-        if (p_c.z() < 0.5 || !truth.raw.in_domain(p_c)) continue;
-        const Vec2 px = truth.project(p_c) + Vec2(uniform(random, -noise, noise), uniform(random, -noise, noise));
-        if (px.x() < 0 || px.y() < 0 || px.x() > 639 || px.y() > 479) continue;
-        point.observations.push_back({i, px});
-        map.keyframe(i).points.push_back(static_cast<int>(map.points.size()));
-      }
-      map.points.push_back(point);
-    }
-  }
-};
+using namespace calibration_map;
+using scene_support::camera;
 
 MapCalibration calibrated(const CameraModel& truth, const CameraModel& guess, bool turning = true) {
-  const CalibrationMap scene(truth, 0.2, turning);
+  const CalibrationMap scene({12, truth}, turning);
   return calibrate(scene.map, guess, guess, Parameters(), CalibrationPriors());
 }
 
