@@ -202,7 +202,8 @@ class Run {
     }
     sequence_.camera = given;
     mapping_->result.interrupted = again->result.interrupted;
-    mapping_->result.error = again->result.error;
+    if (!again->result.error.empty())
+      mapping_->result.error = again->result.error + " (that was with a better camera; the map is of the one given)";
   }
 
   void summarise_run() {

@@ -172,7 +172,7 @@ Window CalibrationWindow::only(int part) const {
 }
 
 double CalibrationWindow::gain(const std::vector<LeftOut>& parts, const textplane::AnyCamera<double>& held) const {
-  double before = 0, after = 0;
+  std::vector<double> gains;
   for (const LeftOut& left : parts) {
     const Window own = only(left.part);
     if (own.frames.size() < 2 || own.points.empty()) continue;
@@ -180,11 +180,10 @@ double CalibrationWindow::gain(const std::vector<LeftOut>& parts, const textplan
     options.scale_frame_a = 0;
     options.scale_frame_b = static_cast<int>(own.frames.size()) - 1;
     const double with_held = cost_with(held, own, options), with_told = cost_with(left.camera, own, options);
-    if (!std::isfinite(with_held) || !std::isfinite(with_told)) continue;
-    before += with_held;
-    after += with_told;
+    if (std::isfinite(with_held) && std::isfinite(with_told) && with_held > 0)
+      gains.push_back(1 - with_told / with_held);
   }
-  return before > 0 ? 1 - after / before : 0;
+  return gains.empty() ? 0 : median(std::move(gains));
 }
 
 void CalibrationWindow::remove_outliers() {

@@ -39,8 +39,8 @@ class CalibrationWindow {
   /// Variances by a jackknife over these: shutter and blur move all points of a frame alike.
   static std::vector<double> jackknife(const textplane::WindowCalibration& solved, const std::vector<LeftOut>& parts);
   /// The share by which calibration lowers the Huber cost, by cross-validation: each part of the sequence by itself,
-  /// with the camera that the others tell and with `held`. Errors that look like a lens in one part only do not lower
-  /// it. Zero where no part can tell.
+  /// with the camera that the others tell and with `held`; the median of the parts. Errors that look like a lens in one
+  /// part only do not lower it, and a part that came apart does not decide. Zero where no part can tell.
   double gain(const std::vector<LeftOut>& parts, const textplane::AnyCamera<double>& held) const;
   /// Removes observations by their last errors.
   void remove_outliers();

@@ -73,6 +73,14 @@ TEST(CameraCheck, ALensOfOnePartOnlyLowersNoCost) {
   EXPECT_GT(k1, 0.002) << "all frames together have it";
 }
 
+// Whose points do not fit the lens of all others, and cost more than these.
+TEST(CameraCheck, OnePartDoesNotDecide) {
+  std::vector<CameraModel> cameras(kFrames, lens(525, 0.05, 0));
+  std::fill(cameras.begin() + 12, cameras.begin() + 18, lens(525, -0.5, 0));
+  double k1 = 0;
+  EXPECT_GT(gain_of(cameras, {}, &k1), 0.01);
+}
+
 TEST(CameraCheck, ExtentCountsTheFirstKeyFramesAndSomeOfThePoints) {
   std::vector<CameraModel> cameras(kFrames, lens(525, 0.05, 0));
   std::fill(cameras.begin() + 24, cameras.end(), lens(525, -0.05, 0));
