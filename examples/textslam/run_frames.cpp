@@ -53,10 +53,13 @@ Detections::Detections(FrameSource& source, const RunOptions& options)
 }
 
 double Detections::before(Frame& frame, const Pixels& raw, System& system) {
-  if (const auto at = static_cast<std::size_t>(frame.index); at < said_.size()) {
-    frame.detections = said_[at].boxes;
-    return said_[at].ms;
+  if (frame.index < frames_) {
+    if (!in_step_) return 0;
+    const Said& said = said_[static_cast<std::size_t>(frame.index)];
+    frame.detections = said.boxes;
+    return said.ms;
   }
+  ++frames_;
   of_frames_.add({});
   if (thread_)
     for (DetectionThread::Result& result : thread_->collect()) {

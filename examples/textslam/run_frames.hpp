@@ -77,7 +77,8 @@ class Detections {
 
   FrameSource& source_;
   bool in_step_ = false;
-  std::vector<Said> said_;  // of each frame in step
+  int frames_ = 0;          // that came, each once
+  std::vector<Said> said_;  // of each of these in step
   std::size_t count_ = 0;
   BoundedSampler<std::vector<Detection>> of_frames_;
   std::unique_ptr<DetectionThread> thread_;
