@@ -1,6 +1,5 @@
 #include "textslam/run.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -47,44 +46,6 @@ std::vector<std::size_t> frames_asked(const Sequence& sequence, const RunOptions
   return frames;
 }
 
-// The next frame; null where it is broken and is to be passed over.
-FrameSource::RawImage take(std::size_t at, const RunOptions& options, FrameSource& source, RunResult& result) {
-  try {
-    return source.take(at);
-  } catch (const InputError&) {
-    if (!options.skip_broken) throw;
-    ++result.summary.broken;
-    return nullptr;
-  }
-}
-
-// Takes the frames one by one, until the last or a signal.
-void track_frames(const RunOptions& options, const Sequence& sequence, const std::vector<std::size_t>& asked,
-                  const char* step, FrameSource& source, FrameClock& clock, Detections& detections, System& system,
-                  RunResult& result) {
-  Progress progress(step);
-  int index = 0;
-  for (std::size_t i = 0; i < asked.size() && !result.interrupted; ++i) {
-    clock.wait_for(sequence.frames[asked[i]].timestamp);
-    const FrameSource::RawImage raw = take(asked[i], options, source, result);
-    if (!raw) continue;
-    Frame frame = source.frame(index, raw->grey);
-    const double detect_ms = detections.before(frame, *raw, system);
-    const FrameRecord& record = system.process(frame, detect_ms);
-    clock.done();
-    detections.after(index, raw, system.map());
-    progress.show(i + 1, asked.size(),
-                  std::string(to_string(record.state)) + ", " + counted(record.points, "point") + ", " +
-                      counted(record.texts, "text"));
-    if (options.json_lines) print_line(frame_line(index, record, system.map(), system.live_world()));
-    ++index;
-    if (interrupted() == 0 || i + 1 == asked.size()) continue;
-    result.interrupted = true;
-    result.error =
-        "interrupted after frame " + std::to_string(index - 1) + "; what was computed is in " + options.output;
-  }
-}
-
 std::string no_scale(const std::vector<KnownLength>& lengths) {
   const KnownLength& first = lengths.front();
   return (first.other.empty() ? "no mapped text reads '" + first.word + "'"
@@ -122,12 +83,6 @@ struct Mapping {
         system(camera.view(), sequence.camera.width, sequence.camera.height, options.parameters,
                sequence.camera.shutter),
         clock(options.parameters.real_time) {}
-
-  std::size_t live() const {
-    const auto& records = system.records();
-    return static_cast<std::size_t>(
-        std::count_if(records.begin(), records.end(), [](const FrameRecord& record) { return record.live; }));
-  }
 
   SequenceCamera camera;
   System system;
@@ -174,13 +129,48 @@ class Run {
   std::unique_ptr<Mapping> map_frames(const char* step) {
     auto mapping = std::make_unique<Mapping>(options_, sequence_);
     session_.begin(&mapping->system);
-    keep_going(mapping->result, [&] {
-      track_frames(options_, sequence_, asked_, step, source_, mapping->clock, detections_, mapping->system,
-                   mapping->result);
-    });
+    keep_going(mapping->result, [&] { track_frames(step, mapping.get()); });
     detections_.end();
     mapping->system.finish();
     return mapping;
+  }
+
+  // Takes the frames one by one, until the last or a signal.
+  void track_frames(const char* step, Mapping* mapping) {
+    System& system = mapping->system;
+    RunResult& result = mapping->result;
+    Progress progress(step);
+    int index = 0;
+    for (std::size_t i = 0; i < asked_.size() && !result.interrupted; ++i) {
+      mapping->clock.wait_for(sequence_.frames[asked_[i]].timestamp);
+      const FrameSource::RawImage raw = take(asked_[i], &result);
+      if (!raw) continue;
+      Frame frame = source_.frame(index, raw->grey);
+      const double detect_ms = detections_.before(frame, *raw, system);
+      const FrameRecord& record = system.process(frame, detect_ms);
+      mapping->clock.done();
+      detections_.after(index, raw, system.map());
+      progress.show(i + 1, asked_.size(),
+                    std::string(to_string(record.state)) + ", " + counted(record.points, "point") + ", " +
+                        counted(record.texts, "text"));
+      if (options_.json_lines) print_line(frame_line(index, record, system.map(), system.live_world()));
+      ++index;
+      if (interrupted() == 0 || i + 1 == asked_.size()) continue;
+      result.interrupted = true;
+      result.error =
+          "interrupted after frame " + std::to_string(index - 1) + "; what was computed is in " + options_.output;
+    }
+  }
+
+  // The next frame; null where it is broken and is to be passed over.
+  FrameSource::RawImage take(std::size_t at, RunResult* result) {
+    try {
+      return source_.take(at);
+    } catch (const InputError&) {
+      if (!options_.skip_broken) throw;
+      ++result->summary.broken;
+      return nullptr;
+    }
   }
 
   // Maps again where the map says that another camera took the images.
@@ -194,8 +184,8 @@ class Run {
     sequence_.camera = better->camera;
     source_.rewind();
     std::unique_ptr<Mapping> again = map_frames("tracking again");
-    if (again->result.error.empty() &&
-        static_cast<double>(again->live()) >= check.least_live * static_cast<double>(mapping_->live())) {
+    if (again->result.error.empty() && static_cast<double>(again->system.live_frames()) >=
+                                           check.least_live * static_cast<double>(mapping_->system.live_frames())) {
       mapping_ = std::move(again);
       calibration_ = better;
       return;

@@ -19,11 +19,6 @@ constexpr int kLeastObservations = 3;  // of a point
 constexpr int kParts = 6;              // of key frames in turn, for jackknife and cross-validation
 constexpr double kOutlier = 3;         // times the error of the middle observation
 
-template <class Predicate>
-void erase_if(std::vector<WindowPointObservation>* list, Predicate predicate) {
-  list->erase(std::remove_if(list->begin(), list->end(), predicate), list->end());
-}
-
 // The Huber cost that a camera leaves; infinite where the window has no solution with it.
 double cost_with(const textplane::AnyCamera<double>& camera, Window window, const textplane::WindowOptions& options) {
   WindowCalibration held;
@@ -105,8 +100,9 @@ double CalibrationWindow::variance() const {
 
 std::vector<double> CalibrationWindow::variances(const WindowCalibration& solved) const {
   std::vector<double> out;
+  const double unit = variance();
   for (Eigen::Index i = 0; i < solved.covariance.rows(); ++i)
-    out.push_back(variance() * std::max(solved.covariance(i, i), 0.0));
+    out.push_back(unit * std::max(solved.covariance(i, i), 0.0));
   return out;
 }
 
@@ -117,7 +113,7 @@ std::vector<LeftOut> CalibrationWindow::leave_out(const WindowCalibration& solve
   textplane::WindowWorkspace workspace;
   for (int part = 0; part < kParts; ++part) {
     Window others = window_;
-    erase_if(&others.point_observations, [&](const WindowPointObservation& o) {
+    erase_if(others.point_observations, [&](const WindowPointObservation& o) {
       const bool sets_scale = o.frame == options_.scale_frame_a || o.frame == options_.scale_frame_b;
       return !sets_scale && part_of(o.frame) == part;
     });
@@ -190,7 +186,7 @@ void CalibrationWindow::remove_outliers() {
   std::vector<double> all;
   for (const WindowPointObservation& o : window_.point_observations) all.push_back(o.chi2);
   const double most = kOutlier * kOutlier * median(std::move(all));
-  erase_if(&window_.point_observations, [&](const WindowPointObservation& o) { return !(o.chi2 <= most); });
+  erase_if(window_.point_observations, [&](const WindowPointObservation& o) { return !(o.chi2 <= most); });
 }
 
 std::pair<std::size_t, double> CalibrationWindow::fit() const {

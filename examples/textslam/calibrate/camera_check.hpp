@@ -13,9 +13,7 @@ struct CameraCheckOptions {
   /// Of a calibration: the focal length is held, as errors of the shutter pass for it; the principal point is known to
   /// half a per cent of the width; what is left of a lens is small. So many key frames and points take less time than
   /// their frames took.
-  CalibrationPriors priors = {0, 0.05, 0.005, 0.5, 10.83, {300, 150}};
-  /// MapCalibration::gain() of a camera that is the better one: with less a map with it is none.
-  double least_gain = 0.01;
+  CalibrationPriors priors = {0, 0.05, 0.005, 0.5, 10.83, 0.01, {300, 150}};
   /// Of the frames that were tracked live with the camera given: where a map with the better one has fewer, that of the
   /// camera given stays.
   double least_live = 0.95;

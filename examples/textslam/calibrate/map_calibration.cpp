@@ -156,8 +156,8 @@ MapCalibration calibrate(const Map& map, const CameraModel& camera, const Camera
     certainty = certainty_of(window, best);
   }
   if (free.empty() || !is_determined(guess, free.front(), certainty.variance, priors)) return out;
+  if (priors.least_gain > 0 && window.gain(certainty.parts, camera.raw) < priors.least_gain) return out;
   std::tie(out.observations, out.reprojection_px) = window.fit();
-  out.gain = window.gain(certainty.parts, camera.raw);
   out.determined = true;
   out.camera.raw = best.camera;
   for (std::size_t i = 0; i < out.sigma.size(); ++i) out.sigma[i] = std::sqrt(certainty.variance[i]);

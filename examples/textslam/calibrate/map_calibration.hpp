@@ -24,6 +24,9 @@ struct CalibrationPriors {
   double determined = 0.5;
   /// Square of a parameter's distance from the guess, in variances: 99.9 % of chi-square with 1 degree of freedom.
   double significant = 10.83;
+  /// CalibrationWindow::gain() over the camera that the map was made with: with less nothing is determined. 0: any will
+  /// do.
+  double least_gain = 0;
   CalibrationExtent extent;
 };
 
@@ -32,7 +35,6 @@ struct MapCalibration {
   std::vector<double> sigma;     ///< Standard deviations in the order of the camera's parameters; 0: it kept the guess.
   std::size_t observations = 0;  ///< That fit in the end.
   double reprojection_px = 0;    ///< Of these, rms.
-  double gain = 0;               ///< CalibrationWindow::gain() over `camera` as it was given.
   bool determined = false;       ///< Something is, the focal length too; else `camera` is the one given.
 };
 

@@ -39,7 +39,7 @@ class Calibrator {
       progress_(i + 1, pass.frames);
     }
     system.finish();
-    for (const FrameRecord& record : system.records()) pass.tracked += record.live ? 1 : 0;
+    pass.tracked = system.live_frames();
     pass.found = calibrate(system.map(), camera, guess, sized, priors);
     // So little passes for a shutter that takes all rows at once.
     constexpr double kLeastReadout = 1e-3;  // s
@@ -80,16 +80,16 @@ std::vector<Guess> guesses_of(const Sequence& sequence, const CalibrationOptions
   return out;
 }
 
-void take_over(const Pass& pass, SelfCalibration* out) {
-  out->camera = pass.found.camera;
-  out->sigma = pass.found.sigma;
-  out->frames = pass.frames;
-  out->observations = pass.found.observations;
-  out->reprojection_px = pass.found.reprojection_px;
+}  // namespace
+
+void take_over(const MapCalibration& found, std::size_t frames, SelfCalibration* out) {
+  out->camera = found.camera;
+  out->sigma = found.sigma;
+  out->frames = frames;
+  out->observations = found.observations;
+  out->reprojection_px = found.reprojection_px;
   out->determined = true;
 }
-
-}  // namespace
 
 SelfCalibration self_calibrate(const Sequence& sequence, const std::vector<std::size_t>& frames,
                                const Parameters& parameters, const CalibrationOptions& options,
@@ -110,7 +110,7 @@ SelfCalibration self_calibrate(const Sequence& sequence, const std::vector<std::
     const CameraModel start = with_lens(guess.camera);
     const Pass pass = calibrator.run(start, start, priors, options.probe_frames);
     if (!useful(pass) || (out.determined && pass.found.reprojection_px >= out.reprojection_px)) continue;
-    take_over(pass, &out);
+    take_over(pass.found, pass.frames, &out);
     out.start = guess.camera;
     out.origin = guess.origin;
   }
@@ -120,7 +120,7 @@ SelfCalibration self_calibrate(const Sequence& sequence, const std::vector<std::
     const Pass pass = calibrator.run(camera, start, priors, options.most_frames);
     if (!useful(pass)) break;
     ++out.passes;
-    take_over(pass, &out);
+    take_over(pass.found, pass.frames, &out);
     const double focal_moved = std::abs(camera.pinhole().fx - out.camera.pinhole().fx);
     if (camera_distance(camera, out.camera) < options.converged_px ||
         focal_moved < options.converged_sigma * out.sigma[0])

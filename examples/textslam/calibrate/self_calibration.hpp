@@ -49,6 +49,9 @@ struct SelfCalibration {
   int passes = 0;                ///< Over the frames, after the first guess was found.
 };
 
+/// Gives it what a map determined, that was made of so many frames.
+void take_over(const MapCalibration& found, std::size_t frames, SelfCalibration* out);
+
 /// `frames` are indices of the sequence's frames, in order. It begins with the sequence's camera. `progress` is called
 /// with the frames mapped and how many there are in this pass. Throws InputError for a frame that cannot be read.
 SelfCalibration self_calibrate(const Sequence& sequence, const std::vector<std::size_t>& frames,

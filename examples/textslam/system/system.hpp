@@ -108,6 +108,7 @@ class System {
   /// Frames tracked in each map, those of map() first, then by size.
   std::vector<std::size_t> map_frames() const;
   const std::deque<FrameRecord>& records() const { return records_; }
+  std::size_t live_frames() const;
   const std::vector<LoopRecord>& loops() const { return loops_; }
   /// Map to the live world, in which live poses are given. Adjustments move all of a monocular map. This similarity
   /// fits the poses of all frames, as the map has them now, to their live poses, so that the live world stays in place.

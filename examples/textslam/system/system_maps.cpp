@@ -104,6 +104,11 @@ std::map<int, std::size_t> System::frames_by_map() const {
   return counts;
 }
 
+std::size_t System::live_frames() const {
+  const auto is_live = [](const FrameRecord& record) { return record.live; };
+  return static_cast<std::size_t>(std::count_if(records_.begin(), records_.end(), is_live));
+}
+
 std::vector<std::size_t> System::map_frames() const {
   std::map<int, std::size_t> counts = frames_by_map();
   std::vector<std::size_t> frames;
