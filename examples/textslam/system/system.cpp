@@ -129,6 +129,10 @@ bool System::track(const Frame& frame, FrameRecord& record) {
   record.points = report.inliers;
   record.texts = report.texts;
   if (!report.ok) return false;
+  if (is_contradicted(report)) {
+    drop_map();
+    return false;
+  }
   record.by = FoundBy::tracking;
   record.information = report.information;
   record.position_sigma = report.position_sigma;

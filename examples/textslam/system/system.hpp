@@ -5,7 +5,8 @@
 // frames are culled: the map grows with the ground seen, not with time.
 //
 // One map is worked on at a time. After a long loss it is stored, and another begins. Lost frames are searched for in
-// the stored maps, and a key frame that shows one joins the two. In the end the map with most frames is the result.
+// the stored maps, and a key frame that shows one joins the two. In the end the map with most frames is the result. A
+// young map that most of its points contradict is dropped instead.
 //
 // A map of earlier sessions begins as such a stored map; where a frame was found in it, it is the result. Or frames are
 // only localised in it: then nothing changes.
@@ -163,6 +164,8 @@ class System {
 
   // system_maps.cpp
   bool recover(const Frame& taken, FrameRecord& record);
+  bool is_contradicted(const TrackReport& report) const;
+  void drop_map();
   void store_map();
   void take_map(std::size_t stored);
   void join_stored(const Frame& frame, FrameRecord& record);

@@ -8,6 +8,26 @@
 
 namespace textslam {
 
+// Two views from nearly the same place may have a wrong motion by chance, and even so the first points agree with it.
+// Soon they part: a young map in which many points disagree is wrong, whatever it began with.
+bool System::is_contradicted(const TrackReport& report) const {
+  return map_.number != earlier_ && static_cast<int>(map_.keyframe_ids().size()) <= parameters_.trial_keyframes &&
+         report.inliers < parameters_.trial_inliers * report.points;
+}
+
+// Its frames have no pose from now on, as those before it. fill_in() may find them in the map to come.
+void System::drop_map() {
+  for (FrameRecord& record : records_) {
+    if (record.map != map_.number) continue;
+    FrameRecord without;
+    without.timestamp = record.timestamp;
+    without.detect_ms = record.detect_ms;
+    record = std::move(without);
+  }
+  store_map();
+  stored_.pop_back();
+}
+
 void System::store_map() {
   take_over(adjuster_.settle(map_));
   if (!map_.keyframes.empty()) stored_.push_back(std::move(map_));
