@@ -53,6 +53,11 @@ class Tracker {
     int point;
     PointPrediction prediction;
   };
+  struct SeenText {
+    const TextObject* text;
+    textplane::PoseTextTerm term;
+    float zncc = 0;
+  };
 
   SE3d predict(const Frame& frame) const;
   void roll(const SE3d& T_c_w, const Frame& taken, Frame* frame) const;
@@ -63,10 +68,12 @@ class Tracker {
   void reobserve(const Frame& frame, const SE3d& T_c_w, TrackReport* report);
   void relocate(const Frame& frame, const Candidate& candidate);
   void add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const;
+  std::vector<SeenText> texts_in_view(const Frame& frame, const SE3d& T_c_w) const;
+  bool agrees(const Frame& frame, const SeenText& seen, const SE3d& T_c_w, double sharp_zncc) const;
+  bool refine(const Frame& frame, const std::vector<textplane::PosePointTerm>& points, std::vector<SeenText>& texts,
+              std::vector<float>& chi2, SE3d* T_c_w, TrackReport* report) const;
   void judge_position(const SE3d& T_c_w, const std::vector<textplane::PosePointTerm>& points, int map_points,
-                      const std::vector<textplane::PoseTextTerm>& texts, TrackReport* report) const;
-  int agreeing(const Frame& frame, const std::vector<const TextObject*>& texts, const SE3d& T_c_w,
-               const std::vector<float>& zncc) const;
+                      const std::vector<SeenText>& texts, TrackReport* report) const;
   float chi2_of(const Track& track, const CameraView& camera, const SE3d& T_c_w) const;
   std::vector<std::size_t> tracks_of_points(const CameraView& camera, const SE3d& T_c_w, std::size_t* heard) const;
   bool fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report);

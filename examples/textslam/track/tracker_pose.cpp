@@ -34,18 +34,24 @@ void Tracker::add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTe
   }
 }
 
-// How many of the texts look as their patches do.
-int Tracker::agreeing(const Frame& frame, const std::vector<const TextObject*>& texts, const SE3d& T_c_w,
-                      const std::vector<float>& zncc) const {
-  int count = 0;
-  const textplane::TextImage image = map_.text_image(frame);
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const TextObject& text = *texts[i];
-    const double least = text_zncc_limit(parameters_.text, parameters_.text.min_zncc, text.patch, 0, text.theta,
-                                         map_.text_keyframe(text.host), image, map_.T_c_h(T_c_w, text.host));
-    count += zncc[i] >= least ? 1 : 0;
+// The mapped texts that a camera at T_c_w sees.
+std::vector<Tracker::SeenText> Tracker::texts_in_view(const Frame& frame, const SE3d& T_c_w) const {
+  std::vector<SeenText> seen;
+  for (const TextObject& text : map_.texts) {
+    Quad<double> quad;
+    if (text.state != TextState::mapped || (local_ && !local_->has_text(text.id))) continue;
+    if (!text_in_view(parameters_.text, text, map_.T_c_h(T_c_w, text.host), map_.text_image(frame), &quad)) continue;
+    seen.push_back({&text, {&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)}});
   }
-  return count;
+  return seen;
+}
+
+// Whether a text looks as its patch does: as that of a sharp image would with this ZNCC.
+bool Tracker::agrees(const Frame& frame, const SeenText& seen, const SE3d& T_c_w, double sharp_zncc) const {
+  const TextObject& text = *seen.text;
+  return seen.zncc >= text_zncc_limit(parameters_.text, sharp_zncc, text.patch, 0, text.theta,
+                                      map_.text_keyframe(text.host), map_.text_image(frame),
+                                      map_.T_c_h(T_c_w, text.host));
 }
 
 float Tracker::chi2_of(const Track& track, const CameraView& camera, const SE3d& T_c_w) const {
@@ -70,7 +76,29 @@ std::vector<std::size_t> Tracker::tracks_of_points(const CameraView& camera, con
   return tracks;
 }
 
-// False where the pose does not hold. The report gets what it rests on.
+// One solve, and what is left of each term then.
+bool Tracker::refine(const Frame& frame, const std::vector<textplane::PosePointTerm>& points,
+                     std::vector<SeenText>& texts, std::vector<float>& chi2, SE3d* T_c_w, TrackReport* report) const {
+  std::vector<textplane::PoseTextTerm> terms;
+  for (const SeenText& seen : texts) terms.push_back(seen.term);
+  const int text_count = static_cast<int>(terms.size()), point_count = static_cast<int>(points.size());
+  textplane::PoseWorkspace workspace;
+  workspace.reserve(terms.data(), text_count, point_count);
+  textplane::PoseOptions options;
+  options.sigma_photo = parameters_.photometric_sigma;
+  options.coarsest_level = parameters_.text.levels - 1;
+  std::vector<float> zncc(texts.size());
+  const auto result = textplane::refine_pose(terms.data(), text_count, points.data(), point_count, frame.image->view(),
+                                             map_.view_of(frame), *T_c_w, options, workspace, zncc.data(), chi2.data());
+  if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return false;
+  for (std::size_t i = 0; i < texts.size(); ++i) texts[i].zncc = zncc[i];
+  *T_c_w = textplane::renormalised(result.T_t_w);
+  report->information = result.information;
+  return true;
+}
+
+// False where the pose does not hold. The report gets what it rests on. A text that is not seen where the pose expects
+// it, as it is hidden or the pose is wrong, takes no part: its pixels would hold a wrong pose against the points.
 bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackReport* report) {
   std::size_t heard = 0;
   const std::vector<std::size_t> track_of = tracks_of_points(map_.view_of(frame), *T_c_w, &heard);
@@ -81,32 +109,28 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
   }
   const int map_points = static_cast<int>(heard);
   if (map_points < parameters_.hold_points) add_unmapped(*T_c_w, points);
-  std::vector<textplane::PoseTextTerm> texts;
-  std::vector<const TextObject*> seen;
-  if (with_text)
-    for (const TextObject& text : map_.texts) {
-      Quad<double> quad;
-      if (text.state != TextState::mapped || (local_ && !local_->has_text(text.id))) continue;
-      if (!text_in_view(parameters_.text, text, map_.T_c_h(*T_c_w, text.host), map_.text_image(frame), &quad)) continue;
-      texts.push_back({&text.patch, text.theta, map_.keyframe(text.host).T_w_c, 1, scale_shift(text, quad)});
-      seen.push_back(&text);
-    }
+  std::vector<SeenText> texts;
+  if (with_text) texts = texts_in_view(frame, *T_c_w);
 
-  const int text_count = static_cast<int>(texts.size()), point_count = static_cast<int>(points.size());
+  const int point_count = static_cast<int>(points.size());
+  const bool may_do_without = point_count >= parameters_.pose_min_points;
   report->points = static_cast<int>(track_of.size());
   report->inliers = report->texts = 0;
-  if (point_count < parameters_.pose_min_points && texts.empty()) return false;
-  textplane::PoseWorkspace workspace;
-  workspace.reserve(texts.data(), text_count, point_count);
-  textplane::PoseOptions options;
-  options.sigma_photo = parameters_.photometric_sigma;
-  options.coarsest_level = parameters_.text.levels - 1;
-  std::vector<float> zncc(texts.size()), chi2(points.size());
-  const auto result = textplane::refine_pose(texts.data(), text_count, points.data(), point_count, frame.image->view(),
-                                             map_.view_of(frame), *T_c_w, options, workspace, zncc.data(), chi2.data());
-  if (!textplane::is_ok(result.status) && result.status != textplane::Status::diverged) return false;
-  *T_c_w = textplane::renormalised(result.T_t_w);
-  report->information = result.information;
+  if (!may_do_without && texts.empty()) return false;
+  std::vector<float> chi2(points.size());
+  const SE3d start = *T_c_w;
+  const auto agrees_to = [&](double zncc) {
+    return [&, zncc](const SeenText& text) { return agrees(frame, text, *T_c_w, zncc); };
+  };
+  for (std::size_t seen = texts.size() + 1; texts.size() < seen;) {
+    seen = texts.size();
+    *T_c_w = start;
+    if (!refine(frame, points, texts, chi2, T_c_w, report)) return false;
+    const auto good = std::count_if(texts.begin(), texts.end(), agrees_to(parameters_.text.min_zncc));
+    report->texts = static_cast<int>(good);
+    const auto part = std::stable_partition(texts.begin(), texts.end(), agrees_to(parameters_.text.cull_zncc));
+    if (may_do_without) texts.erase(part, texts.end());
+  }
   int held = 0;
   for (std::size_t k = heard; k < points.size(); ++k) held += is_pose_inlier(parameters_, chi2[k]) ? 1 : 0;
   for (std::size_t k = 0; k < track_of.size(); ++k) {
@@ -114,7 +138,6 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
     track.inlier = is_pose_inlier(parameters_, k < heard ? chi2[k] : chi2_of(track, map_.view_of(frame), *T_c_w));
     report->inliers += track.inlier ? 1 : 0;
   }
-  report->texts = agreeing(frame, seen, *T_c_w, zncc);
   judge_position(*T_c_w, points, map_points, texts, report);
   if (!(report->position_sigma <= parameters_.max_position_sigma)) return false;
   const int inliers = report->inliers;
@@ -128,7 +151,7 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
 // The depths that corners are guessed at may all be wrong by the same factor: what they say of the position has that
 // error in common, which the information does not know.
 void Tracker::judge_position(const SE3d& T_c_w, const std::vector<textplane::PosePointTerm>& points, int map_points,
-                             const std::vector<textplane::PoseTextTerm>& texts, TrackReport* report) const {
+                             const std::vector<SeenText>& texts, TrackReport* report) const {
   std::vector<double> depths;
   const double known = parameters_.point_sigma * parameters_.point_sigma;
   double guessed = 0, all = 0;
@@ -139,10 +162,10 @@ void Tracker::judge_position(const SE3d& T_c_w, const std::vector<textplane::Pos
     if (static_cast<int>(i) >= map_points)
       guessed += weight * std::sqrt(std::max(0.0, points[i].sigma * points[i].sigma - known));
   }
-  for (const textplane::PoseTextTerm& text : texts) {
+  for (const auto& [text, term, zncc] : texts) {
     const Vec3 corner =
-        textplane::plane_point<double>(text.theta, text.patch->camera.unproject(text.patch->quad.corner[0]));
-    depths.push_back((T_c_w * (text.T_w_h * corner)).z());
+        textplane::plane_point<double>(text->theta, text->patch.camera.unproject(text->patch.quad.corner[0]));
+    depths.push_back((T_c_w * (term.T_w_h * corner)).z());
   }
   const double focal = std::max(map_.camera.pinhole.fx, map_.camera.pinhole.fy), depth = median(std::move(depths));
   report->position_sigma = position_sigma(report->information) / depth + (all > 0 ? guessed / all / focal : 0);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "textplane/features/select.hpp"
+#include "textplane/geometry/plane.hpp"
 #include "textslam/relocalise/places_support.hpp"
 
 namespace textslam {
@@ -27,6 +29,27 @@ class TrackerTest : public PlacesTest {
     Vec3& p_w = point_at(px).p_w;
     p_w *= depth / p_w.z();
   }
+  // A text on a wall, as `seen` shows it from where the first frame was taken.
+  void add_text(const Frame& seen, const Vec2& px, const Vec3& normal, double offset) {
+    TextObject text;
+    text.id = static_cast<int>(map.texts.size());
+    text.state = TextState::mapped;
+    text.host = 0;
+    text.theta = textplane::plane_from_normal<double>(-normal, offset);
+    textplane::SelectOptions options;
+    options.levels = parameters.text.levels;
+    const Quad<double> quad{{px, px + Vec2(90, 0), px + Vec2(90, 50), px + Vec2(0, 50)}};
+    text.patch = textplane::make_patch(seen.image->view(), map.camera, quad, options);
+    ASSERT_TRUE(textplane::is_ok(text.patch.status));
+    map.texts.push_back(std::move(text));
+  }
+  void add_texts(const Frame& seen) {
+    parameters.mode = Mode::text;
+    for (const double y : {60.0, 140.0, 220.0}) {
+      add_text(seen, {450, y}, {0.6, 0, 0.8}, 2.6);
+      add_text(seen, {60, y}, {-0.7, 0, 0.714}, 2.4);
+    }
+  }
   SE3d truth(int frame) const { return moved({0, 0, kStep * frame}, {0, 0, 0}).inverse(); }
 
   // The largest error of the position over some frames.
@@ -48,6 +71,22 @@ TEST_F(TrackerTest, PointsThatTheCameraPassesAtAWrongDepthDoNotHoldItBack) {
   move_point({150, 350}, 8 * kStep);
   move_point({560, 200}, 7.5 * kStep);
   EXPECT_LT(worst_of(8), kStep / 2);
+}
+
+TEST_F(TrackerTest, TextsHelpWherePointsAreFew) {
+  for (std::size_t i = 0; i < map.points.size(); ++i) map.points[i].bad = i % 12 != 0;
+  add_texts(map.keyframe(0).frame);
+  EXPECT_LT(worst_of(8), kStep / 30);
+}
+
+// Six signs were papered over. They have many pixels: together they would pull harder than the points.
+TEST_F(TrackerTest, TextsThatAreNotSeenWhereTheyShouldBeDoNotHoldItBack) {
+  for (std::size_t i = 0; i < map.points.size(); ++i) map.points[i].bad = i % 12 != 0;
+  paper = 50;
+  const Frame before = frame_at(truth(0));
+  paper = 1;
+  add_texts(before);
+  EXPECT_LT(worst_of(8), kStep / 20);
 }
 
 TEST_F(TrackerTest, APointThatFitsAgainIsHeardAgain) {
