@@ -137,7 +137,7 @@ if(TARGET foreign_tracker)
 endif()
 
 # The script of the experiments, with a stand-in for textslam; readers of other libraries on textslam's outputs; and the
-# report in a browser, where there is one: the pages that textslam_report_test made.
+# report in a browser, where there is one: the pages that two other tests made.
 find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(NOT Python3_FOUND)
   return()
@@ -152,8 +152,10 @@ add_test(NAME examples.viewers COMMAND ${Python3_EXECUTABLE} ${programs}/viewers
 textplane_label(examples.viewers programs)
 if(TARGET textslam_report_test)
   set(reports ${CMAKE_CURRENT_BINARY_DIR}/reports)
-  target_compile_definitions(textslam_report_test PRIVATE TEXTSLAM_REPORTS="${reports}")
-  set_tests_properties(examples.textslam_report_test PROPERTIES FIXTURES_SETUP reports)
+  foreach(made textslam_report_test textslam_sessions_test)
+    target_compile_definitions(${made} PRIVATE TEXTSLAM_REPORTS="${reports}")
+    set_tests_properties(examples.${made} PROPERTIES FIXTURES_SETUP reports)
+  endforeach()
   add_test(NAME examples.report_browser COMMAND ${Python3_EXECUTABLE} ${programs}/report_browser_test.py ${reports})
   set_tests_properties(examples.report_browser PROPERTIES FIXTURES_REQUIRED reports SKIP_RETURN_CODE 77 TIMEOUT 1200)
   textplane_label(examples.report_browser programs)

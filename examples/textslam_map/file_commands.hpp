@@ -10,9 +10,11 @@
 
 #include "cli/command_line.hpp"
 #include "io/input_error.hpp"
+#include "io/output_file.hpp"
 #include "textslam_map/export_geojson.hpp"
 #include "textslam_map/export_map.hpp"
 #include "textslam_map/map_queries.hpp"
+#include "textslam_map/map_report.hpp"
 #include "textslam_map/merge_maps.hpp"
 #include "textslam_map/prune_map.hpp"
 
@@ -63,6 +65,26 @@ class ExportCommand {
   std::string file_, colmap_, ply_, tum_, geojson_, origin_;
   GeoReference reference_;
   int session_ = 0;
+};
+
+/// Shows a map in one page.
+class ReportCommand {
+ public:
+  explicit ReportCommand(CLI::App& app) {
+    command_ = app.add_subcommand("report", "The page of textslam for a map file alone, with its sessions in colours");
+    command_->add_option("FILE", file_, "Map file")->required();
+    command_->add_option("--output", output_, "Page to write; one that is there is replaced")->required();
+  }
+  bool parsed() const { return command_->parsed(); }
+  int run(const std::vector<std::string>& command) const {
+    const Parameters parameters;
+    write_file(output_, map_report_html(load_map(file_, parameters), file_, parameters, command));
+    return 0;
+  }
+
+ private:
+  CLI::App* command_ = nullptr;
+  std::string file_, output_;
 };
 
 /// Takes away what is not wanted any more.
@@ -128,18 +150,19 @@ class MergeCommand {
 /// All of them.
 class FileCommands {
  public:
-  explicit FileCommands(CLI::App& app) : export_(app), prune_(app), merge_(app) {
+  explicit FileCommands(CLI::App& app) : export_(app), report_(app), prune_(app), merge_(app) {
     info_ = app.add_subcommand("info", "What is in a map file? Its camera, its sessions, and how much of what");
     info_->add_flag("--json", json_, "Print it as JSON");
     check_ = app.add_subcommand(
         "check", "Is a map file whole? Integrity, references, finite numbers; exit code 2 and a line each where not");
     for (CLI::App* command : {info_, check_}) command->add_option("FILE", file_, "Map file")->required();
   }
-  /// Runs the one that was given; empty: none of them was.
-  std::optional<int> run() {
+  /// Runs the one that was given; empty: none of them was. `command`: the command line.
+  std::optional<int> run(const std::vector<std::string>& command) {
     if (info_->parsed()) return info();
     if (check_->parsed()) return check();
     if (export_.parsed()) return export_.run();
+    if (report_.parsed()) return report_.run(command);
     if (prune_.parsed()) return prune_.run();
     if (merge_.parsed()) return merge_.run();
     return std::nullopt;
@@ -160,6 +183,7 @@ class FileCommands {
   }
 
   ExportCommand export_;
+  ReportCommand report_;
   PruneCommand prune_;
   MergeCommand merge_;
   CLI::App *info_ = nullptr, *check_ = nullptr;

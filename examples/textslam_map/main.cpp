@@ -89,7 +89,7 @@ int execute(int argc, char** argv) {
   textslam::FindCommand find(app);
   textslam::ImportCommand importer(app);
   if (const auto code = textslam::parse_command_line(app, "textslam-map", argc, argv)) return *code;
-  if (const auto code = file.run()) return *code;
+  if (const auto code = file.run({argv, argv + argc})) return *code;
   if (const auto code = server.run()) return *code;
   if (find.parsed()) return find.run();
   if (importer.parsed()) return importer.run();

@@ -6,7 +6,10 @@ const GRID_REACH = 2, BAR_PX = 130, COMPASS = 36;
 /// What lengths of the map are shown in: `factor` of them make one of the map, `why` is where that is known from.
 function unit_of({ summary = {} }) {
   const { metric, scale } = summary;
-  if (metric) return { factor: 1, name: "m", why: `by the known widths of ${counted(metric.texts, "text")}` };
+  if (metric) {
+    const sure = `to ${digits(100 * metric.sigma_share, 2)} %`;
+    return { factor: 1, name: "m", why: metric.texts ? `by the known widths of ${counted(metric.texts, "text")}` : `${sure}, as the map file says` };
+  }
   if (scale !== undefined) return { factor: scale, name: "m", why: "by the alignment with the ground truth" };
   const why = "one camera knows no metres; 1 is about how far away the first view's points were";
   return { factor: 1, name: "map units", why };

@@ -2,9 +2,13 @@
 "use strict";
 
 const MOST_FRUSTA = 40;  // more key frames than these hide the map: of more, evenly spaced ones are drawn
+const SESSION_COLOURS = 6;  // of style.css; more sessions use them again
+
+const session_colour = (at) => `--session-${at % SESSION_COLOURS}`;
 
 class MapLayers {
-  constructor(scene) {
+  /// sessions: of a map file, [{id}]. Each has a layer: its path, its key frames, and outlines of the texts it hosts.
+  constructor(scene, sessions = []) {
     this.scene = scene;
     this.grid = scene.add_layer("grid", "--grid", 0, 0.6);
     this.outlines = scene.add_layer("outlines", "--estimate");
@@ -13,7 +17,8 @@ class MapLayers {
     this.keyframes = scene.add_layer("key frames", "--keyframe");
     this.trajectory = scene.add_layer("trajectory", "--estimate");
     this.truth = scene.add_layer("truth", "--truth");
-    this.timed = [this.outlines, this.normals, this.points, this.keyframes, this.trajectory, this.truth];
+    this.sessions = sessions.map(({ id }, i) => scene.add_layer(`session ${id}`, session_colour(i)));
+    this.timed = [this.outlines, this.normals, this.points, this.keyframes, this.trajectory, this.truth, ...this.sessions];
     this.lit = scene.add_layer("texts in view", "--camera");
     this.rays = scene.add_layer("rays", "--camera", 0, 0.45);
     this.camera = scene.add_layer("camera", "--camera");
@@ -46,7 +51,7 @@ class MapLayers {
   }
 
   /// Puts the map into the layers; `small`: how long the sign of a camera is.
-  fill({ texts, world, camera }, small) {
+  fill({ texts, world, camera, sessions = [], series }, small) {
     const part = (frame, numbers) => ({ frame: frame === undefined ? -Infinity : frame, numbers });
     const lines = (corners) => corners.flatMap((c, i) => [...c, ...corners[(i + 1) % corners.length]]);
     const step = (from, to) => (from && to ? [...from.slice(0, 3), ...to.slice(0, 3)] : []);
@@ -57,13 +62,20 @@ class MapLayers {
       const grey = point_greys[i] >= 0 ? point_greys[i] / 255 : undefined;
       dots.push({ ...part(point_frames[i], points.slice(3 * i, 3 * i + 3)), grey });
     }
-    const every = Math.ceil(world.keyframes.length / MOST_FRUSTA) || 1;
-    this.outlines.set_parts(texts.map((t) => part(t.host, lines(t.corners))));
+    const every = Math.ceil(world.keyframes.length / MOST_FRUSTA) || 1, of_run = sessions.length === 0;
+    const outlines = texts.map((t) => part(t.host, lines(t.corners)));
+    this.outlines.set_parts(outlines.filter(() => of_run));
     this.normals.set_parts(texts.map((t) => part(t.host, arrow(t))));
     this.points.set_parts(dots);
     const drawn = world.keyframes.filter((_, i) => i % every === 0);
-    this.keyframes.set_parts(drawn.map((k) => part(k.frame, frustum(camera, k.pose, small))));
-    this.trajectory.set_parts(path(world.trajectory));
+    const frusta = drawn.map((k) => part(k.frame, frustum(camera, k.pose, small)));
+    this.keyframes.set_parts(frusta.filter(() => of_run));
+    this.trajectory.set_parts(path(world.trajectory).filter(() => of_run));
+    sessions.forEach(({ id }, i) => {
+      const within = ({ frame }) => series.session[frame] === id;
+      const steps = path(world.trajectory).filter(({ frame }) => series.session[frame - 1] === id);
+      this.sessions[i].set_parts([...outlines, ...frusta, ...steps].filter(within));
+    });
     this.truth.set_parts([...path(world.truth), ...world.signs.map((s) => part(-Infinity, lines(s.corners)))]);
     for (const { layer, label } of this.toggles) {
       label.hidden = layer.empty;
@@ -98,7 +110,7 @@ class MapLayers {
   /// Through the eyes of the camera its own sign would be in the way, and so would those of its neighbours.
   fly(flying, shown) {
     this.camera.visible = !flying;
-    const hidden = [this.keyframes, this.rays].filter(() => flying), before = hidden.map((layer) => layer.visible);
+    const hidden = [this.keyframes, this.rays, ...this.sessions].filter(() => flying), before = hidden.map((layer) => layer.visible);
     for (const layer of hidden) layer.visible = false;
     shown();
     hidden.forEach((layer, i) => { layer.visible = before[i]; });

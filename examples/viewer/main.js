@@ -12,6 +12,7 @@ function bring_into_sight(box) {
 }
 
 function start(data, run) {
+  by_id("part").textContent = data.sessions ? "Key frames" : "Run";
   const name = run.sequence.replace(/\/+$/, "").split("/").slice(-2).join("/");
   by_id("sequence-name").textContent = name;
   document.title = `textslam: ${name}`;
@@ -27,6 +28,7 @@ function start(data, run) {
   });
   show_tiles(data);
   show_notice(data);
+  show_sessions(data);
   show_provenance(data, run);
   plots = make_plots(data, run, (frame) => playback.select_frame(frame), choose_afar);
   if (data.frames.length) playback.select(data.frames.length - 1);  // where the map is whole

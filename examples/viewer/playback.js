@@ -60,9 +60,10 @@ class Playback {
 
   describe(frame) {
     const s = this.data.series, i = frame.frame;
-    const state = { w: "before the map", t: "tracked", f: "filled in afterwards", l: "lost" }[s.state[i]];
+    const by_state = { w: "before the map", t: "tracked", f: "filled in afterwards", l: "lost" }[s.state[i]];
+    const state = s.session ? `session ${s.session[i]}` : by_state;
     const drawn = frame.texts.filter((t) => t.quad), zncc = drawn.map((t) => t.zncc);
-    let text = `Frame ${i} of ${s.time.length}, ${s.time[i].toFixed(2)} s: ${state}`;
+    let text = `${s.session ? "Key frame" : "Frame"} ${i} of ${s.time.length}, ${s.time[i].toFixed(2)} s: ${state}`;
     // The texts that the picture shows: tracking may have used fewer when the frame came.
     if (s.points[i] || drawn.length) text += `, ${counted(s.points[i], "point")}, ${counted(drawn.length, "text")}`;
     if (zncc.length) text += `; ZNCC ${Math.min(...zncc).toFixed(2)} to ${Math.max(...zncc).toFixed(2)}`;

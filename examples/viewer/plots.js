@@ -164,24 +164,25 @@ function angle_bars(texts, on_choose) {
 function make_plots(data, run, on_frame, on_choose) {
   const box = by_id("plots"), plots = [], s = data.series;
   const add_plot = (options) => {
-    options.lines = options.lines.filter((l) => l.values.some((v) => v !== null));
+    options.lines = options.lines.filter((l) => l.values && l.values.some((v) => v !== null));
     if (!options.lines.length) return;
     const plot = new LinePlot(data, options, on_frame, (frame) => plots.forEach((other) => other.point(frame)));
     plots.push(plot);
     box.append(plot.figure);
   };
-  const in_mm = (values) => values.map((v) => (v === null ? null : 1000 * v));
+  const in_mm = (values = []) => values.map((v) => (v === null ? null : 1000 * v));
   add_plot({ title: "Position error after alignment", unit: "mm", lines: [
     { name: "live", colour: "--live", values: in_mm(s.error_live) }, { name: "final", colour: "--estimate", values: in_mm(s.error) }] });
-  add_plot({ title: "Points tracked", lines: [{ name: "points", colour: "--estimate", values: s.points }] });
-  add_plot({ title: "Texts tracked", lines: [{ name: "texts", colour: "--normal", values: s.texts }] });
+  const counted_in = data.sessions ? "observed" : "tracked";
+  add_plot({ title: `Points ${counted_in}`, lines: [{ name: "points", colour: "--estimate", values: s.points }] });
+  add_plot({ title: `Texts ${counted_in}`, lines: [{ name: "texts", colour: "--normal", values: s.texts }] });
   const frames = data.frames.map((f) => f.frame), zncc = data.frames.map((f) => f.texts.map((t) => t.zncc));
   add_plot({ title: "ZNCC of the texts in view", low: 0.5, lines: [
     { name: "median", colour: "--truth", frames, values: zncc.map(median) },
     { name: "least", colour: "--live", frames, values: zncc.map((z) => (z.length ? Math.min(...z) : null)) }] });
   add_plot({ title: "Cost: points, rms in the final map", unit: "px", lines: [
     { name: "pose before (live)", colour: "--live", values: s.cost_live }, { name: "pose after (final)", colour: "--estimate", values: s.cost }] });
-  const stage = (name) => run.timing.find((t) => t.name === name).ms;
+  const stage = (name) => (run.timing || []).filter((t) => t.name === name).flatMap((t) => t.ms);
   add_plot({ title: "Time a frame", unit: "ms", lines: [
     { name: "detection", colour: "--truth", values: stage("detection") }, { name: "tracking", colour: "--estimate", values: stage("tracking") },
     { name: "mapping", colour: "--live", values: stage("mapping") }, { name: "adjustment", colour: "--normal", values: stage("mapping: adjustment") }] });

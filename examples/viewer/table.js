@@ -13,6 +13,7 @@ class TextTable {
       ["Observations", (t) => t.observations, (t) => String(t.observations)],
       ["ZNCC", (t) => t.zncc, (t) => digits(t.zncc, 3)],
     ];
+    if (data.sessions) this.columns.push(["Session", (t) => data.series.session[t.host], (t) => String(data.series.session[t.host])]);
     if (known) this.columns.push(["Angle error", (t) => (t.sign < 0 ? 1e9 : t.angle_deg), (t) => (t.sign < 0 ? "no such sign" : `${digits(t.angle_deg, 2)}\u00b0`)]);
     this.data = data;
     this.on_choose = on_choose;

@@ -24,7 +24,7 @@ class View {
       this.canvas.hidden = true;
       return;
     }
-    this.layers = new MapLayers(this.scene);
+    this.layers = new MapLayers(this.scene, data.sessions);
     this.layers.make_toggles(this, by_id("layers"));
     const reset = element("button", "Reset", { type: "button" });
     reset.addEventListener("click", () => { this.moved = false; this.reset(); this.request(); });

@@ -3,7 +3,8 @@
 
 usage: report_browser_test.py FOLDER [--screenshots DIR]
 
-FOLDER holds map.html, a report of a run with a map, and no-map.html, one of a run without (textslam_report_test writes them).
+FOLDER holds map.html, a report of a run with a map, no-map.html, one of a run without (textslam_report_test writes them), and
+sessions.html, one of a map file with two sessions (textslam_sessions_test).
 Exit code 77 where there is no Chromium. Talks to it through a pipe, so it needs nothing but Python 3.
 """
 import argparse
@@ -123,6 +124,30 @@ def test_page(browser):
     check(seen[0] != seen[1] and seen[2] == system, f"the theme does not change: {system}, {seen}")
 
 
+def test_sessions(browser):
+    """Of a map file: each session has its row, its colour and its layer, and goes when that is switched off."""
+    rows = browser.run("document.querySelectorAll('#sessions tr').length")
+    check(rows == 3, f"{rows} rows for two sessions and their head")
+    swatch = "[...document.querySelectorAll('#sessions i')].map((i) => getComputedStyle(i).backgroundColor)"
+    check(len(set(browser.run(swatch))) == 2, "the sessions have no colours of their own")
+    last = browser.run("report.data.frames.length - 1")
+    caption = "document.getElementById('frame-text').textContent"
+    for at, session in ((0, 1), (last, 2)):
+        browser.run(f"report.playback.select({at})")
+        check(f"session {session}" in browser.run(caption), f"key frame {at}: {browser.run(caption)}")
+    layers = "report.view.layers.sessions.map((layer) => layer.count)"
+    check(min(browser.run(layers)) > 0, "a session is not drawn")
+    browser.run("report.playback.select(0)")
+    check(browser.run(layers)[1] == 0, "a session is drawn before it began")
+    browser.run(f"report.playback.select({last})")
+    for at, session in enumerate((1, 2)):
+        for shown in (False, True):
+            switch(browser, f"session {session}")
+            check(browser.run(f"report.view.layers.sessions[{at}].visible") is shown, f"session {session} cannot be switched off and on")
+    check(browser.run("document.querySelectorAll('#plots path').length") >= 4, "plots are missing")
+    check(browser.run("document.getElementById('count').textContent").endswith("texts"), "no texts")
+
+
 def test_width(browser, width):
     check(browser.run("document.documentElement.scrollWidth") <= width, f"wider than {width} px")
     overlaps = browser.run("""(() => { const boxes = [...document.querySelectorAll('header > *, main > section > *, .panel > *, .bar > *, .tiles > *')]
@@ -158,6 +183,13 @@ def main():
         check(browser.run("!document.getElementById('notice').hidden && document.getElementById('notice').textContent.includes('no map')"),
               "a run without a map does not say so")
         print("ok: no map")
+        for width, dark in ((1440, False), (390, True)):
+            browser.open(arguments.folder / "sessions.html", width, 1000 if width > 600 else 844, dark, READY)
+            test_width(browser, width)
+            if arguments.screenshots:
+                browser.screenshot(arguments.screenshots / f"sessions-{width}.png")
+        test_sessions(browser)
+        print("ok: sessions")
         check(not browser.troubles, f"the browser complains: {browser.troubles}")
     with Browser(program, ["--disable-3d-apis"]) as browser:
         browser.open(page, ready=READY)

@@ -73,6 +73,41 @@ TEST_F(Sessions, ASecondSessionGoesOnInTheMap) {
   EXPECT_LT(fs::file_size(path("grown.db")), 2 * fs::file_size(path("map.db"))) << "images are written once";
 }
 
+// The page has the key frames in the order of the sessions. It is left for the test in the browser.
+TEST_F(Sessions, AreToldApartInTheReportOfTheMap) {
+  RunOptions options = options_for("second", "out_for_report");
+  options.map = copy_of_map("two.db");
+  ASSERT_EQ(run(options).error, "");
+  const ProgramResult shown =
+      run_program(TEXTSLAM_MAP_PROGRAM, {"report", options.map, "--output", path("sessions.html")});
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_EQ(shown.out, "");
+  const std::string page = bytes_of(path("sessions.html"));
+  const auto data = nlohmann::json::parse(report_block(page, "data"));
+  const auto map = load_map(options.map, options.parameters);
+  ASSERT_EQ(data.at("sessions").size(), 2u);
+  const auto of_session = data.at("series").at("session").get<std::vector<int>>();
+  EXPECT_EQ(of_session.size(), map.map.keyframe_ids().size());
+  EXPECT_TRUE(std::is_sorted(of_session.begin(), of_session.end()));
+  const auto times = data.at("series").at("time").get<std::vector<double>>();
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  for (const auto& session : data.at("sessions")) {
+    EXPECT_GT(session.at("keyframes"), 0);
+    EXPECT_EQ(session.at("keyframes"), std::count(of_session.begin(), of_session.end(), session.at("id").get<int>()));
+  }
+  EXPECT_EQ(data.at("sessions")[1].at("frames"), 50);
+  for (const auto& text : data.at("texts")) EXPECT_LT(text.at("host").get<std::size_t>(), of_session.size());
+  for (const auto& cost : data.at("series").at("cost")) EXPECT_LT(cost.get<double>(), 1.5) << "px";
+  std::size_t seen = 0;
+  for (const auto& frame : data.at("frames"))
+    for (const auto& text : frame.at("texts")) seen += text.at("zncc").get<double>() > 0.8 ? 1u : 0u;
+  EXPECT_GT(seen, of_session.size()) << "key frames show the texts where the map has them";
+
+  fs::create_directories(TEXTSLAM_REPORTS);
+  fs::copy_file(path("sessions.html"), std::string(TEXTSLAM_REPORTS) + "/sessions.html",
+                fs::copy_options::overwrite_existing);
+}
+
 TEST_F(Sessions, ASessionCanBeSavedElsewhere) {
   RunOptions options = options_for("second", "out_elsewhere");
   options.map = path("map.db");

@@ -53,7 +53,9 @@ Json live_map(const System& system, const Sequence& sequence, TextPictures& pict
   Json texts = Json::array();
   for (const TextObject& text : map.texts)
     if (text.state == TextState::mapped) texts.push_back(text_json(map, text, pictures.of(map, text)));
-  return {{"camera", camera_json(sequence)}, {"texts", texts}, {"world", world_json(system, sequence, {}, {})}};
+  return {{"camera", camera_json(sequence.camera, sequence.approximate_fov)},
+          {"texts", texts},
+          {"world", world_json(system, sequence, {}, {})}};
 }
 
 Json live_frame(const System& system) {

@@ -11,15 +11,14 @@
 
 namespace textslam {
 
-Json camera_json(const Sequence& sequence) {
-  const CameraModel& camera = sequence.camera;
+Json camera_json(const CameraModel& camera, double approximate_fov) {
   Json out{{"width", camera.width},
            {"height", camera.height},
            {"fx", short_number(camera.pinhole().fx)},
            {"fy", short_number(camera.pinhole().fy)},
            {"cx", short_number(camera.pinhole().cx)},
            {"cy", short_number(camera.pinhole().cy)}};
-  if (sequence.approximate_fov > 0) out["approximate_fov_deg"] = short_number(sequence.approximate_fov);
+  if (approximate_fov > 0) out["approximate_fov_deg"] = short_number(approximate_fov);
   return out;
 }
 
@@ -28,12 +27,12 @@ namespace {
 Json data_json(const ReportInput& in) {
   return {{"version", TEXTPLANE_VERSION_STRING},
           {"summary", describe(in.summary).page},
-          {"camera", camera_json(in.sequence)},
+          {"camera", camera_json(in.sequence.camera, in.sequence.approximate_fov)},
           {"min_zncc", in.parameters.text.min_zncc},
           {"cull_zncc", in.parameters.text.cull_zncc},
           {"same_word", in.parameters.text.same_word},
           {"start", in.system.records().empty() ? Json(nullptr) : Json(in.system.records().front().timestamp)},
-          {"texts", page_texts(in.system, in.summary)},
+          {"texts", page_texts(in.system.map(), in.summary.text.matches)},
           {"world", world_json(in.system, in.sequence, in.summary, in.signs)},
           {"series", series_json(in.system, in.sequence, in.summary)},
           {"frames", frames_json(in.system, in.parameters, in.detections, in.image)},
@@ -60,12 +59,14 @@ void fill(std::string& page, const std::string& mark, const std::string& text) {
 
 }  // namespace
 
-std::string report_html(const ReportInput& input) {
+std::string report_page(const Json& data, const Json& run) {
   std::string page(report_template());
   // From the back: what is filled in may hold the other mark.
-  fill(page, "@DATA@", script_text(data_json(input)));
-  fill(page, "@RUN@", script_text(run_json(input)));
+  fill(page, "@DATA@", script_text(data));
+  fill(page, "@RUN@", script_text(run));
   return page;
 }
+
+std::string report_html(const ReportInput& input) { return report_page(data_json(input), run_json(input)); }
 
 }  // namespace textslam

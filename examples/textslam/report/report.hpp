@@ -5,7 +5,8 @@
 //   <script id="run">   what may differ between equal runs: the command line, the sequence's folder, the SIMD target,
 //                       the milliseconds
 //
-// What is in them: summary.hpp, text_map.hpp, report_data.hpp, report_frames.hpp, timing.hpp.
+// What is in them: summary.hpp, text_map.hpp, report_data.hpp, report_frames.hpp, timing.hpp. The page of a map without
+// a run has less: textslam_map/map_report.hpp.
 #ifndef TEXTSLAM_REPORT_REPORT_HPP
 #define TEXTSLAM_REPORT_REPORT_HPP
 
@@ -31,8 +32,11 @@ struct ReportInput {
   int every = 1;                                            ///< One frame of so many was used.
 };
 
-/// {"width", "height", "fx", "fy", "cx", "cy"}, px, and where it is guessed "approximate_fov_deg".
-Json camera_json(const Sequence& sequence);
+/// {"width", "height", "fx", "fy", "cx", "cy"}, px, and where it is guessed (not 0) "approximate_fov_deg".
+Json camera_json(const CameraModel& camera, double approximate_fov);
+
+/// The page with these two blocks.
+std::string report_page(const Json& data, const Json& run);
 
 /// The page. Throws what `image` throws.
 std::string report_html(const ReportInput& input);

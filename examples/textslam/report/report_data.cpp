@@ -19,19 +19,6 @@ std::vector<const StampedPose*> truth_of_frames(const System& system, const Sequ
   return truth;
 }
 
-// px rms of the points that a frame saw, from T_c_w.
-double reprojection(const Map& map, const std::vector<SeenPoint>& seen, const SE3d& T_c_w) {
-  double sum = 0;
-  int count = 0;
-  for (const SeenPoint& s : seen) {
-    const Vec3 p = T_c_w * map.point(s.point).p_w;
-    if (map.point(s.point).bad || !map.camera.in_domain(p)) continue;
-    sum += (map.camera.project(p) - s.px.cast<double>()).squaredNorm();
-    ++count;
-  }
-  return count > 0 ? std::sqrt(sum / count) : std::nan("");
-}
-
 // The grey value of the point where the first key frame with an image saw it, -1 where none has.
 int grey_of(const Map& map, const MapPoint& point) {
   for (const PointObservation& seen : point.observations) {
@@ -47,11 +34,20 @@ int grey_of(const Map& map, const MapPoint& point) {
 
 }  // namespace
 
-Json world_json(const System& system, const Sequence& sequence, const RunSummary& summary,
-                const std::vector<TrueSign>& signs) {
-  const Map& map = system.map();
-  Json points = Json::array(), frames = Json::array(), greys = Json::array(), keyframes = Json::array(),
-       trajectory = Json::array(), truth = Json::array(), true_signs = Json::array();
+double seen_error(const Map& map, const std::vector<SeenPoint>& seen, const SE3d& T_c_w) {
+  double sum = 0;
+  int count = 0;
+  for (const SeenPoint& s : seen) {
+    const Vec3 p = T_c_w * map.point(s.point).p_w;
+    if (map.point(s.point).bad || !map.camera.in_domain(p)) continue;
+    sum += (map.camera.project(p) - s.px.cast<double>()).squaredNorm();
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : std::nan("");
+}
+
+Json map_json(const Map& map) {
+  Json points = Json::array(), frames = Json::array(), greys = Json::array(), keyframes = Json::array();
   std::vector<int> good;
   for (std::size_t i = 0; i < map.points.size(); ++i)
     if (!map.points[i].bad) good.push_back(static_cast<int>(i));
@@ -63,6 +59,12 @@ Json world_json(const System& system, const Sequence& sequence, const RunSummary
   }
   for (const int id : map.keyframe_ids())
     keyframes.push_back({{"frame", map.keyframe(id).frame.index}, {"pose", short_pose(map.keyframe(id).T_w_c)}});
+  return {{"points", points}, {"point_frames", frames}, {"point_greys", greys}, {"keyframes", keyframes}};
+}
+
+Json world_json(const System& system, const Sequence& sequence, const RunSummary& summary,
+                const std::vector<TrueSign>& signs) {
+  Json trajectory = Json::array(), truth = Json::array(), true_signs = Json::array();
   for (const FrameRecord& record : system.records())
     trajectory.push_back(record.state == FrameState::tracked ? short_pose(system.final_pose(record)) : Json(nullptr));
   if (is_aligned(summary)) {
@@ -75,8 +77,9 @@ Json world_json(const System& system, const Sequence& sequence, const RunSummary
       true_signs.push_back({{"id", sign.id}, {"word", sign.word}, {"corners", short_corners(corners)}});
     }
   }
-  return {{"points", points},         {"point_frames", frames}, {"point_greys", greys}, {"keyframes", keyframes},
-          {"trajectory", trajectory}, {"truth", truth},         {"signs", true_signs}};
+  Json world = map_json(system.map());
+  world.update({{"trajectory", trajectory}, {"truth", truth}, {"signs", true_signs}});
+  return world;
 }
 
 Json series_json(const System& system, const Sequence& sequence, const RunSummary& summary) {
@@ -103,9 +106,9 @@ Json series_json(const System& system, const Sequence& sequence, const RunSummar
     errors.push_back(aligned && tracked && known ? error(summary.trajectory.alignment, T_w_c.t, *truth[i]) : Json());
     live_errors.push_back(
         live_aligned && record.live && known ? error(summary.live.alignment, record.T_w_c_live.t, *truth[i]) : Json());
-    costs.push_back(tracked ? short_number(reprojection(system.map(), seen, T_w_c.inverse())) : Json());
+    costs.push_back(tracked ? short_number(seen_error(system.map(), seen, T_w_c.inverse())) : Json());
     const SE3d T_w_c_live = map_world * record.T_w_c_live;
-    live_costs.push_back(record.live ? short_number(reprojection(system.map(), seen, T_w_c_live.inverse())) : Json());
+    live_costs.push_back(record.live ? short_number(seen_error(system.map(), seen, T_w_c_live.inverse())) : Json());
   }
   return {{"time", times},   {"state", states},           {"points", points}, {"texts", texts},
           {"error", errors}, {"error_live", live_errors}, {"cost", costs},    {"cost_live", live_costs}};

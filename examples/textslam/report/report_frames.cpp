@@ -122,18 +122,44 @@ std::string text_jpeg(const Map& map, const TextObject& text) {
   return encode_jpeg(picture.view(), 80);
 }
 
+std::vector<SeenPoint> points_of_keyframe(const Map& map, int id) {
+  const std::vector<Track> tracks = tracks_of_keyframe(map, id);
+  return seen_points(tracks, tracks.size());
+}
+
 std::vector<SeenPoint> points_of(const System& system, std::size_t index) {
   const FrameRecord& record = system.records()[index];
   if (record.state != FrameState::tracked) return {};
   const Map& map = system.map();
-  if (map.keyframe(record.keyframe).frame.index != static_cast<int>(index)) return record.seen;
-  const std::vector<Track> tracks = tracks_of_keyframe(map, record.keyframe);
-  return seen_points(tracks, tracks.size());
+  const bool is_keyframe = map.keyframe(record.keyframe).frame.index == static_cast<int>(index);
+  return is_keyframe ? points_of_keyframe(map, record.keyframe) : record.seen;
+}
+
+Json frame_json(const Map& map, const Parameters& parameters, int index, const Pyramid& image,
+                const std::vector<Detection>& detections, const std::vector<SeenPoint>& points,
+                const std::optional<SE3d>& T_c_w) {
+  Json found = Json::array(), at = Json::array(), texts = Json::array();
+  for (const Detection& detection : detections)
+    found.push_back({{"quad", short_polygon(outline(map.camera, detection.quad))}, {"text", detection.text}});
+  for (const SeenPoint& seen : points)
+    for (const float value : {seen.px.x(), seen.px.y()}) at.push_back(std::lround(value));
+  if (T_c_w)
+    for (const TextObject& text : map.texts) {
+      Quad<double> quad;
+      double zncc = 0;
+      if (text.state == TextState::mapped && see_text(map, parameters, text, image, *T_c_w, &quad, &zncc))
+        texts.push_back(
+            {{"id", text.id}, {"quad", short_polygon(outline(map, text, *T_c_w, quad))}, {"zncc", short_number(zncc)}});
+    }
+  return {{"frame", index},
+          {"image", jpeg_uri(frame_jpeg(image))},
+          {"detections", found},
+          {"points", at},
+          {"texts", texts}};
 }
 
 Json frames_json(const System& system, const Parameters& parameters,
                  const std::map<int, std::vector<Detection>>& detections, const ImageSource& image) {
-  const Map& map = system.map();
   std::vector<int> processed;
   for (const auto& entry : detections)
     if (entry.first < static_cast<int>(system.records().size())) processed.push_back(entry.first);
@@ -141,28 +167,10 @@ Json frames_json(const System& system, const Parameters& parameters,
   for (const int index : evenly_spaced(processed, kReportFrames)) {
     const auto i = static_cast<std::size_t>(index);
     const FrameRecord& record = system.records()[i];
-    const std::shared_ptr<const Pyramid> pyramid = image(index);
-    Json found = Json::array(), points = Json::array(), texts = Json::array();
-    for (const Detection& detection : detections.at(index))
-      found.push_back({{"quad", short_polygon(outline(map.camera, detection.quad))}, {"text", detection.text}});
-    for (const SeenPoint& seen : points_of(system, i))
-      for (const float value : {seen.px.x(), seen.px.y()}) points.push_back(std::lround(value));
-    if (record.state == FrameState::tracked) {
-      const SE3d T_c_w = system.final_pose(record).inverse();
-      for (const TextObject& text : map.texts) {
-        Quad<double> quad;
-        double zncc = 0;
-        if (text.state == TextState::mapped && see_text(map, parameters, text, *pyramid, T_c_w, &quad, &zncc))
-          texts.push_back({{"id", text.id},
-                           {"quad", short_polygon(outline(map, text, T_c_w, quad))},
-                           {"zncc", short_number(zncc)}});
-      }
-    }
-    frames.push_back({{"frame", index},
-                      {"image", jpeg_uri(frame_jpeg(*pyramid))},
-                      {"detections", found},
-                      {"points", points},
-                      {"texts", texts}});
+    std::optional<SE3d> T_c_w;
+    if (record.state == FrameState::tracked) T_c_w = system.final_pose(record).inverse();
+    frames.push_back(
+        frame_json(system.map(), parameters, index, *image(index), detections.at(index), points_of(system, i), T_c_w));
   }
   return frames;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,19 @@ std::string frame_jpeg(const Pyramid& image);
 /// JPEG of the text seen from the front: its quad of the host key frame, rectified through its plane.
 std::string text_jpeg(const Map& map, const TextObject& text);
 
-/// The frames shown: [{"frame", "image", "detections":[{"quad","text"}], "points":[x,y,...],
-/// "texts":[{"id","quad","zncc"}]}], px of the whole image; the texts of the final map under the frame's final pose.
+/// A frame shown: {"frame", "image", "detections":[{"quad","text"}], "points":[x,y,...],
+/// "texts":[{"id","quad","zncc"}]}, px of the whole image; the mapped texts under the frame's pose, none without it.
 /// Behind a lens the quad of such a text is curved: it has eight points an edge, from the first corner on.
-/// Shown are the processed frames among the keys of `detections`.
+Json frame_json(const Map& map, const Parameters& parameters, int index, const Pyramid& image,
+                const std::vector<Detection>& detections, const std::vector<SeenPoint>& points,
+                const std::optional<SE3d>& T_c_w);
+
+/// The frames shown: the processed ones among the keys of `detections`, under their final poses.
 Json frames_json(const System& system, const Parameters& parameters,
                  const std::map<int, std::vector<Detection>>& detections, const ImageSource& image);
+
+/// Map points that key frame `id` observes, with where.
+std::vector<SeenPoint> points_of_keyframe(const Map& map, int id);
 
 /// Map points that the pose of a frame rests on, with where they were seen.
 std::vector<SeenPoint> points_of(const System& system, std::size_t index);

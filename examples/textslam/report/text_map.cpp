@@ -50,8 +50,7 @@ std::string text_map_json(const Map& map) {
   return Json{{"texts", texts}}.dump(1) + "\n";
 }
 
-Json page_texts(const System& system, const RunSummary& summary) {
-  const Map& map = system.map();
+Json page_texts(const Map& map, const std::vector<SignMatch>& matches) {
   Json texts = Json::array();
   std::size_t bytes = 0;
   for (const TextObject& text : map.texts) {
@@ -62,7 +61,7 @@ Json page_texts(const System& system, const RunSummary& summary) {
     const std::string picture = text_jpeg(map, text);
     bytes += picture.size();
     entry["image"] = bytes <= kTextureBytes ? Json(jpeg_uri(picture)) : Json(nullptr);
-    for (const SignMatch& match : summary.text.matches)
+    for (const SignMatch& match : matches)
       if (match.text == text.id) add_match(entry, match);
     texts.push_back(std::move(entry));
   }

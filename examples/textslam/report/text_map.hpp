@@ -16,10 +16,11 @@ std::string text_map_json(const Map& map);
 /// Text quads as faces, points and key frames as coloured vertices.
 std::string text_map_ply(const Map& map);
 
-/// [{"id", "word", "corners", "centre", "normal", "sigma_deg", "observations", "zncc", "host", "image", "sign",
-/// "angle_deg", "centre_error", "word_right"}]; `host`: the index of a frame; `image`: null once the pictures exceed
-/// kTextureBytes; `sign` and the rest if the truth is known; `sign` -1: there is none.
-Json page_texts(const System& system, const RunSummary& summary);
+/// [{"id", "word", "corners", "centre", "normal", "sigma_deg", "observations", "zncc", "host", "readings", "image",
+/// "sign", "angle_deg", "centre_error", "word_right"}]; `host`: the index of a frame; `readings`: all that got votes;
+/// `image`: null once the pictures exceed kTextureBytes; `sign` and the rest of those with a match; `sign` -1: there is
+/// none.
+Json page_texts(const Map& map, const std::vector<SignMatch>& matches);
 
 }  // namespace textslam
 
