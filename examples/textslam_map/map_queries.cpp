@@ -122,20 +122,16 @@ std::string info_text(const MapInfo& info) {
   return out;
 }
 
+Json session_json(const SavedSession& session, std::int64_t keyframes, std::int64_t texts) {
+  return {{"id", session.id},           {"started", session.started}, {"sequence", session.sequence},
+          {"mode", session.mode},       {"version", session.version}, {"frames", session.frames},
+          {"tracked", session.tracked}, {"keyframes", keyframes},     {"texts", texts}};
+}
+
 std::string info_json(const MapInfo& info) {
   Json sessions = Json::array();
-  for (std::size_t i = 0; i < info.sessions.size(); ++i) {
-    const SavedSession& s = info.sessions[i];
-    sessions.push_back({{"id", s.id},
-                        {"started", s.started},
-                        {"sequence", s.sequence},
-                        {"mode", s.mode},
-                        {"version", s.version},
-                        {"frames", s.frames},
-                        {"tracked", s.tracked},
-                        {"keyframes", info.keyframes_of[i]},
-                        {"texts", info.texts_of[i]}});
-  }
+  for (std::size_t i = 0; i < info.sessions.size(); ++i)
+    sessions.push_back(session_json(info.sessions[i], info.keyframes_of[i], info.texts_of[i]));
   return Json{{"schema", info.version},
               {"revision", info.revision},
               {"bytes", info.bytes},

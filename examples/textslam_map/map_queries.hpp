@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "textslam/common/report_json.hpp"
 #include "textslam/map_file/map_file.hpp"
 #include "textslam/report/text_index.hpp"
 
@@ -26,6 +27,9 @@ MapInfo read_map_info(const std::string& path);
 /// For people, and as JSON.
 std::string info_text(const MapInfo& info);
 std::string info_json(const MapInfo& info);
+/// {"id", "started", "sequence", "mode", "version", "frames", "tracked", "keyframes", "texts"} of a session; the last
+/// two are those in the map.
+Json session_json(const SavedSession& session, std::int64_t keyframes, std::int64_t texts);
 
 /// What is wrong with the file, a line each; none: all is well. Integrity, references, finite numbers, the two indices,
 /// and everything that loading checks. Throws InputError where it is no map at all.

@@ -10,6 +10,7 @@
 #include "textslam/report/report.hpp"
 #include "textslam/report/report_data.hpp"
 #include "textslam/report/text_map.hpp"
+#include "textslam_map/map_queries.hpp"
 
 namespace textslam {
 namespace {
@@ -39,19 +40,13 @@ Json sessions_json(const LoadedMap& loaded) {
   const std::vector<const TextObject*> texts = mapped_texts(loaded.map);
   const std::vector<int> ids = loaded.map.keyframe_ids();
   Json sessions = Json::array();
-  for (const SavedSession& session : loaded.record.sessions)
-    sessions.push_back(
-        {{"id", session.id},
-         {"started", session.started},
-         {"sequence", session.sequence},
-         {"mode", session.mode},
-         {"version", session.version},
-         {"command", session.command},
-         {"frames", session.frames},
-         {"tracked", session.tracked},
-         {"keyframes", std::count_if(ids.begin(), ids.end(), [&](int id) { return session_of(id) == session.id; })},
-         {"texts", std::count_if(texts.begin(), texts.end(),
-                                 [&](const TextObject* text) { return session_of(text->host) == session.id; })}});
+  for (const SavedSession& session : loaded.record.sessions) {
+    const auto is_of = [&](int id) { return session_of(id) == session.id; };
+    sessions.push_back(session_json(
+        session, std::count_if(ids.begin(), ids.end(), is_of),
+        std::count_if(texts.begin(), texts.end(), [&](const TextObject* text) { return is_of(text->host); })));
+    sessions.back()["command"] = session.command;
+  }
   return sessions;
 }
 

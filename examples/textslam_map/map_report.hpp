@@ -1,8 +1,8 @@
 // report.html of a map file alone: the page of a run (textslam/report/report.hpp) whose frames are the key frames, with
 // the sessions that they are from. In its JSON beside what a run has:
 //
-//   "sessions"           [{"id", "started", "sequence", "mode", "version", "command", "frames", "tracked", "keyframes",
-//                        "texts"}], the last two: that are in the map; a text counts for the session of its host
+//   "sessions"           as `textslam-map info --json` has them, each with its "command"; a text counts for the session
+//                        of its host
 //   "series"."session"   the session of each key frame. They follow each other, each in the order of time.
 #ifndef TEXTSLAM_MAP_MAP_REPORT_HPP
 #define TEXTSLAM_MAP_MAP_REPORT_HPP

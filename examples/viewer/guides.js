@@ -7,8 +7,8 @@ const GRID_REACH = 2, BAR_PX = 130, COMPASS = 36;
 function unit_of({ summary = {} }) {
   const { metric, scale } = summary;
   if (metric) {
-    const sure = `to ${digits(100 * metric.sigma_share, 2)} %`;
-    return { factor: 1, name: "m", why: metric.texts ? `by the known widths of ${counted(metric.texts, "text")}` : `${sure}, as the map file says` };
+    const by_file = `to ${digits(100 * metric.sigma_share, 2)} %, as the map file says`;
+    return { factor: 1, name: "m", why: metric.texts ? `by the known widths of ${counted(metric.texts, "text")}` : by_file };
   }
   if (scale !== undefined) return { factor: scale, name: "m", why: "by the alignment with the ground truth" };
   const why = "one camera knows no metres; 1 is about how far away the first view's points were";

@@ -62,19 +62,21 @@ class MapLayers {
       const grey = point_greys[i] >= 0 ? point_greys[i] / 255 : undefined;
       dots.push({ ...part(point_frames[i], points.slice(3 * i, 3 * i + 3)), grey });
     }
-    const every = Math.ceil(world.keyframes.length / MOST_FRUSTA) || 1, of_run = sessions.length === 0;
+    const every = Math.ceil(world.keyframes.length / MOST_FRUSTA) || 1;
+    const in_one = (parts) => (sessions.length ? [] : parts);  // else each session has its own
     const outlines = texts.map((t) => part(t.host, lines(t.corners)));
-    this.outlines.set_parts(outlines.filter(() => of_run));
+    this.outlines.set_parts(in_one(outlines));
     this.normals.set_parts(texts.map((t) => part(t.host, arrow(t))));
     this.points.set_parts(dots);
     const drawn = world.keyframes.filter((_, i) => i % every === 0);
     const frusta = drawn.map((k) => part(k.frame, frustum(camera, k.pose, small)));
-    this.keyframes.set_parts(frusta.filter(() => of_run));
-    this.trajectory.set_parts(path(world.trajectory).filter(() => of_run));
+    this.keyframes.set_parts(in_one(frusta));
+    const steps = path(world.trajectory);
+    this.trajectory.set_parts(in_one(steps));
     sessions.forEach(({ id }, i) => {
       const within = ({ frame }) => series.session[frame] === id;
-      const steps = path(world.trajectory).filter(({ frame }) => series.session[frame - 1] === id);
-      this.sessions[i].set_parts([...outlines, ...frusta, ...steps].filter(within));
+      const walked = steps.filter(({ frame }) => series.session[frame - 1] === id);
+      this.sessions[i].set_parts([...outlines, ...frusta, ...walked].filter(within));
     });
     this.truth.set_parts([...path(world.truth), ...world.signs.map((s) => part(-Infinity, lines(s.corners)))]);
     for (const { layer, label } of this.toggles) {

@@ -57,6 +57,7 @@ class Tracker {
     const TextObject* text;
     textplane::PoseTextTerm term;
     float zncc = 0;
+    double least = 0;  // ZNCC of one that agrees
   };
 
   SE3d predict(const Frame& frame) const;
@@ -69,7 +70,7 @@ class Tracker {
   void relocate(const Frame& frame, const Candidate& candidate);
   void add_unmapped(const SE3d& T_c_w, std::vector<textplane::PosePointTerm>& points) const;
   std::vector<SeenText> texts_in_view(const Frame& frame, const SE3d& T_c_w) const;
-  bool agrees(const Frame& frame, const SeenText& seen, const SE3d& T_c_w, double sharp_zncc) const;
+  double least_zncc(const Frame& frame, const TextObject& text, const SE3d& T_c_w) const;
   bool refine(const Frame& frame, const std::vector<textplane::PosePointTerm>& points, std::vector<SeenText>& texts,
               std::vector<float>& chi2, SE3d* T_c_w, TrackReport* report) const;
   void judge_position(const SE3d& T_c_w, const std::vector<textplane::PosePointTerm>& points, int map_points,

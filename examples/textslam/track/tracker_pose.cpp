@@ -46,12 +46,10 @@ std::vector<Tracker::SeenText> Tracker::texts_in_view(const Frame& frame, const 
   return seen;
 }
 
-// Whether a text looks as its patch does: as that of a sharp image would with this ZNCC.
-bool Tracker::agrees(const Frame& frame, const SeenText& seen, const SE3d& T_c_w, double sharp_zncc) const {
-  const TextObject& text = *seen.text;
-  return seen.zncc >= text_zncc_limit(parameters_.text, sharp_zncc, text.patch, 0, text.theta,
-                                      map_.text_keyframe(text.host), map_.text_image(frame),
-                                      map_.T_c_h(T_c_w, text.host));
+// The ZNCC that a text has which looks as its patch does.
+double Tracker::least_zncc(const Frame& frame, const TextObject& text, const SE3d& T_c_w) const {
+  return text_zncc_limit(parameters_.text, parameters_.text.min_zncc, text.patch, 0, text.theta,
+                         map_.text_keyframe(text.host), map_.text_image(frame), map_.T_c_h(T_c_w, text.host));
 }
 
 float Tracker::chi2_of(const Track& track, const CameraView& camera, const SE3d& T_c_w) const {
@@ -119,17 +117,15 @@ bool Tracker::fit_pose(const Frame& frame, bool with_text, SE3d* T_c_w, TrackRep
   if (!may_do_without && texts.empty()) return false;
   std::vector<float> chi2(points.size());
   const SE3d start = *T_c_w;
-  const auto agrees_to = [&](double zncc) {
-    return [&, zncc](const SeenText& text) { return agrees(frame, text, *T_c_w, zncc); };
-  };
+  const double clearly = parameters_.text.cull_zncc / parameters_.text.min_zncc;  // lower, as in count_view()
   for (std::size_t seen = texts.size() + 1; texts.size() < seen;) {
     seen = texts.size();
     *T_c_w = start;
     if (!refine(frame, points, texts, chi2, T_c_w, report)) return false;
-    const auto good = std::count_if(texts.begin(), texts.end(), agrees_to(parameters_.text.min_zncc));
-    report->texts = static_cast<int>(good);
-    const auto part = std::stable_partition(texts.begin(), texts.end(), agrees_to(parameters_.text.cull_zncc));
-    if (may_do_without) texts.erase(part, texts.end());
+    for (SeenText& text : texts) text.least = least_zncc(frame, *text.text, *T_c_w);
+    report->texts = static_cast<int>(
+        std::count_if(texts.begin(), texts.end(), [](const SeenText& text) { return text.zncc >= text.least; }));
+    if (may_do_without) erase_if(texts, [&](const SeenText& text) { return text.zncc < clearly * text.least; });
   }
   int held = 0;
   for (std::size_t k = heard; k < points.size(); ++k) held += is_pose_inlier(parameters_, chi2[k]) ? 1 : 0;
@@ -162,7 +158,7 @@ void Tracker::judge_position(const SE3d& T_c_w, const std::vector<textplane::Pos
     if (static_cast<int>(i) >= map_points)
       guessed += weight * std::sqrt(std::max(0.0, points[i].sigma * points[i].sigma - known));
   }
-  for (const auto& [text, term, zncc] : texts) {
+  for (const auto& [text, term, zncc, least] : texts) {
     const Vec3 corner =
         textplane::plane_point<double>(text->theta, text->patch.camera.unproject(text->patch.quad.corner[0]));
     depths.push_back((T_c_w * (term.T_w_h * corner)).z());
