@@ -22,6 +22,11 @@ std::string joined(const std::vector<std::string>& words) {
   return line;
 }
 
+// Whether the sequence of a camera file may have a part in a map.
+bool goes_with(const CameraModel& given, const MapRecord& record) {
+  return is_same_camera(given, record.camera) || (record.given_camera && is_same_camera(given, *record.given_camera));
+}
+
 // A saved run has at least a map of two key frames.
 bool has_map(const System& system) { return system.map().keyframe_ids().size() >= 2; }
 
@@ -36,6 +41,7 @@ bool is_same_camera(const CameraModel& a, const CameraModel& b) {
 }
 
 MapSession::MapSession(const RunOptions& options, Sequence* sequence) : options_(options), started_(utc_now()) {
+  if (sequence->camera_origin == CameraOrigin::file) given_ = sequence->camera;
   if (!options.localise && !options.save_map.empty()) check_can_save(options.save_map);
   if (options.map.empty()) return;
   earlier_ = load_map(options.map, options.parameters);
@@ -45,10 +51,13 @@ MapSession::MapSession(const RunOptions& options, Sequence* sequence) : options_
     throw InputError(options.map, 0,
                      "its images are " + std::to_string(camera.width) + " x " + std::to_string(camera.height) +
                          ", those of the sequence are not");
-  if (sequence->camera_origin == CameraOrigin::file && !is_same_camera(camera, sequence->camera))
+  if (given_ && !goes_with(*given_, earlier_->record))
     throw InputError(options.map, 0,
                      "its camera is not that of " + sequence->camera_source +
                          ": a map has one camera, with the same numbers in all sessions");
+  if (given_ && !is_same_camera(*given_, camera))
+    sequence->notes.push_back(options.map + ": its camera is a better one than that of " + sequence->camera_source +
+                              ", by its first session");
   sequence->camera = camera;
   sequence->camera.knows_readout = true;
   sequence->approximate_fov = 0;
@@ -74,6 +83,7 @@ MapRecord MapSession::record_of(const System& system, const CameraModel& camera,
   MapRecord record;
   if (in_earlier) record = earlier_->record;
   record.camera = camera;
+  if (!in_earlier && given_ && !is_same_camera(*given_, camera)) record.given_camera = given_;
   record.camera.shutter.readout = system.map().shutter.readout;
   SavedSession session;
   session.id = record.sessions.empty() ? 1 : record.sessions.back().id + 1;

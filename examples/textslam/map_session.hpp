@@ -17,7 +17,8 @@ bool is_same_camera(const CameraModel& a, const CameraModel& b);
 class MapSession {
  public:
   /// Loads the map that the options name, and gives the sequence its camera. Throws InputError where a file is no map,
-  /// where the sequence has another camera, and where the file to save cannot be one.
+  /// where the sequence's camera file is neither that camera nor the one that earlier sessions were given, and where
+  /// the file to save cannot be one.
   MapSession(const RunOptions& options, Sequence* sequence);
 
   bool has_earlier() const { return earlier_.has_value(); }
@@ -39,6 +40,7 @@ class MapSession {
 
   const RunOptions& options_;
   std::string started_;
+  std::optional<CameraModel> given_;  // of the sequence's camera file
   std::optional<LoadedMap> earlier_;
 };
 

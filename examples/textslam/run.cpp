@@ -246,13 +246,12 @@ class Run {
   std::vector<TrueSign> signs_;
 };
 
-// Only a calibration is checked, and only where nobody follows the frames while they come. A map that lasts keeps the
-// camera given: its later sessions come with it.
+// Only a calibration is checked, and only where nobody follows the frames while they come. A map of earlier sessions
+// keeps its camera.
 bool checks_camera(const RunOptions& options, const Sequence& sequence, const MapSession& session) {
   const bool is_followed = options.parameters.real_time || options.json_lines;
-  const bool lasts = session.has_earlier() || !options.save_map.empty();
   return options.calibrate == Calibrate::automatic && sequence.camera_origin == CameraOrigin::file && !is_followed &&
-         !lasts;
+         !session.has_earlier();
 }
 
 }  // namespace

@@ -45,6 +45,13 @@ void check_indices(Database& database, std::vector<std::string>* problems) {
   if (words > 0) problems->push_back("words: " + std::to_string(words) + " readings are not in it");
 }
 
+Json camera_json(const CameraModel& camera) {
+  return {{"model", camera.raw.name()},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"parameters", parameters_of(camera)}};
+}
+
 }  // namespace
 
 std::vector<IndexedText> read_map_texts(const std::string& path) {
@@ -80,6 +87,7 @@ MapInfo read_map_info(const std::string& path) {
   MapRecord record;
   load_sessions(database, &record);
   info.camera = record.camera;
+  info.given_camera = record.given_camera;
   info.sessions = record.sessions;
   info.version = database.integer("pragma user_version");
   info.revision = database.integer("select max(revision) from map");
@@ -107,8 +115,13 @@ std::string info_text(const MapInfo& info) {
   };
   add("map       schema %lld, saved %lld times, %.1f MB\n", static_cast<long long>(info.version),
       static_cast<long long>(info.revision), 1e-6 * static_cast<double>(info.bytes));
-  add("camera    %s, %d x %d, fx %.2f, fy %.2f\n", info.camera.raw.name(), info.camera.width, info.camera.height,
-      info.camera.pinhole().fx, info.camera.pinhole().fy);
+  const auto add_camera = [&](const char* what, const CameraModel& camera) {
+    add("%s %s, %d x %d,", what, camera.raw.name(), camera.width, camera.height);
+    for (const double parameter : parameters_of(camera)) add(" %.6g", parameter);
+    out += "\n";
+  };
+  add_camera("camera   ", info.camera);
+  if (info.given_camera) add_camera("given    ", *info.given_camera);
   add("holds     %lld key frames, %lld points, %lld observations, %lld texts of %lld words\n",
       static_cast<long long>(info.keyframes), static_cast<long long>(info.points),
       static_cast<long long>(info.observations), static_cast<long long>(info.texts),
@@ -135,11 +148,8 @@ std::string info_json(const MapInfo& info) {
   return Json{{"schema", info.version},
               {"revision", info.revision},
               {"bytes", info.bytes},
-              {"camera",
-               {{"model", info.camera.raw.name()},
-                {"width", info.camera.width},
-                {"height", info.camera.height},
-                {"parameters", parameters_of(info.camera)}}},
+              {"camera", camera_json(info.camera)},
+              {"given_camera", info.given_camera ? camera_json(*info.given_camera) : Json()},
               {"keyframes", info.keyframes},
               {"points", info.points},
               {"observations", info.observations},

@@ -2,6 +2,7 @@
 #ifndef TEXTSLAM_MAP_MAP_QUERIES_HPP
 #define TEXTSLAM_MAP_MAP_QUERIES_HPP
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct MapInfo {
   std::int64_t bytes = 0;  ///< Of the file.
   std::int64_t keyframes = 0, points = 0, observations = 0, texts = 0, words = 0;
   CameraModel camera;
+  std::optional<CameraModel> given_camera;  ///< As MapRecord has it.
   std::vector<SavedSession> sessions;
   std::vector<std::int64_t> keyframes_of, texts_of;  ///< Of each session.
 };

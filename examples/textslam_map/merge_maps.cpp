@@ -43,11 +43,20 @@ void add_record(const MapRecord& b, int first_keyframe, MapRecord* a) {
     a->sources[first_keyframe + id] = {first_session + source.session, source.image};
 }
 
+// The camera that the sessions came with.
+const CameraModel& given_camera(const MapRecord& record) {
+  return record.given_camera ? *record.given_camera : record.camera;
+}
+
 void check_mergeable(const LoadedMap& a, const std::string& file_a, const LoadedMap& b, const std::string& file_b) {
-  if (!is_same_camera(a.record.camera, b.record.camera))
-    throw InputError(
-        file_b, 0,
-        "its camera is not that of " + file_a + ": a map has one camera, with the same numbers in all sessions");
+  if (!is_same_camera(a.record.camera, b.record.camera)) {
+    const bool same_file = is_same_camera(given_camera(a.record), given_camera(b.record));
+    throw InputError(file_b, 0,
+                     "its camera is not that of " + file_a + ": " +
+                         (same_file ? "each map mended that of the camera file by itself; make one of them with the "
+                                      "camera.yaml of the other's run, or as a session of the other"
+                                    : "a map has one camera, with the same numbers in all sessions"));
+  }
   for (const SavedSession& of_a : a.record.sessions)
     for (const SavedSession& of_b : b.record.sessions)
       if (is_same_session(of_a, of_b))

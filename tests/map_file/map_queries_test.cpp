@@ -50,6 +50,20 @@ TEST_F(MapFileTest, InfoCountsWhatIsThere) {
   EXPECT_EQ(info.texts_of, (std::vector<std::int64_t>{2, 1}));
   EXPECT_NE(info_text(info).find("118 of 120 frames"), std::string::npos) << info_text(info);
   EXPECT_EQ(nlohmann::json::parse(info_json(info)).at("sessions").at(1).at("texts"), 1);
+  EXPECT_TRUE(nlohmann::json::parse(info_json(info)).at("given_camera").is_null());
+  EXPECT_EQ(info_text(info).find("given"), std::string::npos) << info_text(info);
+}
+
+TEST_F(MapFileTest, InfoTellsTheCameraGiven) {
+  record.given_camera = record.camera;
+  record.camera.raw = RadialTangential<double>{{262, 262, 159.5, 119.5}, 0.0125, 0, 0, 0, 0};
+  save();
+  const MapInfo info = read_map_info(file);
+  const nlohmann::json data = nlohmann::json::parse(info_json(info));
+  EXPECT_EQ(data.at("camera").at("parameters").at(4), 0.0125);
+  EXPECT_EQ(data.at("given_camera").at("model"), record.given_camera->raw.name());
+  EXPECT_NE(info_text(info).find("159.5 119.5 0.0125"), std::string::npos) << info_text(info);
+  EXPECT_NE(info_text(info).find("given"), std::string::npos) << info_text(info);
 }
 
 TEST_F(MapFileTest, AWholeMapHasNoProblems) {

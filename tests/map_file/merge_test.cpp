@@ -147,6 +147,14 @@ TEST_F(Merge, WhatCannotBeJoinedIsRefused) {
   other.record.camera.raw = RadialTangential<double>{{262, 262, 159.5, 119.5}, -0.1, 0, 0, 0, 0};
   save_both();
   EXPECT_THROW(merged(), InputError) << "another camera";
+  other.record.given_camera = record.camera;
+  save_both();
+  try {
+    merged();
+    ADD_FAILURE() << "another camera, from the same camera file";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("by itself"), std::string::npos) << error.what();
+  }
   EXPECT_THROW(merge_map_files(file, folder.path("none.db"), out), InputError);
   EXPECT_FALSE(std::filesystem::exists(out));
 }

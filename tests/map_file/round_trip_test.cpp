@@ -115,6 +115,21 @@ TEST_F(MapFileTest, ALensAndMovingRowsComeBack) {
   EXPECT_EQ(loaded.map.keyframe(2).frame.rows->velocity, motion.velocity);
 }
 
+TEST_F(MapFileTest, ACameraThatIsBetterThanTheOneGivenComesBackWithIt) {
+  save();
+  EXPECT_FALSE(load().record.given_camera.has_value());
+  record.given_camera = record.camera;
+  record.camera.raw = RadialTangential<double>{{262, 262, 159.5, 119.5}, 0.01, 0, 0, 0, 0};
+  save();
+  const LoadedMap loaded = load();
+  EXPECT_EQ(loaded.record.camera.raw.parameters(), record.camera.raw.parameters());
+  EXPECT_NE(loaded.map.camera.lens, nullptr);
+  ASSERT_TRUE(loaded.record.given_camera.has_value());
+  EXPECT_EQ(loaded.record.given_camera->raw.name(), record.given_camera->raw.name());
+  EXPECT_EQ(loaded.record.given_camera->raw.parameters(), record.given_camera->raw.parameters());
+  EXPECT_EQ(loaded.record.given_camera->width, 320);
+}
+
 TEST_F(MapFileTest, SqlFindsWordsAndPlaces) {
   save();
   Database database = open_map(file);

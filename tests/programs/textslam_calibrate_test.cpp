@@ -1,4 +1,6 @@
 // Runs on sequences without a camera file, or with one that is off, as a user would start them.
+#include <algorithm>
+
 #include "programs/textslam_input.hpp"
 
 namespace textslam {
@@ -43,15 +45,19 @@ TEST_F(TextslamInput, WhatTheImagesDoNotTellIsAssumed) {
   EXPECT_EQ(read_camera(output("camera.yaml")).pinhole().fx, camera_from_fov(60, 320, 240).pinhole().fx);
 }
 
-// A calibration that leaves a part of the lens out: the map says so, and is made again.
+// `camera`, but for a part of its lens.
+CameraModel without_a_part(const CameraModel& camera) {
+  CameraModel off = camera;
+  auto values = camera.raw.parameters();
+  values[4] += 0.03;
+  EXPECT_TRUE(textplane::is_ok(textplane::AnyCamera<double>::make(camera.raw.name(), values, &off.raw)));
+  return off;
+}
+
+// The map says that the calibration is off, and is made again.
 TEST_F(TextslamInput, ACalibrationThatIsOffIsMended) {
   render(sequence(), "uncalibrated", 120, 320);
-  const CameraModel truth = read_camera(sequence("true_camera.yaml"));
-  CameraModel off = truth;
-  auto values = truth.raw.parameters();
-  values[4] += 0.03;
-  ASSERT_TRUE(textplane::is_ok(textplane::AnyCamera<double>::make(truth.raw.name(), values, &off.raw)));
-  write("camera.yaml", format_camera(off));
+  write("camera.yaml", format_camera(without_a_part(read_camera(sequence("true_camera.yaml")))));
   expect_success(run({"--no-calibrate"}));
   const double before = metrics().at("trajectory").at("ate_rmse").get<double>();
   EXPECT_FALSE(fs::exists(output("camera.yaml")));
@@ -72,6 +78,34 @@ TEST_F(TextslamInput, ACalibrationThatIsOffIsMended) {
   EXPECT_EQ(second.code, 0) << second.err;
   EXPECT_EQ(bytes_of(again + "/trajectory.txt"), trajectory);
   EXPECT_FALSE(fs::exists(again + "/camera.yaml"));
+}
+
+// The map has the mended camera, and takes later sessions with the file that it mended.
+TEST_F(TextslamInput, AMapKeepsTheCameraThatItMended) {
+  render(sequence(), "uncalibrated", 120, 320);
+  write("camera.yaml", format_camera(without_a_part(read_camera(sequence("true_camera.yaml")))));
+  const std::string map = folder_.path("map.db"), second = folder_.path("second");
+  expect_success(run({"--save-map", map}));
+  EXPECT_TRUE(metrics().contains("calibration"));
+  const auto localise = [&] {
+    return textslam_program({sequence(), "--first", "60", "--map", map, "--localise", "--output", second});
+  };
+  const ProgramResult found = localise();
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_TRUE(says(found.err, "its camera is a better one than that of " + sequence("camera.yaml"))) << found.err;
+  const auto poses = read_tum(output("trajectory.txt")), localised = read_tum(second + "/trajectory.txt");
+  ASSERT_EQ(localised.size(), 60u);
+  double most = 0;
+  for (const PosePair& pair : associate(localised, poses, 1e-6))
+    most = std::max(most, (localised[pair.estimate].T_w_c.t - poses[pair.truth].T_w_c.t).norm());
+  EXPECT_LT(most, 0.01);
+
+  fs::copy_file(output("camera.yaml"), sequence("camera.yaml"), fs::copy_options::overwrite_existing);
+  EXPECT_EQ(localise().code, 0) << "the better camera itself";
+  write("camera.yaml", format_camera(read_camera(sequence("true_camera.yaml"))));
+  const ProgramResult refused = localise();
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(says(refused.err, "its camera is not that of")) << refused.err;
 }
 
 }  // namespace

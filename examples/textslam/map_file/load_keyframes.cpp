@@ -11,13 +11,11 @@ namespace {
 
 constexpr int kMostSide = 1 << 16;
 
-void load_camera(Database& database, CameraModel* camera) {
-  Statement row(database,
-                "select model, width, height, fx, fy, cx, cy, coefficients, fps, readout, readout_row from cameras");
-  if (!row.next()) database.refuse("damaged: it has no camera");
+CameraModel camera_of(Database& database, const Statement& row) {
+  CameraModel camera;
   const std::string model = row.text(0);
-  camera->width = static_cast<int>(row.integer(1, 1, kMostSide));
-  camera->height = static_cast<int>(row.integer(2, 1, kMostSide));
+  camera.width = static_cast<int>(row.integer(1, 1, kMostSide));
+  camera.height = static_cast<int>(row.integer(2, 1, kMostSide));
   std::vector<double> parameters = {row.number(3), row.number(4), row.number(5), row.number(6)};
   std::string list = row.text(7);
   for (char& c : list)
@@ -25,10 +23,22 @@ void load_camera(Database& database, CameraModel* camera) {
   for (const std::string_view number : split_blanks(list))
     parameters.push_back(require_number(number, database.path(), 0, "a coefficient of the camera"));
   const CameraType& type = camera_type(model);
-  if (type.model != model || !make_camera(type, parameters, &camera->raw))
+  if (type.model != model || !make_camera(type, parameters, &camera.raw))
     database.refuse("damaged: it has no camera '" + shown(model) + "' of these numbers");
-  camera->fps = row.number(8);
-  camera->shutter = {row.number(9), row.number(10), camera->height};
+  camera.fps = row.number(8);
+  camera.shutter = {row.number(9), row.number(10), camera.height};
+  return camera;
+}
+
+void load_cameras(Database& database, MapRecord* record) {
+  Statement row(database,
+                "select model, width, height, fx, fy, cx, cy, coefficients, fps, readout, readout_row from cameras "
+                "order by id");
+  if (!row.next()) database.refuse("damaged: it has no camera");
+  record->camera = camera_of(database, row);
+  if (!row.next()) return;
+  record->given_camera = camera_of(database, row);
+  if (row.next()) database.refuse("damaged: it has more cameras than its own and the one given");
 }
 
 SE3d pose_of(Database& database, const Statement& row, int column) {
@@ -81,7 +91,7 @@ void load_sessions(Database& database, MapRecord* record) {
     record->sessions.push_back({row.index(0, kMostId), row.text(1), row.text(2), row.text(3), row.text(4), row.text(5),
                                 row.index(6, kMostId), row.index(7, kMostId)});
   if (record->sessions.empty()) database.refuse("damaged: it has no session");
-  load_camera(database, &record->camera);
+  load_cameras(database, record);
 }
 
 void load_keyframes(Database& database, const Parameters& parameters, MapRecord* record, Map* map) {

@@ -37,6 +37,7 @@ struct KeyFrameSource {
 /// What a file says beside the map itself.
 struct MapRecord {
   CameraModel camera;
+  std::optional<CameraModel> given_camera;  ///< That of the camera file, where `camera` is a better one of its images.
   std::vector<SavedSession> sessions;
   std::map<int, KeyFrameSource> sources;  ///< Of the key frames, by their ids.
   std::optional<double> scale_sigma;      ///< Lengths are metres, with this standard deviation as a share of them.

@@ -7,11 +7,12 @@ namespace textslam {
 namespace {
 
 constexpr int kCamera = 1;  // all key frames share one
+constexpr int kGivenCamera = 2;
 
-void save_camera(Database& database, const CameraModel& camera) {
+void save_camera(Database& database, int id, const CameraModel& camera) {
   const std::vector<double> all = parameters_of(camera);
   Statement(database, "insert into cameras values (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-      .run(kCamera, std::string(camera.raw.name()), camera.width, camera.height, all[0], all[1], all[2], all[3],
+      .run(id, std::string(camera.raw.name()), camera.width, camera.height, all[0], all[1], all[2], all[3],
            list_of({all.begin() + 4, all.end()}), camera.fps, camera.shutter.readout, camera.shutter.row0);
 }
 
@@ -66,7 +67,8 @@ void save_sessions(Database& database, const MapRecord& record) {
 }
 
 void save_keyframes(Database& database, const Map& map, const MapRecord& record) {
-  save_camera(database, record.camera);
+  save_camera(database, kCamera, record.camera);
+  if (record.given_camera) save_camera(database, kGivenCamera, *record.given_camera);
   KeyFrameWriter writer(database);
   for (const int id : map.keyframe_ids()) writer.write(id, map.keyframe(id), record.sources.at(id));
 }
