@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sign_index/planar_pose.hpp"
+#include "sign_index/wall.hpp"
 
 namespace textslam {
 namespace {
@@ -142,10 +143,17 @@ std::optional<FoundPlace> Constellation::place(const QueryView& view, const Plac
   const double turns = upright ? std::pow(2 * M_PI, 2) * upright->roll * upright->pitch : kTurns;
   found.log_evidence = -0.5 * pose.chi2 + 3 * kLog2Pi + pose.log_volume - std::log(index_.size()) -
                        std::log(turns * share * share * share) + absent(view, pose);
-  for (const SignSighting& s : sightings_) {
-    const QuerySign& sign = view.signs[static_cast<std::size_t>(s.detection)];
-    found.log_evidence += sign.log_ratio(index_.word(s.sign)) + sign.log_peak;
-    found.sightings.push_back({sign.detection, s.sign});
+  const WallView wall{pose.T_c_w, view.sigma, options_.missed, index_.reach()};
+  for (std::size_t i = 0; i < sightings_.size(); ++i) {
+    const QuerySign& sign = view.signs[static_cast<std::size_t>(sightings_[i].detection)];
+    const SignCorners& corners = seen_[i].corners;
+    const bool beside = std::any_of(seen_.begin(), seen_.begin() + static_cast<std::ptrdiff_t>(i),
+                                    [&](const SeenSign& other) { return on_one_wall(other.corners, corners); });
+    // Elsewhere it may be either: a quad anywhere, or one on the wall.
+    const double peak =
+        beside ? -std::log(std::exp(-sign.log_peak) + std::exp(-log_wall_peak(corners, wall))) : sign.log_peak;
+    found.log_evidence += sign.log_ratio(index_.word(sightings_[i].sign)) + peak;
+    found.sightings.push_back({sign.detection, sightings_[i].sign});
   }
   return found;
 }

@@ -52,12 +52,13 @@ MapSession::MapSession(const RunOptions& options, Sequence* sequence) : options_
                      "its images are " + std::to_string(camera.width) + " x " + std::to_string(camera.height) +
                          ", those of the sequence are not");
   if (given_ && !goes_with(*given_, earlier_->record))
-    throw InputError(options.map, 0,
-                     "its camera is not that of " + sequence->camera_source +
-                         ": a map has one camera, with the same numbers in all sessions");
+    throw InputError(
+        options.map, 0,
+        "its camera is not that of the sequence's camera file: a map has one camera, with the same numbers "
+        "in all sessions");
   if (given_ && !is_same_camera(*given_, camera))
-    sequence->notes.push_back(options.map + ": its camera is a better one than that of " + sequence->camera_source +
-                              ", by its first session");
+    sequence->notes.push_back(options.map +
+                              ": its camera is better than that of the camera file, as its first session found");
   sequence->camera = camera;
   sequence->camera.knows_readout = true;
   sequence->approximate_fov = 0;

@@ -69,6 +69,7 @@ std::string format_localised(const LocalisedEvaluation& e) {
                         {"first", e.first},
                         {"judged", e.judged},
                         {"wrong", e.wrong},
+                        {"position_rmse", e.position.rmse},
                         {"position_median", e.position.median},
                         {"position_p90", e.position.p90},
                         {"position_max", e.position.max},

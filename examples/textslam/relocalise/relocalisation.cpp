@@ -26,6 +26,20 @@ int points_off_texts(const Map& map, const SE3d& T_c_w, const std::vector<Track>
   return count;
 }
 
+// The map points that were looked for.
+int expected_points(const Parameters& parameters, const TrackReport& found) {
+  return std::min(static_cast<int>(found.visible.size()), parameters.max_reobserved);
+}
+
+// Whether no other pose needs to be tried. One that is wrong holds too, where it fits what is far and small.
+bool is_clear(const Parameters& parameters, const Relocalisation& found) {
+  return found.ok && found.inliers >= parameters.relocalise_clear_share * expected_points(parameters, found);
+}
+
+void take_better(Relocalisation other, Relocalisation* found) {
+  if (other.ok && (!found->ok || other.shown() > found->shown())) *found = std::move(other);
+}
+
 Relocalisation relocalise_by_keyframes(const Map& map, const Parameters& parameters, const Frame& frame) {
   struct Candidate {
     int keyframe;
@@ -61,8 +75,7 @@ Relocalisation relocalise_by_keyframes(const Map& map, const Parameters& paramet
 
 // A wrong pose would spoil the map, and another lost frame costs little.
 bool holds(const Map& map, const Parameters& parameters, const TrackReport& found, const std::vector<Track>& tracks) {
-  const int expected = std::min(static_cast<int>(found.visible.size()), parameters.max_reobserved);
-  if (!found.ok || found.inliers < parameters.relocalise_min_share * expected) return false;
+  if (!found.ok || found.inliers < parameters.relocalise_min_share * expected_points(parameters, found)) return false;
   return found.texts >= parameters.enough_texts ||
          (found.inliers >= parameters.relocalise_inlier_factor * parameters.min_inliers &&
           points_off_texts(map, found.T_c_w, tracks) >= parameters.min_inliers);
@@ -91,11 +104,9 @@ Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters,
                                    const std::vector<WordMatch>& ways) {
   Relocalisation best;
   for (const WordMatch words : ways) {
-    for (const TextHypothesis& hypothesis : text_hypotheses(map, parameters, frame, words)) {
-      Relocalisation found = recognise_from(map, parameters, frame, hypothesis.T_c_w);
-      if (found.ok && (!best.ok || found.shown() > best.shown())) best = std::move(found);
-    }
-    if (best.ok) break;
+    for (const TextHypothesis& hypothesis : text_hypotheses(map, parameters, frame, words))
+      take_better(recognise_from(map, parameters, frame, hypothesis.T_c_w), &best);
+    if (is_clear(parameters, best)) break;
   }
   best.by = FoundBy::texts;
   return best;
@@ -126,11 +137,13 @@ Relocalisation relocalise(const Map& map, const Parameters& parameters, const Fr
   Relocalisation found;
   if (parameters.mode == Mode::text)
     found = relocalise_by_texts(map, parameters, frame, {WordMatch::same, WordMatch::other});
-  if (!found.ok) found = relocalise_by_keyframes(map, parameters, frame);
-  if (found.ok) return found;
+  if (!is_clear(parameters, found)) take_better(relocalise_by_keyframes(map, parameters, frame), &found);
+  if (is_clear(parameters, found)) return found;
   const int most = lost ? parameters.place_compared : parameters.place_compared_in_passing;
-  return relocalise_by_places(map, parameters, frame, looks,
-                              rank_places(map, parameters, looks, map.keyframe_ids(), most, frame.index));
+  take_better(relocalise_by_places(map, parameters, frame, looks,
+                                   rank_places(map, parameters, looks, map.keyframe_ids(), most, frame.index)),
+              &found);
+  return found;
 }
 
 Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame) {

@@ -42,7 +42,7 @@ Relocalisation recognise_from(const Map& map, const Parameters& parameters, cons
 
 /// Of the poses that the frame's detections suggest, one that holds and from which the frame shows most of the map:
 /// from a few corners another may hold by chance. `ways` to compare words are tried one after another until one gives a
-/// pose.
+/// clear pose: the image shows most of what the map expects (relocalise_clear_share).
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
                                    const std::vector<WordMatch>& ways);
 
@@ -50,9 +50,10 @@ Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters,
 Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
                                     const std::vector<PlaceRank>& places);
 
-/// Tries the poses that the frame's detections suggest (mode text). Where none holds, tries the key frames whose
-/// coarsest images correlate best with the frame's, then those with points that look alike. `looks` are the frame's.
-/// A frame that is not lost, but may show this map too, is compared with fewer of these.
+/// Tries the poses that the frame's detections suggest (mode text). Where none is clear, tries the key frames whose
+/// coarsest images correlate best with the frame's, then those with points that look alike, and takes the pose from
+/// which the frame shows most. `looks` are the frame's. A frame that is not lost, but may show this map too, is
+/// compared with fewer of these.
 Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
                           bool lost);
 

@@ -14,6 +14,8 @@
 #include "textplane/geometry/plane.hpp"
 #include "textslam/common/parameters.hpp"
 #include "textslam/map/map.hpp"
+#include "textslam/map/observations.hpp"
+#include "textslam/track/feature_tracks.hpp"
 
 namespace textslam {
 namespace boards_support {
@@ -62,6 +64,23 @@ class TextRecoveryTest : public testing::Test {
     EXPECT_TRUE(textplane::is_ok(text.patch.status));
     text.votes[word] = 3;
     map.texts.push_back(std::move(text));
+  }
+
+  // Points on the boards, at the corners that a key frame sees.
+  void add_points(int host) {
+    std::vector<Track> corners;
+    const KeyFrame& keyframe = map.keyframe(host);
+    add_corners(keyframe.frame, map.camera, host, {}, parameters, corners);
+    for (const Track& corner : corners)
+      for (const Board& board : boards) {
+        const SE3d T_b_c = board.T_w_b.inverse() * keyframe.T_w_c;
+        const Vec3 ray = T_b_c.R * ray_of(map.camera, corner.px.cast<double>());
+        const Vec3 p = T_b_c.t - T_b_c.t.z() / ray.z() * ray;
+        if (!(std::abs(p.x()) <= kHalfWidth && std::abs(p.y()) <= kHalfHeight)) continue;
+        map.points.push_back({board.T_w_b * p});
+        add_observation(map, static_cast<int>(map.points.size()) - 1, host, corner.px.cast<double>());
+        break;
+      }
   }
 
   static constexpr double kHalfWidth = 0.35, kHalfHeight = 0.15;

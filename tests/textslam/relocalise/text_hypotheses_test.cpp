@@ -143,5 +143,37 @@ TEST_F(TextRecoveryTest, ThePoseThatExplainsMostIsTaken) {
   expect_pose(recovery.T_c_w, truth, 0.006, 0.12);
 }
 
+// The signs of a room that is not mapped hang alike in a mapped one, where much else hangs too that the frame does not
+// show. What an earlier frame saw from nearby is the better answer.
+TEST_F(TextRecoveryTest, APoseThatExplainsLittleIsNotTakenBeforeOthersAreTried) {
+  const SE3d truth = moved({0.1, -0.05, 0.1}, {0.02, -0.03, 0.02}), T_w_other = moved({30, 0, 0}, {0, 0, 0});
+  parameters = at_size(parameters, map.width, map.height);
+  boards.push_back({moved({-0.3, -0.8, 3.3}, {0.1, 0.2, 0}), 4});
+  boards.push_back({moved({-0.7, 0.7, 3.2}, {0.2, -0.1, 0}), 5});
+  const std::vector<Board> room = boards;
+  map.texts.clear();
+  map.keyframes[0].frame = frame_at(SE3d{});
+  add_points(0);
+  boards = {{T_w_other * room[0].T_w_b, room[0].print}, {T_w_other * room[1].T_w_b, room[1].print}};
+  for (const double x : {-1.0, -0.2, 0.6, 1.4})
+    boards.push_back({T_w_other * moved({x, -0.9, 3.5}, {0, 0, 0}), static_cast<unsigned>(20 + 10 * x)});
+  map.keyframes.push_back({frame_at(T_w_other.inverse()), T_w_other, {}});
+  map.keyframes.back().frame.index = 1;
+  add_text(boards[0], 1, "EXIT");
+  add_text(boards[1], 1, "OPEN");
+  add_points(1);
+
+  boards = room;
+  Frame frame = frame_at(truth);
+  frame.detections = {detection(0, truth, "EXIT"), detection(1, truth, "OPEN")};
+  const Relocalisation by_texts = relocalise_by_texts(map, parameters, frame, {WordMatch::same});
+  ASSERT_TRUE(by_texts.ok) << "the wrong pose would do";
+  EXPECT_GT(by_texts.T_c_w.inverse().t.x(), 29);
+  const Relocalisation recovery = relocalise(map, parameters, frame);
+  ASSERT_TRUE(recovery.ok);
+  EXPECT_GT(recovery.inliers, by_texts.inliers + by_texts.texts);
+  expect_pose(recovery.T_c_w, truth, 0.01, 0.2);
+}
+
 }  // namespace text_hypotheses_test
 }  // namespace textslam
