@@ -1,8 +1,8 @@
 // Wall: what a sign says of a place where another one on the same wall is known already.
 //
 // Signs hang on walls everywhere. A place that is not the one looked for has walls with signs beside each other, too:
-// there the second quad is no quad anywhere in the image, but a rectangle on the wall of the first. That has four numbers
-// (position along the wall and across it, width, height), not the eight of four corners.
+// there the second quad is no quad anywhere in the image, but a rectangle on the wall of the first. That has four
+// numbers (position along the wall and across it, width, height), not the eight of four corners.
 #ifndef TEXTSLAM_SIGN_INDEX_WALL_HPP
 #define TEXTSLAM_SIGN_INDEX_WALL_HPP
 

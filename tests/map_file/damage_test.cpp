@@ -110,8 +110,8 @@ TEST_F(MapFileTest, BrokenValuesAreRefused) {
       "update cameras set width = 319",
       "update cameras set height = 0",
       "insert into cameras values (2, 'pinhole', 320, 240, -1, 262, 159.5, 119.5, '', 30, 0, 0)",
-      "insert into cameras values (2, 'pinhole', 320, 240, 262, 262, 159.5, 119.5, '', 30, 0, 0), "
-      "(3, 'pinhole', 320, 240, 262, 262, 159.5, 119.5, '', 30, 0, 0)",
+      ("insert into cameras values (2, 'pinhole', 320, 240, 262, 262, 159.5, 119.5, '', 30, 0, 0), "
+       "(3, 'pinhole', 320, 240, 262, 262, 159.5, 119.5, '', 30, 0, 0)"),
       "delete from sessions",
       "update sessions set frames = 1.5",
       "drop table points",
