@@ -1,5 +1,6 @@
 #include "sign_index/wall.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace textslam {
@@ -39,7 +40,8 @@ double log_wall_peak(const SignCorners& corners, const WallView& view) {
   }
   const double log_density =
       -std::log(kAlong * view.reach * kAcross * view.reach * kHeights * height * kWidths * width);
-  return std::log((1 - view.missed) / kOnWall) - log_density + 0.5 * std::log((J.transpose() * J).determinant()) -
+  const double squared_area = std::max(0.0, (J.transpose() * J).determinant());  // rounding, seen from the edge
+  return std::log((1 - view.missed) / kOnWall) - log_density + 0.5 * std::log(squared_area) -
          2 * std::log(2 * M_PI * view.sigma * view.sigma);
 }
 
