@@ -1,5 +1,6 @@
 """What the experiments with several sessions share: rendered walks through a scene, and the programs they call."""
 import argparse
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -47,3 +48,8 @@ def another_walk(options, kind, seed, walk):
         call(options.programs / "textslam", "--render", kind, "--seed", seed, "--walk", walk, "--frames",
              options.walk_frames, "--render-only", "--output", folder)
     return folder
+
+
+def metrics_of(run):
+    """What metrics.json of a run's folder says."""
+    return json.loads((run / "metrics.json").read_text(encoding="utf-8"))

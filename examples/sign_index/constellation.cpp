@@ -116,7 +116,7 @@ double Constellation::absent(const QueryView& view, const SignPose& pose) const 
       inside = is_inside(at[k]);
     }
     if (!inside) continue;
-    const Vec3 normal = (corners[3] - corners[0]).cross(corners[1] - corners[0]).normalized();
+    const Vec3 normal = sign_normal(corners);
     const double height = std::min((at[3] - at[0]).norm(), (at[2] - at[1]).norm());
     if (normal.dot((eye - near.centre).normalized()) > kLeastCosine && height > kLeastHeight * px)
       sum += std::log(options_.missed);

@@ -12,17 +12,17 @@ constexpr double kOnWall = 2;                    // signs beside one, on average
 constexpr double kAlong = 0.5, kAcross = 0.1;    // of the reach: where on the wall they are
 constexpr double kHeights = 2, kWidths = 3;      // ranges of their logarithms
 
-Vec3 normal_of(const SignCorners& corners) {
-  return (corners[3] - corners[0]).cross(corners[1] - corners[0]).normalized();
-}
-
 Vec3 centre_of(const SignCorners& corners) { return (corners[0] + corners[1] + corners[2] + corners[3]) / 4; }
 
 }  // namespace
 
+Vec3 sign_normal(const SignCorners& corners) {
+  return (corners[3] - corners[0]).cross(corners[1] - corners[0]).normalized();
+}
+
 bool on_one_wall(const SignCorners& a, const SignCorners& b) {
-  const Vec3 normal = normal_of(a), apart = centre_of(b) - centre_of(a);
-  return normal.dot(normal_of(b)) > kParallel && std::abs(normal.dot(apart)) < kFlush * apart.norm();
+  const Vec3 normal = sign_normal(a), apart = centre_of(b) - centre_of(a);
+  return normal.dot(sign_normal(b)) > kParallel && std::abs(normal.dot(apart)) < kFlush * apart.norm();
 }
 
 double log_wall_peak(const SignCorners& corners, const WallView& view) {

@@ -15,6 +15,9 @@ namespace textslam {
 /// Corners of a sign in the map's frame, clockwise as readers see them.
 using SignCorners = std::array<Vec3, 4>;
 
+/// Unit normal, towards the reader.
+Vec3 sign_normal(const SignCorners& corners);
+
 /// Do both lie in one plane and face the same way, to a tenth of their distance and to 10 degrees?
 bool on_one_wall(const SignCorners& a, const SignCorners& b);
 
