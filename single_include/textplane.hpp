@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 183 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 5d7ccbc5a8361476
+// Hash of these files: 25782c2f1f39e036
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 5d7ccbc5a8361476"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 25782c2f1f39e036"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -744,7 +744,9 @@ Status unified_ray(const Vector3<S>& m, const S& alpha, const S& beta, Vector3<S
   const S r2 = beta * (m[0] * m[0] + m[1] * m[1]), root2 = S(1) - (S(2) * alpha - S(1)) * r2;
   if (!all_finite(m)) return Status::non_finite;
   if (!is_finite(r2) || !(root2 > S(0))) return Status::degenerate;
-  *ray = {m[0], m[1], (S(1) - alpha * alpha * r2) / (alpha * sqrt(root2) + S(1) - alpha)};
+  const S w = alpha * sqrt(root2) + S(1) - alpha;
+  if (!(w > S(0))) return Status::degenerate;
+  *ray = {m[0], m[1], (S(1) - alpha * alpha * r2) / w};
   return Status::ok;
 }
 
@@ -11174,6 +11176,7 @@ class BasicLensMap {
   /// Status::degenerate where no ray of the domain goes there, non_finite for NaN; then `m` is untouched.
   Status undistort(const Vector2<Real>& distorted, Vector2<Real>* m) const noexcept {
     if (!all_finite(distorted)) return Status::non_finite;
+    if (!(max_r2_ > 0)) return Status::degenerate;
     const double size = std::sqrt(distorted.squaredNorm());
     double low = 0, high = std::sqrt(max_r2_), r = size < high ? size : high;
     for (int i = 0; i < 60; ++i) {
@@ -11639,7 +11642,8 @@ using RowWarp = BasicRowWarp<>;  ///< It is compiled only where it is used.
 
 /// The warp of a patch about the ray `centre` of the host through the plane `theta` (host frame at the time stamp) by
 /// T_t_h, which is between the time stamps. `host`: the patch's rows; `target`: the motion of the target, whose camera
-/// (level 0) is `camera`. Where no row of the target shows the centre, its motion counts as none.
+/// (level 0) is `camera`. Where no row of the target shows the centre, or the plane passes through the host's camera,
+/// the target's motion counts as none.
 TEXTPLANE_DEFERRED
 inline RowWarp row_warp(const Vector3<double>& theta, const SE3d& T_t_h, const Vector3<double>& centre,
                         const PatchRows& host, const RowMotion& target, const CameraView& camera) noexcept {
@@ -11648,8 +11652,8 @@ inline RowWarp row_warp(const Vector3<double>& theta, const SE3d& T_t_h, const V
   out.theta = transposed_product(from.B, from.theta_c);
   out.plane = transposed_product(from.B, from.by_theta);
   SE3d T = host.active() ? T_t_h * from.E_h : T_t_h;
-  if (target.active()) {
-    const double along = detail::dot(from.theta_c, centre);
+  const double along = detail::dot(from.theta_c, centre);
+  if (target.active() && along != 0) {
     const Vector3<double> p = T * Vector3<double>(centre[0] / along, centre[1] / along, centre[2] / along);
     const RowProjection seen = project_rows(target, camera, p);
     if (is_ok(seen.status)) {
@@ -35590,6 +35594,7 @@ struct TextBatchItem {
   PatchView patch;                                  ///< Host pixels of one level.
   Pinhole<double> host_camera;                      ///< Of the level that `patch` is of.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
+  PatchRows rows = {};                              ///< As TextPatch::rows, where the host's shutter rolls.
 };
 
 /// The host side of many objects, packed once. Thread-safe to read.
@@ -35604,6 +35609,7 @@ class TextBatch {
   Status build(const TextBatchItem* items, int count) {
     groups_.clear();
     valid_ = std::vector<std::uint8_t>();
+    rows_ = std::vector<PatchRows>();
     pixels_ = cache_lines<float>(0);
     most_ = 0;
     if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
@@ -35617,6 +35623,9 @@ class TextBatch {
     total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
       total = add_group(items + first, first, (std::min)(count - first, simd::kBatchLanes), total);
+    const bool rolling = std::any_of(items, items + count, [](const TextBatchItem& i) { return i.rows.active(); });
+    if (rolling) rows_ = std::vector<PatchRows>(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i] = items[i].rows;
     return Status::ok;
   }
 
@@ -35629,6 +35638,8 @@ class TextBatch {
   }
 
   bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }  ///< For the kernels.
+  /// The host's rows of object i; null where no object has any. For the kernels.
+  const PatchRows* rows(int i) const noexcept { return rows_.empty() ? nullptr : &rows_[static_cast<std::size_t>(i)]; }
   /// Sets the kernels' pointers to what was built.
   void fill(simd::BatchArgs* args) const noexcept {
     args->groups = groups_.data();
@@ -35666,6 +35677,7 @@ class TextBatch {
 
   std::vector<simd::BatchGroup> groups_;
   std::vector<std::uint8_t> valid_;
+  std::vector<PatchRows> rows_;  // of each object, or none
   std::vector<CacheLine<float>> pixels_;
   int most_ = 0;
 };
@@ -35749,30 +35761,37 @@ class TextBatchResult {
 };
 
 namespace detail {
+// The image that a batch is judged against.
+struct BatchTarget {
+  ImageView8 image;
+  CameraView camera;  // of the image's level
+  int level;
+};
+
 // text_batch_lens.hpp
 template <int P>
-void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const ImageView8& target,
-                      const CameraView& camera, const SE3d* T_t_h, const PhotometricOptions& options,
-                      PhotometricWorkspace& workspace) noexcept;
+void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const BatchTarget& target, const SE3d* T_t_h,
+                      const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept;
 
 // Costs alone (P = 0), or with normal equations of P parameters.
 template <int P>
-Status run_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
+Status run_batch(const TextBatch& batch, const BatchTarget& target, const SE3d* T_t_h,
                  const PhotometricOptions& options, TextBatchResult& result) noexcept {
+  const CameraView& camera = target.camera;
   if (!result.fits(batch)) return Status::invalid_argument;
   simd::BatchArgs args;
   batch.fill(&args);
   result.fill(P, &args);
-  if (!target.valid() || !simd::readable(batch_image(target)) || !camera.valid() || !options.valid() ||
+  if (!target.image.valid() || !simd::readable(batch_image(target.image)) || !camera.valid() || !options.valid() ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
     std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
     return Status::invalid_argument;
   }
   if (batch.size() == 0) return Status::ok;
-  detail::set_batch_args(target, camera.pinhole, T_t_h, options, &args);
-  if (camera.lens) {
-    run_batch_behind<P>(batch, args, target, camera, T_t_h, options, result.workspace());
+  detail::set_batch_args(target.image, camera.pinhole, T_t_h, options, &args);
+  if (camera.lens || (camera.rows && camera.rows->active()) || batch.rows(0)) {
+    run_batch_behind<P>(batch, args, target, T_t_h, options, result.workspace());
   } else {
     if constexpr (P == 0) simd::batch_evaluate(args);
     if constexpr (P == 6) simd::batch_linearise_pose(args);
@@ -35785,31 +35804,32 @@ Status run_batch(const TextBatch& batch, const ImageView8& target, const CameraV
 }  // namespace detail
 
 /// The cost of every object of the batch against one image. `T_t_h`: one pose an object. `camera`: the target's, of the
-/// target's level.
+/// target's level, which `level` says where the camera has rows.
 ///
 /// Results agree with reference::evaluate() within the bounds of simd/batch.hpp. An object whose geometry overflows
 /// float (a number beyond 1e30) is non_finite. Returns ok, or invalid_argument for null poses, a target below 2 x 2, a
 /// camera that is not valid(), bad options, or a result without room; all objects then have that status. The kernels
-/// compute all of it; behind a lens objects go one by one. No allocation; thread-safe for distinct results.
+/// compute all of it; behind a lens or a rolling shutter objects go one by one. No allocation; thread-safe for distinct
+/// results.
 TEXTPLANE_DEFERRED
 Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
-                      const PhotometricOptions& options, TextBatchResult& result) noexcept {
-  return detail::run_batch<0>(batch, target, camera, T_t_h, options, result);
+                      const PhotometricOptions& options, TextBatchResult& result, int level = 0) noexcept {
+  return detail::run_batch<0>(batch, {target, camera, level}, T_t_h, options, result);
 }
 
 /// As evaluate_batch(), with the normal equations of every object: by Parameters::pose or Parameters::pose_plane.
 template <Parameters Unknowns>
 Status linearise_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
-                       const PhotometricOptions& options, TextBatchResult& result) noexcept {
+                       const PhotometricOptions& options, TextBatchResult& result, int level = 0) noexcept {
   static_assert(Unknowns == Parameters::pose || Unknowns == Parameters::pose_plane,
                 "textplane: linearise_batch() is by pose or pose_plane");
-  return detail::run_batch<dof(Unknowns)>(batch, target, camera, T_t_h, options, result);
+  return detail::run_batch<dof(Unknowns)>(batch, {target, camera, level}, T_t_h, options, result);
 }
 
 TEXTPLANE_END_NAMESPACE
 
-// A TextBatch against an image behind a lens: its objects one after the other, by the kernels of one object. From some
-// 60 pixels an object on, that is as fast as lanes are.
+// A TextBatch against an image behind a lens, or between rolling shutters: its objects one after the other, by the
+// kernels of one object. From some 60 pixels an object on, that is as fast as lanes are.
 #ifndef TEXTPLANE_PHOTOMETRY_LENS_TEXT_BATCH_LENS_HPP
 #define TEXTPLANE_PHOTOMETRY_LENS_TEXT_BATCH_LENS_HPP
 
@@ -35848,9 +35868,8 @@ inline BatchLane batch_lane(const simd::BatchArgs& args, int i, float* memory) n
 }
 
 template <int P>
-void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const ImageView8& target,
-                      const CameraView& camera, const SE3d* T_t_h, const PhotometricOptions& options,
-                      PhotometricWorkspace& workspace) noexcept {
+void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const BatchTarget& target, const SE3d* T_t_h,
+                      const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
   constexpr int kEntries = simd::batch_entries(P), kTail = kEntries - static_cast<int>(simd::BatchEntry::count);
   std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
   for (int i = 0; i < batch.size(); ++i) {
@@ -35859,9 +35878,12 @@ void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const
     PhotometricInput input;
     input.patch = lane.patch;
     input.host_camera = lane.host_camera;
-    input.target_camera = camera.pinhole;
-    input.target = target;
-    input.lens = camera.lens;
+    input.target_camera = target.camera.pinhole;
+    input.target = target.image;
+    input.lens = target.camera.lens;
+    input.host_rows = batch.rows(i);
+    input.rows = target.camera.rows;
+    input.level = target.level;
     const ResidualRequest<std::uint8_t> request{input, lane.theta, T_t_h[i], options};
     float* out = args.out + static_cast<std::ptrdiff_t>(i / simd::kBatchLanes) * kEntries * simd::kBatchLanes +
                  i % simd::kBatchLanes;
@@ -35980,13 +36002,13 @@ Vector3<double> sweep_depths(const TextPatch& patch, const TextImage& target, co
   for (int i = 0; i < kDepths; ++i) {
     const double share = (i + 0.5) / kDepths, rho = (1 - share) / nearest + share / farthest;
     items.push_back({patch.levels[static_cast<std::size_t>(level)].view(), patch.camera.at_level(level),
-                     frontal_plane(ray, 1 / rho)});
+                     frontal_plane(ray, 1 / rho), patch.rows});
   }
   const std::vector<SE3d> poses(items.size(), T_t_h);
   const TextBatch batch(items.data(), kDepths);
   TextBatchResult result(batch);
   if (!is_ok(evaluate_batch(batch, target.pyramid.level[static_cast<std::size_t>(level)], target.camera.at_level(level),
-                            poses.data(), PhotometricOptions{}, result)))
+                            poses.data(), PhotometricOptions{}, result, level)))
     return best;
   for (int i = 0; i < kDepths; ++i) {
     if (!is_ok(result.status(i)) || !(result.zncc(i) > *zncc)) continue;
@@ -44118,6 +44140,8 @@ enum class Weighting {
 
 /// Whether a standard deviation is in [1e-50, 1e50]: its square, its inverse and the ratio of two are then finite.
 inline bool valid_sigma(double sigma) noexcept { return is_finite(sigma) && sigma >= 1e-50 && sigma <= 1e50; }
+/// The same of a prior: at least 1e-50. Infinity is no prior.
+inline bool valid_prior_sigma(double sigma) noexcept { return sigma >= 1e-50; }
 
 /// lambda_w of an observation with `visible` pixels; zero without pixels and for deviations that are not valid_sigma().
 /// `sigma_rep`: standard deviation of a reprojection error, px. `sigma_photo`: of a pixel's residual, in 1/sqrt(N).
@@ -45618,7 +45642,8 @@ struct WindowCalibration {
   AnyCamera<double> camera;  ///< In: the start. Out: the estimate.
   /// Means of the priors, in the order of camera.parameters(); empty: the start's.
   AnyCamera<double>::Parameters mean;
-  /// Their standard deviations, in the same order: px for the first four. 0 holds a parameter, infinity is no prior.
+  /// Their standard deviations, in the same order: px for the first four. 0 holds a parameter; others are
+  /// valid_prior_sigma().
   AnyCamera<double>::Parameters sigma;
   /// fx and fy keep the ratio that they start with. fx's sigma is that of both.
   bool one_focal_length = true;
@@ -45642,7 +45667,7 @@ class CalibrationUnknowns {
   using Parameters = AnyCamera<double>::Parameters;
 
   /// Null: there are none. invalid_argument where the camera is not valid(), sigma or the mean has another length or a
-  /// number that is none, or a sigma is negative; then there are none.
+  /// number that is none, or a sigma is out of its domain; then there are none.
   TEXTPLANE_DEFERRED
   Status set(const WindowCalibration* calibration) noexcept {
     count_ = 0;
@@ -45650,7 +45675,7 @@ class CalibrationUnknowns {
     const Parameters start = calibration->camera.parameters(), &sigma = calibration->sigma;
     if (!calibration->camera.valid() || sigma.size() != start.size()) return Status::invalid_argument;
     for (int i = 0; i < sigma.size(); ++i)
-      if (!(sigma[i] >= 0)) return Status::invalid_argument;
+      if (sigma[i] != 0 && !valid_prior_sigma(sigma[i])) return Status::invalid_argument;
     mean_ = calibration->mean.size() > 0 ? calibration->mean : start;
     if (mean_.size() != start.size() || !all_finite(mean_)) return Status::invalid_argument;
     ratio_ = calibration->one_focal_length ? start[1] / start[0] : 0;
@@ -45720,8 +45745,8 @@ struct WindowFrame {
   /// pose at the time stamp. Hosts of texts have the rows of their patches.
   const RowMotion* rows = nullptr;
   /// Standard deviations of the velocity rows->velocity. Where all are positive the velocity of a free frame is an
-  /// unknown, and the cost gains sum_i ((velocity_i - rows->velocity_i) / sigma_i)^2; else it is known. All are
-  /// zero in a window with rigs.
+  /// unknown, and the cost gains sum_i ((velocity_i - rows->velocity_i) / sigma_i)^2; else it is known. Positive ones
+  /// are valid_prior_sigma(); all are zero in a window with rigs.
   Vector6<double> velocity_sigma = Vector6<double>::Zero();
 
   /// Another camera of a rig: index of the frame that this one is fixed to, which has a pose of its own; -1: so has
@@ -45938,6 +45963,7 @@ TEXTPLANE_END_NAMESPACE
 #ifndef TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 #define TEXTPLANE_PHOTOMETRY_CANDIDATES_HPP
 
+#include <algorithm>
 #include <cstdint>
 
 // Correlation of one prepared host patch with one image under many candidate poses: raw pointers in, one number a
@@ -46238,42 +46264,30 @@ TEXTPLANE_END_NAMESPACE
 
 TEXTPLANE_BEGIN_NAMESPACE
 
-/// zncc[i] = ZNCC of the patch in the target under the pose T_t_h[i], over the pixels visible then; -1 where fewer than
-/// options.min_visible are or contrast is missing. `prepared`, of in.patch, makes it several times faster where all of
-/// the patch is visible; then the bound of simd/zncc.hpp holds, else that of evaluate(). options.robust has no
-/// influence.
-///
-/// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1
-/// then. A candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.
+namespace detail {
+// zncc_candidates() of a request that was checked, between images that take all rows at once. All of zncc is -1.
 TEXTPLANE_DEFERRED
-Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
-                       const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
-                       const TemplatePatch* prepared = nullptr) noexcept {
-  if (count < 0 || (count > 0 && (!T_t_h || !zncc))) return Status::invalid_argument;
-  for (int i = 0; i < count; ++i) zncc[i] = -1.0F;
-  ResidualRequest<std::uint8_t> request{in, theta, SE3d(), options};
-  const Status status = detail::check_request(request, workspace);
-  if (!is_ok(status)) return status;
-  request.options.robust = Robust{RobustKind::l2, 1.0};
-
+void zncc_between_still(ResidualRequest<std::uint8_t> request, const SE3d* T_t_h, int count,
+                        PhotometricWorkspace& workspace, float* zncc, const TemplatePatch* prepared) noexcept {
+  const PhotometricInput& in = request.input;
   simd::LensFit fit;
-  bool fast = prepared && prepared->size() == in.patch.n && !in.patch.mask && detail::kernels_take(request, workspace);
+  bool fast = prepared && prepared->size() == in.patch.n && !in.patch.mask && kernels_take(request, workspace);
   // One fit for all candidates; where they see the patch in too many places, each has its own, in evaluate().
   if (fast && in.lens) {
-    detail::RayBox all;
+    RayBox all;
     const simd::PointBounds& bounds = prepared->model().bounds;
     for (int i = 0; i < count && fast; ++i) {
-      detail::RayBox box;
-      fast = detail::ray_box(bounds, in.host_camera, plane_homography(theta, T_t_h[i]), &box);
+      RayBox box;
+      fast = ray_box(bounds, in.host_camera, plane_homography(request.theta, T_t_h[i]), &box);
       if (i == 0) all = box;
       all.add(box);
     }
     for (int k = 0; k < 2; ++k) all.middle[k] = 0.5 * (all.low[k] + all.high[k]);
-    fast = fast && detail::fit_lens(*in.lens, all, &fit);
+    fast = fast && fit_lens(*in.lens, all, &fit);
   }
   if (fast) {
     simd::ZnccArgs args;
-    args.base = detail::kernel_args(request, workspace, nullptr, nullptr);
+    args.base = kernel_args(request, workspace, nullptr, nullptr);
     if (in.lens) args.base.lens = &fit;
     static_assert(sizeof(SE3d) == 12 * sizeof(double), "R column by column, then t");
     args.model = &prepared->model();
@@ -46288,6 +46302,44 @@ Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta,
     request.T_t_h = T_t_h[i];
     const PhotometricCost cost = evaluate(request, workspace);
     zncc[i] = is_ok(cost.status) ? static_cast<float>(cost.zncc) : -1.0F;
+  }
+}
+}  // namespace detail
+
+/// zncc[i] = ZNCC of the patch in the target under the pose T_t_h[i], over the pixels visible then; -1 where fewer than
+/// options.min_visible are or contrast is missing. `prepared`, of in.patch, makes it several times faster where all of
+/// the patch is visible; then the bound of simd/zncc.hpp holds, else that of evaluate(). options.robust has no
+/// influence. Rolling shutters of host and target count as in evaluate().
+///
+/// Status::ok, or what is wrong with all candidates (as check of evaluate(): invalid_argument, non_finite); all are -1
+/// then. A candidate that is not finite is -1 too. No allocation; the workspace must have room for the patch.
+TEXTPLANE_DEFERRED
+Status zncc_candidates(const PhotometricInput& in, const Vector3<double>& theta, const SE3d* T_t_h, int count,
+                       const PhotometricOptions& options, PhotometricWorkspace& workspace, float* zncc,
+                       const TemplatePatch* prepared = nullptr) noexcept {
+  if (count < 0 || (count > 0 && (!T_t_h || !zncc))) return Status::invalid_argument;
+  for (int i = 0; i < count; ++i) zncc[i] = -1.0F;
+  ResidualRequest<std::uint8_t> request{in, theta, SE3d(), options};
+  const Status status = detail::check_request(request, workspace);
+  if (!is_ok(status)) return status;
+  request.options.robust = Robust{RobustKind::l2, 1.0};
+  if (!detail::has_rows(in)) {
+    detail::zncc_between_still(request, T_t_h, count, workspace, zncc, prepared);
+    return Status::ok;
+  }
+  // Still images have one plane for all candidates, as the host's rows do not depend on the pose.
+  constexpr int kAtOnce = 16;
+  SE3d still[kAtOnce];
+  request.input.patch.bounds = simd::point_bounds(in.patch.x, in.patch.y, in.patch.n);  // once, not in each RowForm
+  for (int first = 0; first < count; first += kAtOnce) {
+    const int n = (std::min)(count - first, kAtOnce);
+    ResidualRequest<std::uint8_t> form;
+    for (int i = 0; i < n; ++i) {
+      request.T_t_h = T_t_h[first + i];
+      form = detail::RowForm<ResidualRequest<std::uint8_t>>(request).request();
+      still[i] = form.T_t_h;
+    }
+    detail::zncc_between_still(form, still, n, workspace, zncc + first, prepared);
   }
   return Status::ok;
 }
@@ -47677,7 +47729,10 @@ inline Status check_window(const Window& w, const WindowOptions& o) noexcept {
       return Status::invalid_argument;
     if (f.rows && !f.rows->valid()) return Status::invalid_argument;
     has_rig = has_rig || f.base != -1 || f.camera;
-    for (int i = 0; i < 6; ++i) moves = moves || f.velocity_sigma[i] != 0;
+    for (int i = 0; i < 6; ++i) {
+      moves = moves || f.velocity_sigma[i] != 0;
+      if (f.velocity_sigma[i] > 0 && !valid_prior_sigma(f.velocity_sigma[i])) return Status::invalid_argument;
+    }
   }
   if (has_rig && moves) return Status::invalid_argument;
   for (const int f : {o.scale_frame_a, o.scale_frame_b})

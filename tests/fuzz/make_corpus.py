@@ -10,7 +10,7 @@ import sys
 import zlib
 from pathlib import Path
 
-NUMERIC = {"photometry": (1, 400), "features": (5, 120), "geometry": (4, 300), "solver": (3, 500), "texts": (8, 3000), "cameras": (6, 300)}
+NUMERIC = {"photometry": (1, 400), "features": (5, 120), "geometry": (4, 300), "solver": (3, 500), "rigs": (3, 700), "texts": (8, 3000), "cameras": (6, 300)}
 
 CAMERA = """%YAML:1.0
 Camera.fx: 525.0

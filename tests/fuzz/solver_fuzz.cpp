@@ -3,39 +3,13 @@
 #include <cmath>
 #include <vector>
 
-#include "fuzz.hpp"
-#include "textplane/features/select.hpp"
+#include "fuzz_world.hpp"
 #include "textplane/solver/plane.hpp"
 #include "textplane/solver/pose.hpp"
 #include "textplane/solver/window.hpp"
 
 namespace textplane_fuzz {
 namespace {
-
-bool finite(const tp::SE3d& T) { return tp::all_finite(T); }
-
-struct World {
-  FuzzImage host_image, target_image;
-  tp::Pyramid host, target;
-  tp::Pinhole<double> camera;
-  tp::TextPatch patch;
-  tp::Vector3<double> theta;
-
-  explicit World(Input& in)
-      : host_image(in, 24, 48), target_image(in, 24, 48), host(host_image.view(), 3), target(target_image.view(), 3) {
-    camera = in.camera(48, 48);
-    tp::SelectOptions options;
-    options.max_pixels = 60;
-    options.min_pixels = 1;
-    options.fast_threshold = 5;
-    const double x = in.tame(2, 20), y = in.tame(2, 20), w = in.tame(6, 22), h = in.tame(6, 22);
-    tp::Quad<double> quad;
-    quad.corner = {tp::Vector2<double>(x, y), tp::Vector2<double>(x + w, y), tp::Vector2<double>(x + w, y + h),
-                   tp::Vector2<double>(x, y + h)};
-    patch = tp::make_patch(host.view(), camera.valid() ? camera : tp::Pinhole<double>{50, 50, 20, 20}, quad, options);
-    theta = {in.number(-0.3, 0.3), in.number(-0.3, 0.3), in.number(0.1, 1)};
-  }
-};
 
 void pose(Input& in) {
   const World world(in);
@@ -61,9 +35,9 @@ void pose(Input& in) {
   on_every_target([&](tp::simd::Target) {
     const tp::PoseFit fit = tp::refine_pose(texts.data(), text_count, points.data(), point_count, world.target.view(),
                                             world.camera, start, options, workspace, zncc.data(), chi2.data());
-    TEXTPLANE_FUZZ_REQUIRE(!finite(start) || finite(fit.T_t_w));
+    TEXTPLANE_FUZZ_REQUIRE(!tp::all_finite(start) || tp::all_finite(fit.T_t_w));
     if (!tp::is_ok(fit.status)) return;
-    TEXTPLANE_FUZZ_REQUIRE(finite(fit.T_t_w) && tp::is_finite(fit.cost) && fit.cost >= 0 &&
+    TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(fit.T_t_w) && tp::is_finite(fit.cost) && fit.cost >= 0 &&
                            std::abs(fit.zncc) <= 1.0001);
     if (text_count > 0 || options.coarsest_level > 0) return;  // the visible pixels may differ,
     for (const float c : chi2)
@@ -104,7 +78,7 @@ void window(Input& in) {
   for (int i = 0; i < frames; ++i) {
     tp::WindowFrame frame;
     frame.T_w_c = in.pose(0.2, 0.5);
-    poses_finite = poses_finite && finite(frame.T_w_c);
+    poses_finite = poses_finite && tp::all_finite(frame.T_w_c);
     frame.fixed = in.flag();
     if (in.flag()) frame.image = i % 2 == 0 ? world.host.view() : world.target.view();
     w.frames.push_back(frame);
@@ -148,7 +122,7 @@ void window(Input& in) {
   const tp::WindowSummary summary = tp::solve_window(w, options, workspace);
   TEXTPLANE_FUZZ_REQUIRE(!std::isnan(summary.final_cost) || !tp::is_ok(summary.status));
   if (poses_finite)
-    for (const tp::WindowFrame& frame : w.frames) TEXTPLANE_FUZZ_REQUIRE(finite(frame.T_w_c));
+    for (const tp::WindowFrame& frame : w.frames) TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(frame.T_w_c));
   if (tp::is_ok(summary.status) && texts == 0)
     TEXTPLANE_FUZZ_REQUIRE(summary.final_cost <= summary.initial_cost * (1 + 1e-9));
 }

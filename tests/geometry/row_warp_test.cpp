@@ -118,6 +118,14 @@ TEST(RowWarp, RaysOfTheHostLeadToTheirPlaces) {
   EXPECT_TRUE(tp::host_row_warp({}, {0, 0, 1}, {0, 0, 1}).isIdentity(0));
 }
 
+// A plane through the centre's ray shows nothing there: the target's motion counts as none.
+TEST(RowWarp, APlaneThroughTheCentreHasNoRowInTheTarget) {
+  const Sign sign(1, 0.5, 0.5);
+  const tp::RowWarp warp = tp::row_warp({1, 0, 0}, sign.T_t_h, {0, 0, 1}, tp::PatchRows(), sign.target, kCamera);
+  EXPECT_EQ(warp.T_t_h.R, sign.T_t_h.R);
+  EXPECT_EQ(warp.T_t_h.t, sign.T_t_h.t);
+}
+
 TEST(RowWarp, IsTheHomographyWhereRowsAreTakenAtOnce) {
   const Sign sign(3, 1, 1);
   const tp::RowWarp warp = tp::row_warp(sign.theta, sign.T_t_h, sign.centre(), {}, {}, kCamera);

@@ -232,7 +232,7 @@ TEST(WindowCalibration, PureTranslationLeavesTheFocalLengthOpen) {
 
 TEST(WindowCalibration, RefusesWhatIsNoCameraOrPrior) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int fault = 0; fault < 6; ++fault) {
+  for (int fault = 0; fault < 7; ++fault) {
     Problem p(kCameras[1]);
     if (fault == 0) p.calibration.sigma[0] = nan;
     if (fault == 1) p.calibration.sigma[4] = -1;
@@ -240,6 +240,7 @@ TEST(WindowCalibration, RefusesWhatIsNoCameraOrPrior) {
     if (fault == 3) p.calibration.camera = tp::Pinhole<double>{0, 260, 160, 120};
     if (fault == 4) p.calibration.mean.setZero(3);
     if (fault == 5) p.calibration.mean.setConstant(p.truth.size(), nan);
+    if (fault == 6) p.calibration.sigma[0] = 1e-200;  // its information would be infinite
     const tp::SE3d before = p.w.frames[3].T_w_c;
     EXPECT_EQ(p.solve().status, tp::Status::invalid_argument) << fault;
     EXPECT_EQ(p.w.frames[3].T_w_c.t, before.t);

@@ -141,7 +141,8 @@ using RowWarp = BasicRowWarp<>;  ///< It is compiled only where it is used.
 
 /// The warp of a patch about the ray `centre` of the host through the plane `theta` (host frame at the time stamp) by
 /// T_t_h, which is between the time stamps. `host`: the patch's rows; `target`: the motion of the target, whose camera
-/// (level 0) is `camera`. Where no row of the target shows the centre, its motion counts as none.
+/// (level 0) is `camera`. Where no row of the target shows the centre, or the plane passes through the host's camera,
+/// the target's motion counts as none.
 TEXTPLANE_DEFERRED
 inline RowWarp row_warp(const Vector3<double>& theta, const SE3d& T_t_h, const Vector3<double>& centre,
                         const PatchRows& host, const RowMotion& target, const CameraView& camera) noexcept {
@@ -150,8 +151,8 @@ inline RowWarp row_warp(const Vector3<double>& theta, const SE3d& T_t_h, const V
   out.theta = transposed_product(from.B, from.theta_c);
   out.plane = transposed_product(from.B, from.by_theta);
   SE3d T = host.active() ? T_t_h * from.E_h : T_t_h;
-  if (target.active()) {
-    const double along = detail::dot(from.theta_c, centre);
+  const double along = detail::dot(from.theta_c, centre);
+  if (target.active() && along != 0) {
     const Vector3<double> p = T * Vector3<double>(centre[0] / along, centre[1] / along, centre[2] / along);
     const RowProjection seen = project_rows(target, camera, p);
     if (is_ok(seen.status)) {

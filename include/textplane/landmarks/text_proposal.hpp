@@ -94,13 +94,13 @@ Vector3<double> sweep_depths(const TextPatch& patch, const TextImage& target, co
   for (int i = 0; i < kDepths; ++i) {
     const double share = (i + 0.5) / kDepths, rho = (1 - share) / nearest + share / farthest;
     items.push_back({patch.levels[static_cast<std::size_t>(level)].view(), patch.camera.at_level(level),
-                     frontal_plane(ray, 1 / rho)});
+                     frontal_plane(ray, 1 / rho), patch.rows});
   }
   const std::vector<SE3d> poses(items.size(), T_t_h);
   const TextBatch batch(items.data(), kDepths);
   TextBatchResult result(batch);
   if (!is_ok(evaluate_batch(batch, target.pyramid.level[static_cast<std::size_t>(level)], target.camera.at_level(level),
-                            poses.data(), PhotometricOptions{}, result)))
+                            poses.data(), PhotometricOptions{}, result, level)))
     return best;
   for (int i = 0; i < kDepths; ++i) {
     if (!is_ok(result.status(i)) || !(result.zncc(i) > *zncc)) continue;

@@ -14,6 +14,7 @@
 #include "textplane/core/cache_line.hpp"
 #include "textplane/core/cameras/camera_view.hpp"
 #include "textplane/core/se3.hpp"
+#include "textplane/geometry/row_warp.hpp"
 #include "textplane/photometry/batch/text_batch_pack.hpp"
 #include "textplane/photometry/photometric_workspace.hpp"
 #include "textplane/photometry/residual_request.hpp"
@@ -27,6 +28,7 @@ struct TextBatchItem {
   PatchView patch;                                  ///< Host pixels of one level.
   Pinhole<double> host_camera;                      ///< Of the level that `patch` is of.
   Vector3<double> theta = Vector3<double>::Zero();  ///< Plane in the host frame.
+  PatchRows rows = {};                              ///< As TextPatch::rows, where the host's shutter rolls.
 };
 
 /// The host side of many objects, packed once. Thread-safe to read.
@@ -41,6 +43,7 @@ class TextBatch {
   Status build(const TextBatchItem* items, int count) {
     groups_.clear();
     valid_ = std::vector<std::uint8_t>();
+    rows_ = std::vector<PatchRows>();
     pixels_ = cache_lines<float>(0);
     most_ = 0;
     if (count < 0 || (count > 0 && !items)) return Status::invalid_argument;
@@ -54,6 +57,9 @@ class TextBatch {
     total = 0;
     for (int first = 0; first < count; first += simd::kBatchLanes)
       total = add_group(items + first, first, (std::min)(count - first, simd::kBatchLanes), total);
+    const bool rolling = std::any_of(items, items + count, [](const TextBatchItem& i) { return i.rows.active(); });
+    if (rolling) rows_ = std::vector<PatchRows>(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i] = items[i].rows;
     return Status::ok;
   }
 
@@ -66,6 +72,8 @@ class TextBatch {
   }
 
   bool valid(int i) const noexcept { return valid_[static_cast<std::size_t>(i)] != 0; }  ///< For the kernels.
+  /// The host's rows of object i; null where no object has any. For the kernels.
+  const PatchRows* rows(int i) const noexcept { return rows_.empty() ? nullptr : &rows_[static_cast<std::size_t>(i)]; }
   /// Sets the kernels' pointers to what was built.
   void fill(simd::BatchArgs* args) const noexcept {
     args->groups = groups_.data();
@@ -103,6 +111,7 @@ class TextBatch {
 
   std::vector<simd::BatchGroup> groups_;
   std::vector<std::uint8_t> valid_;
+  std::vector<PatchRows> rows_;  // of each object, or none
   std::vector<CacheLine<float>> pixels_;
   int most_ = 0;
 };
@@ -186,30 +195,37 @@ class TextBatchResult {
 };
 
 namespace detail {
+// The image that a batch is judged against.
+struct BatchTarget {
+  ImageView8 image;
+  CameraView camera;  // of the image's level
+  int level;
+};
+
 // text_batch_lens.hpp
 template <int P>
-void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const ImageView8& target,
-                      const CameraView& camera, const SE3d* T_t_h, const PhotometricOptions& options,
-                      PhotometricWorkspace& workspace) noexcept;
+void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const BatchTarget& target, const SE3d* T_t_h,
+                      const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept;
 
 // Costs alone (P = 0), or with normal equations of P parameters.
 template <int P>
-Status run_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
+Status run_batch(const TextBatch& batch, const BatchTarget& target, const SE3d* T_t_h,
                  const PhotometricOptions& options, TextBatchResult& result) noexcept {
+  const CameraView& camera = target.camera;
   if (!result.fits(batch)) return Status::invalid_argument;
   simd::BatchArgs args;
   batch.fill(&args);
   result.fill(P, &args);
-  if (!target.valid() || !simd::readable(batch_image(target)) || !camera.valid() || !options.valid() ||
+  if (!target.image.valid() || !simd::readable(batch_image(target.image)) || !camera.valid() || !options.valid() ||
       (!T_t_h && batch.size() > 0)) {
     for (int i = 0; i < batch.size(); ++i) args.status[i] = Status::invalid_argument;
     std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
     return Status::invalid_argument;
   }
   if (batch.size() == 0) return Status::ok;
-  detail::set_batch_args(target, camera.pinhole, T_t_h, options, &args);
-  if (camera.lens) {
-    run_batch_behind<P>(batch, args, target, camera, T_t_h, options, result.workspace());
+  detail::set_batch_args(target.image, camera.pinhole, T_t_h, options, &args);
+  if (camera.lens || (camera.rows && camera.rows->active()) || batch.rows(0)) {
+    run_batch_behind<P>(batch, args, target, T_t_h, options, result.workspace());
   } else {
     if constexpr (P == 0) simd::batch_evaluate(args);
     if constexpr (P == 6) simd::batch_linearise_pose(args);
@@ -222,25 +238,26 @@ Status run_batch(const TextBatch& batch, const ImageView8& target, const CameraV
 }  // namespace detail
 
 /// The cost of every object of the batch against one image. `T_t_h`: one pose an object. `camera`: the target's, of the
-/// target's level.
+/// target's level, which `level` says where the camera has rows.
 ///
 /// Results agree with reference::evaluate() within the bounds of simd/batch.hpp. An object whose geometry overflows
 /// float (a number beyond 1e30) is non_finite. Returns ok, or invalid_argument for null poses, a target below 2 x 2, a
 /// camera that is not valid(), bad options, or a result without room; all objects then have that status. The kernels
-/// compute all of it; behind a lens objects go one by one. No allocation; thread-safe for distinct results.
+/// compute all of it; behind a lens or a rolling shutter objects go one by one. No allocation; thread-safe for distinct
+/// results.
 TEXTPLANE_DEFERRED
 Status evaluate_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
-                      const PhotometricOptions& options, TextBatchResult& result) noexcept {
-  return detail::run_batch<0>(batch, target, camera, T_t_h, options, result);
+                      const PhotometricOptions& options, TextBatchResult& result, int level = 0) noexcept {
+  return detail::run_batch<0>(batch, {target, camera, level}, T_t_h, options, result);
 }
 
 /// As evaluate_batch(), with the normal equations of every object: by Parameters::pose or Parameters::pose_plane.
 template <Parameters Unknowns>
 Status linearise_batch(const TextBatch& batch, const ImageView8& target, const CameraView& camera, const SE3d* T_t_h,
-                       const PhotometricOptions& options, TextBatchResult& result) noexcept {
+                       const PhotometricOptions& options, TextBatchResult& result, int level = 0) noexcept {
   static_assert(Unknowns == Parameters::pose || Unknowns == Parameters::pose_plane,
                 "textplane: linearise_batch() is by pose or pose_plane");
-  return detail::run_batch<dof(Unknowns)>(batch, target, camera, T_t_h, options, result);
+  return detail::run_batch<dof(Unknowns)>(batch, {target, camera, level}, T_t_h, options, result);
 }
 
 TEXTPLANE_END_NAMESPACE

@@ -18,6 +18,8 @@ enum class Weighting {
 
 /// Whether a standard deviation is in [1e-50, 1e50]: its square, its inverse and the ratio of two are then finite.
 inline bool valid_sigma(double sigma) noexcept { return is_finite(sigma) && sigma >= 1e-50 && sigma <= 1e50; }
+/// The same of a prior: at least 1e-50. Infinity is no prior.
+inline bool valid_prior_sigma(double sigma) noexcept { return sigma >= 1e-50; }
 
 /// lambda_w of an observation with `visible` pixels; zero without pixels and for deviations that are not valid_sigma().
 /// `sigma_rep`: standard deviation of a reprojection error, px. `sigma_photo`: of a pixel's residual, in 1/sqrt(N).

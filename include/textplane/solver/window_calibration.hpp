@@ -6,6 +6,7 @@
 
 #include "textplane/core/cameras/any_camera.hpp"
 #include "textplane/core/status.hpp"
+#include "textplane/solver/weighting.hpp"
 
 TEXTPLANE_BEGIN_NAMESPACE
 
@@ -20,7 +21,8 @@ struct WindowCalibration {
   AnyCamera<double> camera;  ///< In: the start. Out: the estimate.
   /// Means of the priors, in the order of camera.parameters(); empty: the start's.
   AnyCamera<double>::Parameters mean;
-  /// Their standard deviations, in the same order: px for the first four. 0 holds a parameter, infinity is no prior.
+  /// Their standard deviations, in the same order: px for the first four. 0 holds a parameter; others are
+  /// valid_prior_sigma().
   AnyCamera<double>::Parameters sigma;
   /// fx and fy keep the ratio that they start with. fx's sigma is that of both.
   bool one_focal_length = true;
@@ -44,7 +46,7 @@ class CalibrationUnknowns {
   using Parameters = AnyCamera<double>::Parameters;
 
   /// Null: there are none. invalid_argument where the camera is not valid(), sigma or the mean has another length or a
-  /// number that is none, or a sigma is negative; then there are none.
+  /// number that is none, or a sigma is out of its domain; then there are none.
   TEXTPLANE_DEFERRED
   Status set(const WindowCalibration* calibration) noexcept {
     count_ = 0;
@@ -52,7 +54,7 @@ class CalibrationUnknowns {
     const Parameters start = calibration->camera.parameters(), &sigma = calibration->sigma;
     if (!calibration->camera.valid() || sigma.size() != start.size()) return Status::invalid_argument;
     for (int i = 0; i < sigma.size(); ++i)
-      if (!(sigma[i] >= 0)) return Status::invalid_argument;
+      if (sigma[i] != 0 && !valid_prior_sigma(sigma[i])) return Status::invalid_argument;
     mean_ = calibration->mean.size() > 0 ? calibration->mean : start;
     if (mean_.size() != start.size() || !all_finite(mean_)) return Status::invalid_argument;
     ratio_ = calibration->one_focal_length ? start[1] / start[0] : 0;

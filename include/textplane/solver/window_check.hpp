@@ -40,7 +40,10 @@ inline Status check_window(const Window& w, const WindowOptions& o) noexcept {
       return Status::invalid_argument;
     if (f.rows && !f.rows->valid()) return Status::invalid_argument;
     has_rig = has_rig || f.base != -1 || f.camera;
-    for (int i = 0; i < 6; ++i) moves = moves || f.velocity_sigma[i] != 0;
+    for (int i = 0; i < 6; ++i) {
+      moves = moves || f.velocity_sigma[i] != 0;
+      if (f.velocity_sigma[i] > 0 && !valid_prior_sigma(f.velocity_sigma[i])) return Status::invalid_argument;
+    }
   }
   if (has_rig && moves) return Status::invalid_argument;
   for (const int f : {o.scale_frame_a, o.scale_frame_b})

@@ -38,8 +38,8 @@ struct WindowFrame {
   /// pose at the time stamp. Hosts of texts have the rows of their patches.
   const RowMotion* rows = nullptr;
   /// Standard deviations of the velocity rows->velocity. Where all are positive the velocity of a free frame is an
-  /// unknown, and the cost gains sum_i ((velocity_i - rows->velocity_i) / sigma_i)^2; else it is known. All are
-  /// zero in a window with rigs.
+  /// unknown, and the cost gains sum_i ((velocity_i - rows->velocity_i) / sigma_i)^2; else it is known. Positive ones
+  /// are valid_prior_sigma(); all are zero in a window with rigs.
   Vector6<double> velocity_sigma = Vector6<double>::Zero();
 
   /// Another camera of a rig: index of the frame that this one is fixed to, which has a pose of its own; -1: so has

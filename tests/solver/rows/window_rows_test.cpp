@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "solver/rows/rows_scene.hpp"
@@ -99,6 +100,19 @@ TEST(Rows, CertainPriorsHoldVelocities) {
     EXPECT_LT(distance(certain.window.frames[f].T_w_c, held.window.frames[f].T_w_c), 1e-6);
     EXPECT_LT((certain.window.frames[f].velocity - certain.known[f].velocity).norm(), 1e-8);
   }
+}
+
+// The information of so small a deviation would be infinite.
+TEST(Rows, WindowRefusesDeviationsOutOfTheirDomain) {
+  const tp::RowMotion rows{tp::Vector6<double>::Constant(0.1), kShutter};
+  tp::Window window;
+  window.camera = kCamera;
+  window.frames.resize(2);
+  window.frames[1].rows = &rows;
+  window.frames[1].velocity_sigma.setConstant(1e-200);
+  EXPECT_EQ(tp::solve_window(window).status, tp::Status::invalid_argument);
+  window.frames[1].velocity_sigma.setConstant(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(tp::solve_window(window).status, tp::Status::too_few);
 }
 
 // Texts alone, on one plane, between rolling images. The rotation starts at none; the translation is known, as on one

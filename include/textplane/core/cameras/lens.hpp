@@ -81,7 +81,9 @@ Status unified_ray(const Vector3<S>& m, const S& alpha, const S& beta, Vector3<S
   const S r2 = beta * (m[0] * m[0] + m[1] * m[1]), root2 = S(1) - (S(2) * alpha - S(1)) * r2;
   if (!all_finite(m)) return Status::non_finite;
   if (!is_finite(r2) || !(root2 > S(0))) return Status::degenerate;
-  *ray = {m[0], m[1], (S(1) - alpha * alpha * r2) / (alpha * sqrt(root2) + S(1) - alpha)};
+  const S w = alpha * sqrt(root2) + S(1) - alpha;
+  if (!(w > S(0))) return Status::degenerate;
+  *ray = {m[0], m[1], (S(1) - alpha * alpha * r2) / w};
   return Status::ok;
 }
 

@@ -77,6 +77,7 @@ class BasicLensMap {
   /// Status::degenerate where no ray of the domain goes there, non_finite for NaN; then `m` is untouched.
   Status undistort(const Vector2<Real>& distorted, Vector2<Real>* m) const noexcept {
     if (!all_finite(distorted)) return Status::non_finite;
+    if (!(max_r2_ > 0)) return Status::degenerate;
     const double size = std::sqrt(distorted.squaredNorm());
     double low = 0, high = std::sqrt(max_r2_), r = size < high ? size : high;
     for (int i = 0; i < 60; ++i) {

@@ -1,5 +1,5 @@
-// A TextBatch against an image behind a lens: its objects one after the other, by the kernels of one object. From some
-// 60 pixels an object on, that is as fast as lanes are.
+// A TextBatch against an image behind a lens, or between rolling shutters: its objects one after the other, by the
+// kernels of one object. From some 60 pixels an object on, that is as fast as lanes are.
 #ifndef TEXTPLANE_PHOTOMETRY_LENS_TEXT_BATCH_LENS_HPP
 #define TEXTPLANE_PHOTOMETRY_LENS_TEXT_BATCH_LENS_HPP
 
@@ -41,9 +41,8 @@ inline BatchLane batch_lane(const simd::BatchArgs& args, int i, float* memory) n
 }
 
 template <int P>
-void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const ImageView8& target,
-                      const CameraView& camera, const SE3d* T_t_h, const PhotometricOptions& options,
-                      PhotometricWorkspace& workspace) noexcept {
+void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const BatchTarget& target, const SE3d* T_t_h,
+                      const PhotometricOptions& options, PhotometricWorkspace& workspace) noexcept {
   constexpr int kEntries = simd::batch_entries(P), kTail = kEntries - static_cast<int>(simd::BatchEntry::count);
   std::fill_n(args.out, simd::batch_floats(batch.size(), P), 0.0F);
   for (int i = 0; i < batch.size(); ++i) {
@@ -52,9 +51,12 @@ void run_batch_behind(const TextBatch& batch, const simd::BatchArgs& args, const
     PhotometricInput input;
     input.patch = lane.patch;
     input.host_camera = lane.host_camera;
-    input.target_camera = camera.pinhole;
-    input.target = target;
-    input.lens = camera.lens;
+    input.target_camera = target.camera.pinhole;
+    input.target = target.image;
+    input.lens = target.camera.lens;
+    input.host_rows = batch.rows(i);
+    input.rows = target.camera.rows;
+    input.level = target.level;
     const ResidualRequest<std::uint8_t> request{input, lane.theta, T_t_h[i], options};
     float* out = args.out + static_cast<std::ptrdiff_t>(i / simd::kBatchLanes) * kEntries * simd::kBatchLanes +
                  i % simd::kBatchLanes;
