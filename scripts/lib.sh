@@ -27,9 +27,9 @@ packages_page='cmake g++ make libeigen3-dev emscripten node-acorn nlohmann-json3
 packages_test="$packages_build libgtest-dev"
 packages_ci="$packages_demo ninja-build libgtest-dev libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
-  pandoc libjs-katex fonts-katex clang-format pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel
+  clang-format pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel
   python3-pip python3-pytest mypy"
-packages_all="$packages_ci python3-sympy python3-matplotlib libpq-dev postgresql libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
+packages_all="$packages_ci pandoc libjs-katex fonts-katex python3-sympy python3-matplotlib libpq-dev postgresql libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
   g++-11-s390x-linux-gnu g++-riscv64-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32
   clang-19 lld-19 libclang-rt-19-dev-wasm32 nodejs
   g++-mingw-w64-x86-64-posix wine64 wine emscripten node-acorn ffmpeg

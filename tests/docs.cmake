@@ -16,10 +16,12 @@ find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND)
   add_test(NAME docs.readme_tables COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/readme_tables --check)
   textplane_label(docs.readme_tables first_look)
-  add_test(NAME docs.site COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs_site_test.py
-    ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/site)
-  textplane_label(docs.site)
-  set_tests_properties(docs.site PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
+  if(TEXTPLANE_TEST_LONG)
+    add_test(NAME docs.site COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs_site_test.py
+      ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/site)
+    textplane_label(docs.site)
+    set_tests_properties(docs.site PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
+  endif()
   foreach(check format columns file folder function)
     add_test(NAME style.${check}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/style.py ${PROJECT_SOURCE_DIR} --only ${check})

@@ -2,8 +2,7 @@
 #   MODE=regions  SOURCE, HEADERS, EXPECT   compiles SOURCE for the baseline and checks where its instructions are
 #   MODE=object   OBJECT, HEADERS, EXPECT   checks an object that the build has made
 #   MODE=shared   SOURCE, WIDE, EXPECT      compiles SOURCE for the baseline and with the flags WIDE, and checks what they share
-#   MODE=mixed    SOURCE, MAIN, EMULATOR, WIDEST   links SOURCE for three CPUs with MAIN (WIDEST: two, without AVX2), runs it here
-#                                           and, if given, in the EMULATOR
+#   MODE=mixed    SOURCE, MAIN, EMULATOR    links SOURCE for three CPUs with MAIN, runs it here and, if given, in the EMULATOR
 #   MODE=variants SOURCE, MAIN, OTHER       links SOURCE compiled in eight ways, and by the compiler OTHER if given, with MAIN, and
 #                                           runs it
 #   MODE=fixed    SOURCE, MAIN, TARGETS, NM   links SOURCE with its target fixed as each of TARGETS, and no other's kernels in it, with
@@ -47,19 +46,13 @@ elseif(MODE STREQUAL "shared")
 elseif(MODE STREQUAL "mixed")
   compile(${SOURCE} baseline.o -DTEXTPLANE_TEST_UNIT=baseline_unit)
   compile(${SOURCE} avx512.o -DTEXTPLANE_TEST_UNIT=avx512_unit -march=x86-64-v4)
-  set(units ${OBJECTS}avx512.o)
-  if(WIDEST)
-    compile(${MAIN} main.o -DTEXTPLANE_TEST_WIDEST)
-  else()
-    compile(${SOURCE} avx2.o -DTEXTPLANE_TEST_UNIT=avx2_unit -march=x86-64-v3)
-    compile(${MAIN} main.o)
-    check(shared ${OBJECTS}baseline.o ${OBJECTS}avx2.o)
-    list(APPEND units ${OBJECTS}avx2.o)
-  endif()
+  compile(${SOURCE} avx2.o -DTEXTPLANE_TEST_UNIT=avx2_unit -march=x86-64-v3)
+  compile(${MAIN} main.o)
   check(regions ${OBJECTS}baseline.o)
+  check(shared ${OBJECTS}baseline.o ${OBJECTS}avx2.o)
   check(shared ${OBJECTS}baseline.o ${OBJECTS}avx512.o)
   # The wide units first: the linker keeps the first copy of what is shared.
-  run(${COMPILER} ${units} ${OBJECTS}baseline.o ${OBJECTS}main.o -o ${OBJECTS}mixed)
+  run(${COMPILER} ${OBJECTS}avx512.o ${OBJECTS}avx2.o ${OBJECTS}baseline.o ${OBJECTS}main.o -o ${OBJECTS}mixed)
   run(${OBJECTS}mixed)
   if(EMULATOR)
     run(${EMULATOR} ${OBJECTS}mixed)
