@@ -1,5 +1,5 @@
 // textplane 0.1.0 in one header, made of 183 files by single_include/amalgamate.py. Do not edit.
-// Hash of these files: 25782c2f1f39e036
+// Hash of these files: aa26b2295cad88a0
 //
 // It needs Eigen 3.3 and C++17, and no compile flag: kernels for every instruction set are in it and chosen at run time.
 //
@@ -34,7 +34,7 @@
 // OF THIS SOFTWARE, EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
 #ifndef TEXTPLANE_SINGLE_HEADER
-#define TEXTPLANE_SINGLE_HEADER "0.1.0 25782c2f1f39e036"
+#define TEXTPLANE_SINGLE_HEADER "0.1.0 aa26b2295cad88a0"
 #endif
 
 // textplane: everything but adapters/, which bring dependencies of their own. Rooms in the order in which they build on
@@ -959,6 +959,7 @@ struct DoubleSphere {
     Vector3<S> q;  // towards the point from the centre of the second sphere
     const Status status = detail::unified_ray(intrinsics.unproject(px), alpha, S(1), &q);
     if (!is_ok(status)) return status;
+    if (!(xi > S(-1) && xi < S(1))) return Status::degenerate;
     const S r2 = q[0] * q[0] + q[1] * q[1], z2 = q[2] * q[2];
     const S scale = (q[2] * xi + sqrt(z2 + (S(1) - xi * xi) * r2)) / (z2 + r2);
     const Vector3<S> unit(scale * q[0], scale * q[1], scale * q[2] - xi);
@@ -49083,6 +49084,7 @@ class WindowSolver {
             out.covariance(r, c) += unknowns.derivative(r, i) * unknowns.derivative(c, j) *
                                     column[static_cast<std::size_t>(6 * structure_.parameter_block() + j)];
     }
+    if (!all_finite(out.covariance)) out.covariance.setZero(out.covariance.rows(), out.covariance.cols());
   }
   void mark(Status& status) noexcept {
     status = Status::rank_deficient;

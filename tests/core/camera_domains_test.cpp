@@ -64,6 +64,15 @@ TEST(CameraDomains, KannalaBrandtEndsWhereThePolynomialStopsRising) {
   EXPECT_GT(border(example<tp::KannalaBrandt<double>>(), 0), 1.75) << "TUM-VI's lens sees 195 degrees";
 }
 
+// Spheres that far apart have no rays: what the formula says of them is not of unit length.
+TEST(CameraDomains, SpheresTooFarApartSeeNothing) {
+  const tp::DoubleSphere<double> camera{{60, 1e30, 1e30, 1e30}, 1e30, 0.7};
+  ASSERT_FALSE(camera.valid());
+  tp::Vector3<double> ray(7, 7, 7);
+  EXPECT_EQ(camera.unproject_ray({1e30, 1e30}, &ray), tp::Status::degenerate);
+  EXPECT_EQ(ray, tp::Vector3<double>(7, 7, 7));
+}
+
 // cos of the largest angle on the second sphere is -w, and the ray through it starts at -xi.
 TEST(CameraDomains, DoubleSphereEndsWhereTheImageDoes) {
   const double cases[][2] = {{-0.172, 0.593}, {0.5, 0.75}, {0.9, 0.3}, {-0.5, 0.9}, {-0.6, 0.2}, {0, 0}, {0.3, 1}};

@@ -251,6 +251,7 @@ class WindowSolver {
             out.covariance(r, c) += unknowns.derivative(r, i) * unknowns.derivative(c, j) *
                                     column[static_cast<std::size_t>(6 * structure_.parameter_block() + j)];
     }
+    if (!all_finite(out.covariance)) out.covariance.setZero(out.covariance.rows(), out.covariance.cols());
   }
   void mark(Status& status) noexcept {
     status = Status::rank_deficient;

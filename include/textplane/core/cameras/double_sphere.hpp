@@ -62,6 +62,7 @@ struct DoubleSphere {
     Vector3<S> q;  // towards the point from the centre of the second sphere
     const Status status = detail::unified_ray(intrinsics.unproject(px), alpha, S(1), &q);
     if (!is_ok(status)) return status;
+    if (!(xi > S(-1) && xi < S(1))) return Status::degenerate;
     const S r2 = q[0] * q[0] + q[1] * q[1], z2 = q[2] * q[2];
     const S scale = (q[2] * xi + sqrt(z2 + (S(1) - xi * xi) * r2)) / (z2 + r2);
     const Vector3<S> unit(scale * q[0], scale * q[1], scale * q[2] - xi);
