@@ -1,13 +1,11 @@
 // Solvers with several cameras, rolling shutters, and a camera that is unknown: a state that comes back is finite where
 // the first one was, an ok status comes with finite numbers, and the cost is never worse than at the start.
-#include <cmath>
 #include <vector>
 
+#include "fuzz_solvers.hpp"
 #include "fuzz_world.hpp"
 #include "textplane/photometry/candidates.hpp"
 #include "textplane/photometry/text_batch.hpp"
-#include "textplane/solver/pose.hpp"
-#include "textplane/solver/window.hpp"
 
 namespace textplane_fuzz {
 namespace {
@@ -61,10 +59,7 @@ void pose(Input& in) {
   on_every_target([&](tp::simd::Target) {
     const tp::PoseFit fit = tp::refine_pose(texts.data(), text_count, points.data(), point_count, rig, cameras, start,
                                             options, workspace, zncc.data(), chi2.data());
-    TEXTPLANE_FUZZ_REQUIRE(!tp::all_finite(start) || tp::all_finite(fit.T_t_w));
-    if (tp::is_ok(fit.status))
-      TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(fit.T_t_w) && tp::is_finite(fit.cost) && fit.cost >= 0 &&
-                             std::abs(fit.zncc) <= 1.0001);
+    check_pose(fit, start);
   });
 }
 
@@ -173,16 +168,9 @@ void window(Input& in) {
   options.scale_frame_b = in.integer(-1, frames);
   const bool camera_finite = unknown.camera.valid();
   tp::WindowWorkspace workspace;
-  const tp::WindowSummary summary = tp::solve_window(w, options, workspace);
-  TEXTPLANE_FUZZ_REQUIRE(!std::isnan(summary.final_cost) || !tp::is_ok(summary.status));
-  for (const tp::WindowFrame& f : w.frames) {
-    TEXTPLANE_FUZZ_REQUIRE(!poses_finite || tp::all_finite(f.T_w_c));
-    TEXTPLANE_FUZZ_REQUIRE(!tp::is_ok(summary.status) || tp::all_finite(f.velocity));
-  }
+  check_window(tp::solve_window(w, options, workspace), w, poses_finite);
   if (camera_finite && w.calibration)
     TEXTPLANE_FUZZ_REQUIRE(unknown.camera.valid() && tp::all_finite(unknown.covariance));
-  if (tp::is_ok(summary.status) && w.texts.empty())
-    TEXTPLANE_FUZZ_REQUIRE(summary.final_cost <= summary.initial_cost * (1 + 1e-9));
 }
 
 }  // namespace

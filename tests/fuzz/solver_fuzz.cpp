@@ -1,12 +1,10 @@
 // The solvers on any input: a pose that comes back is finite where the first one was, an ok status comes with finite
 // numbers, and the cost is never worse than at the start.
-#include <cmath>
 #include <vector>
 
+#include "fuzz_solvers.hpp"
 #include "fuzz_world.hpp"
 #include "textplane/solver/plane.hpp"
-#include "textplane/solver/pose.hpp"
-#include "textplane/solver/window.hpp"
 
 namespace textplane_fuzz {
 namespace {
@@ -35,10 +33,8 @@ void pose(Input& in) {
   on_every_target([&](tp::simd::Target) {
     const tp::PoseFit fit = tp::refine_pose(texts.data(), text_count, points.data(), point_count, world.target.view(),
                                             world.camera, start, options, workspace, zncc.data(), chi2.data());
-    TEXTPLANE_FUZZ_REQUIRE(!tp::all_finite(start) || tp::all_finite(fit.T_t_w));
+    check_pose(fit, start);
     if (!tp::is_ok(fit.status)) return;
-    TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(fit.T_t_w) && tp::is_finite(fit.cost) && fit.cost >= 0 &&
-                           std::abs(fit.zncc) <= 1.0001);
     if (text_count > 0 || options.coarsest_level > 0) return;  // the visible pixels may differ,
     for (const float c : chi2)
       if (c < 0) return;  // and a point behind the camera may come before it
@@ -119,12 +115,7 @@ void window(Input& in) {
   options.scale_frame_b = in.integer(-2, frames);
   options.text_level = in.integer(-1, 3);
   tp::WindowWorkspace workspace;
-  const tp::WindowSummary summary = tp::solve_window(w, options, workspace);
-  TEXTPLANE_FUZZ_REQUIRE(!std::isnan(summary.final_cost) || !tp::is_ok(summary.status));
-  if (poses_finite)
-    for (const tp::WindowFrame& frame : w.frames) TEXTPLANE_FUZZ_REQUIRE(tp::all_finite(frame.T_w_c));
-  if (tp::is_ok(summary.status) && texts == 0)
-    TEXTPLANE_FUZZ_REQUIRE(summary.final_cost <= summary.initial_cost * (1 + 1e-9));
+  check_window(tp::solve_window(w, options, workspace), w, poses_finite);
 }
 
 }  // namespace
