@@ -4,14 +4,14 @@ if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" OR CMAKE_CROSSCOMPILING
   return()
 endif()
 
-# Kernels and solvers on a CPU without AVX, on its target sse41; scalar is the same there as here. A whole program is
-# one test for ctest, as starting the emulator takes longer than most tests. (Features use the kernels alone, on images
-# too large for it; the kernels' own tests take minutes in it, and run on sse41 without it, too.)
+# With TEXTPLANE_TEST_LONG kernels and solvers on a CPU without AVX, on its target sse41; scalar is the same there as here, and
+# sse41 runs without the emulator, too. A whole program is one test for ctest, as starting the emulator takes longer than
+# most tests. (Features use the kernels alone, on images too large for it.)
 find_program(TEXTPLANE_QEMU_X86_64 qemu-x86_64)
 if(TEXTPLANE_QEMU_X86_64)
-  set(rooms vectors photometry)
+  set(rooms)
   if(TEXTPLANE_TEST_LONG)
-    list(APPEND rooms simd solver)
+    set(rooms vectors photometry simd solver)
   endif()
   foreach(room IN LISTS rooms)
     if(NOT TARGET test_${room})
@@ -25,12 +25,17 @@ if(TEXTPLANE_QEMU_X86_64)
         PASS_REGULAR_EXPRESSION "targets run:[a-z0-9 ]* sse41\n[^|]*PASSED" FAIL_REGULAR_EXPRESSION "FAILED")
     endif()
   endforeach()
-  # A CPU with AVX2 and without AVX-512 runs the target avx2.
-  if(TARGET test_vectors)
-    add_test(NAME emulation.haswell.dispatch COMMAND ${TEXTPLANE_QEMU_X86_64} -cpu Haswell $<TARGET_FILE:test_vectors> --gtest_brief=1 --gtest_filter=Dispatch.*)
-    set_tests_properties(emulation.haswell.dispatch PROPERTIES LABELS emulation TIMEOUT 600
-      PASS_REGULAR_EXPRESSION "targets run: scalar sse41 avx2\n[^|]*PASSED" FAIL_REGULAR_EXPRESSION "FAILED")
-  endif()
+  # A CPU without AVX runs the target sse41, one with AVX2 and without AVX-512 the target avx2.
+  foreach(cpu_targets "Nehalem| sse41" "Haswell| sse41 avx2")
+    if(NOT TARGET test_vectors)
+      break()
+    endif()
+    string(REGEX MATCH "^([A-Za-z]+)\\|(.*)$" _ ${cpu_targets})
+    string(TOLOWER emulation.${CMAKE_MATCH_1}.dispatch name)
+    add_test(NAME ${name} COMMAND ${TEXTPLANE_QEMU_X86_64} -cpu ${CMAKE_MATCH_1} $<TARGET_FILE:test_vectors> --gtest_brief=1 --gtest_filter=Dispatch.*)
+    set_tests_properties(${name} PROPERTIES LABELS emulation TIMEOUT 600
+      PASS_REGULAR_EXPRESSION "targets run: scalar${CMAKE_MATCH_2}\n[^|]*PASSED" FAIL_REGULAR_EXPRESSION "FAILED")
+  endforeach()
 else()
   message(STATUS "no qemu-x86_64: nothing is run on an old CPU")
 endif()

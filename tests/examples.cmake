@@ -33,7 +33,7 @@ textplane_add_tests(planar LIBRARIES textplane_textslam TIERS ${sanitizers})
 textplane_add_tests(detectors LIBRARIES textplane_plugins LABELS textslam TIERS ${sanitizers} EXCEPT
   sanitizers "ClassicalDetector\\.FindsTheSignsOfClearRooms")
 textplane_add_tests(textslam LIBRARIES textplane_plugins textplane_textslam_map TIERS ${sanitizers} EXCEPT
-  sanitizers "LateDetections\\." WHOLE LateDetections FrameRate)
+  sanitizers "LateDetections\\." WHOLE LateDetections FrameRate RollingRoom)
 textplane_add_tests(map_file LIBRARIES textplane_textslam_map LABELS textslam TIERS ${sanitizers} EXCEPT
   sanitizers "AKill|MergeRooms\\.")
 if(TARGET test_map_file)

@@ -13,9 +13,16 @@
 namespace textslam {
 namespace rolling_room_test {
 
+constexpr int kFrames = 80;
+
+// Rendered once for all.
+const ShortRoom& rolling_room() {
+  static const ShortRoom room(kFrames, "shutter");
+  return room;
+}
+
 TEST(RollingRoom, PosesAndPlanesKnowTheRows) {
-  constexpr int kFrames = 80;
-  const ShortRoom room(kFrames, "shutter");
+  const ShortRoom& room = rolling_room();
   const CameraModel& camera = room.sequence().camera;
   ASSERT_EQ(camera.shutter.readout, 0.03);
   Parameters unknown;
@@ -44,15 +51,14 @@ TEST(RollingRoom, PosesAndPlanesKnowTheRows) {
 
 // By the images alone, before there is a map.
 TEST(RollingRoom, TurnsTellTheReadout) {
-  constexpr std::size_t kFrames = 80;
-  const ShortRoom room(kFrames, "shutter");
+  const ShortRoom& room = rolling_room();
   std::vector<std::size_t> frames(kFrames);
   std::iota(frames.begin(), frames.end(), 0);
   const auto follow = [&](const Sequence& sequence, std::size_t most) {
     return follow_frames(sequence, frames, most, Parameters(), [](const auto&, std::size_t) { return true; });
   };
   const std::vector<FramePair> pairs = follow(room.sequence(), 1000);
-  ASSERT_EQ(pairs.size(), kFrames - 1);
+  ASSERT_EQ(pairs.size(), frames.size() - 1);
   for (const FramePair& pair : pairs) {
     EXPECT_NEAR(pair.seconds, 1 / room.sequence().camera.fps, 1e-6);
     EXPECT_GT(pair.rays.size(), 100U);
@@ -78,8 +84,7 @@ TEST(RollingRoom, TurnsTellTheReadout) {
 
 // A readout that nobody speaks of is looked for, and taken where it counts.
 TEST(RollingRoom, TheRunKnowsTheReadout) {
-  constexpr std::size_t kFrames = 80;
-  const ShortRoom room(kFrames, "shutter");
+  const ShortRoom& room = rolling_room();
   std::vector<std::size_t> frames(kFrames);
   std::iota(frames.begin(), frames.end(), 0);
   CalibrationOptions slight, usual;
@@ -108,7 +113,7 @@ TEST(RollingRoom, TheRunKnowsTheReadout) {
 
 // What is known before the map bounds what a map may take it for.
 TEST(RollingRoom, TheMapStaysByWhatWasKnown) {
-  const ShortRoom room(80, "shutter");
+  const ShortRoom& room = rolling_room();
   const CameraModel& camera = room.sequence().camera;
   Parameters parameters;
   parameters.estimate_readout = true;
@@ -128,8 +133,7 @@ double rmse(const Similarity& alignment, const std::vector<StampedPose>& poses, 
 // is nearly straight. The alignment is that of poses of the middle row: one of other rows would hide most of the time
 // between.
 TEST(RollingRoom, TimeStampsBelongToAnyRow) {
-  constexpr int kFrames = 80;
-  const ShortRoom room(kFrames, "shutter");
+  const ShortRoom& room = rolling_room();
   const Sequence& sequence = room.sequence();
   const CameraModel& camera = sequence.camera;
   System middle(camera.pinhole(), camera.width, camera.height, {}, camera.shutter);
