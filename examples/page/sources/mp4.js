@@ -27,21 +27,25 @@ class Box {
   }
 }
 
-/// The box of the file's top level, read whole.
-async function top_box(file, wanted) {
+/// The boxes of the file's top level: { kind, at, read() }, which reads what is inside.
+async function* top_boxes(file) {
   for (let at = 0; at + 8 <= file.size;) {
     const head = new DataView(await file.slice(at, at + 16).arrayBuffer());
     let size = head.getUint32(0), skip = 8;
     if (size === 1) [size, skip] = [head.getUint32(8) * 2 ** 32 + head.getUint32(12), 16];
     if (size === 0) size = file.size - at;
-    if (size < skip) break;
-    const kind = String.fromCharCode(...new Uint8Array(head.buffer, 4, 4));
-    if (kind === wanted) {
-      const view = new DataView(await file.slice(at + skip, at + size).arrayBuffer());
+    if (size < skip) return;
+    const begin = at + skip, end = at + size;
+    yield { kind: String.fromCharCode(...new Uint8Array(head.buffer, 4, 4)), at, read: async () => {
+      const view = new DataView(await file.slice(begin, end).arrayBuffer());
       return new Box(view, 0, view.byteLength);
-    }
-    at += size;
+    } };
+    at = end;
   }
+}
+
+async function top_box(file, wanted) {
+  for await (const { kind, read } of top_boxes(file)) if (kind === wanted) return read();
   return null;
 }
 
@@ -114,8 +118,12 @@ async function mp4_index(file) {
     if (kind !== "trak" || track.find("mdia/hdlr").kind(8) !== "vide") continue;
     const header = track.find("mdia/mdhd"), table = track.find("mdia/minf/stbl");
     const timescale = header.u8(0) === 1 ? header.u32(20) : header.u32(12);
-    const samples = mp4_samples(table, timescale);
-    if (!samples.length) throw new Error(`${file.name}: MP4 in fragments is not read; ffmpeg -c copy makes it whole`);
+    const id = track.find("tkhd").u32(track.find("tkhd").u8(0) === 1 ? 20 : 12);
+    let samples = mp4_samples(table, timescale);
+    const fragments = movie.find("mvex");
+    for (const [name, trex] of fragments && !samples.length ? fragments.all() : [])
+      if (name === "trex" && trex.u32(4) === id) samples = await fragment_samples(file, id, trex, timescale);
+    if (!samples.length) throw new Error(`${file.name}: there is no frame in it`);
     const [[name, entry]] = table.find("stsd").all(8);
     return { config: mp4_coding(entry, name), samples, turn: mp4_turn(track.find("tkhd")) };
   }
