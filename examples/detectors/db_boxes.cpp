@@ -1,41 +1,72 @@
 #include "detectors/db_boxes.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <utility>
+
+#include "detectors/pieces.hpp"
 
 namespace textslam {
 namespace {
 
+using Point = Vector2<double>;
+
 constexpr double kTall = 1.5;  // height over width of a text that runs downwards
 
-double mean_inside(const cv::Mat& probability, const std::vector<cv::Point>& outline) {
-  const cv::Rect box = cv::boundingRect(outline) & cv::Rect(0, 0, probability.cols, probability.rows);
-  cv::Mat mask = cv::Mat::zeros(box.size(), CV_8U);
-  cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{outline}, 1, cv::LINE_8, 0, -box.tl());
-  return cv::mean(probability(box), mask)[0];
+/// A rectangle whose sides run along `along` and across it, half their lengths in `half`.
+struct Rectangle {
+  Point along = Point::UnitX(), centre = Point::Zero(), half = Point::Zero();
+};
+
+/// Of least area around a convex outline: one of its sides runs along a side of the outline.
+Rectangle least_rectangle(const std::vector<Point>& outline) {
+  Rectangle least;
+  double least_area = -1;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Point side = outline[(i + 1) % outline.size()] - outline[i];
+    if (!(side.squaredNorm() > 0)) continue;
+    const Point along = side.normalized(), across(-along.y(), along.x());
+    Point low(along.dot(outline[0]), across.dot(outline[0])), high = low;
+    for (const Point& p : outline) {
+      const Point q(along.dot(p), across.dot(p));
+      low = low.cwiseMin(q);
+      high = high.cwiseMax(q);
+    }
+    const Point size = high - low, middle = 0.5 * (low + high);
+    if (least_area >= 0 && size.x() * size.y() >= least_area) continue;
+    least_area = size.x() * size.y();
+    least = {along, middle.x() * along + middle.y() * across, 0.5 * size};
+  }
+  return least;
+}
+
+double mean_inside(const DbMap& map, const Piece& core) {
+  double sum = 0;
+  for (int i = 0; i < core.count; ++i) {
+    const float* row = map.probability + static_cast<std::ptrdiff_t>(core[i].y) * map.columns;
+    for (int x = core[i].x0; x <= core[i].x1; ++x) sum += static_cast<double>(row[x]);
+  }
+  return sum / core.area;
 }
 
 // Corners from the text's top left. The text runs along the axis nearest to the horizontal, or downwards if the box is
 // tall.
-Quad<double> oriented(const cv::RotatedRect& rectangle, double grow) {
-  const double turn = static_cast<double>(rectangle.angle) * CV_PI / 180;
-  Vector2<double> along(std::cos(turn), std::sin(turn)), down(-along.y(), along.x());
-  double half_along = rectangle.size.width / 2.0 + grow, half_down = rectangle.size.height / 2.0 + grow;
+Quad<double> oriented(const Rectangle& rectangle, double grow) {
+  Point along = rectangle.along, down(-along.y(), along.x());
+  double half_along = rectangle.half.x() + grow, half_down = rectangle.half.y() + grow;
   while (std::abs(along.x()) < std::abs(along.y()) || along.x() < 0) {
-    const Vector2<double> old = along;
+    const Point old = along;
     along = -down;
     down = old;
     std::swap(half_along, half_down);
   }
   if (half_down > kTall * half_along) {
-    const Vector2<double> old = along;
+    const Point old = along;
     along = down;
     down = -old;
     std::swap(half_along, half_down);
   }
-  const Vector2<double> centre(static_cast<double>(rectangle.center.x), static_cast<double>(rectangle.center.y));
-  const Vector2<double> a = half_along * along, d = half_down * down;
+  const Point a = half_along * along, d = half_down * down, &centre = rectangle.centre;
   Quad<double> quad;
   quad.corner = {centre - a - d, centre + a - d, centre + a + d, centre - a + d};
   return quad;
@@ -43,19 +74,27 @@ Quad<double> oriented(const cv::RotatedRect& rectangle, double grow) {
 
 }  // namespace
 
-std::vector<Detection> decode_db(const cv::Mat& probability, const DbParameters& parameters) {
-  const cv::Mat core = probability > parameters.min_probability;
-  std::vector<std::vector<cv::Point>> outlines;
-  cv::findContours(core, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_SIMPLE);
+std::vector<Detection> decode_db(const DbMap& map, const DbParameters& parameters) {
+  Image<std::uint8_t> core(map.columns, map.rows);
+  for (int y = 0; y < map.rows; ++y) {
+    const float* row = map.probability + static_cast<std::ptrdiff_t>(y) * map.columns;
+    for (int x = 0; x < map.columns; ++x)
+      core(x, y) = std::isfinite(row[x]) && static_cast<double>(row[x]) > parameters.min_probability ? 1 : 0;
+  }
+  Pieces cores;
+  cores.find(core.view(), Touch::corners);
   std::vector<Detection> boxes;
-  for (const std::vector<cv::Point>& outline : outlines) {
-    const cv::RotatedRect rectangle = cv::minAreaRect(outline);
-    const double width = static_cast<double>(rectangle.size.width), height = static_cast<double>(rectangle.size.height);
-    if (std::min(width, height) < parameters.min_side) continue;
+  std::vector<Point> outline;
+  for (int i = 0; i < cores.size(); ++i) {
+    const Piece piece = cores[i];
+    trace_outline(piece, 0, outline);
+    const Rectangle rectangle = least_rectangle(outline);
+    const Point size = 2 * rectangle.half;
+    if (size.minCoeff() < parameters.min_side) continue;
     Detection box;
-    box.score = mean_inside(probability, outline);
+    box.score = mean_inside(map, piece);
     if (box.score < parameters.min_score) continue;
-    box.quad = oriented(rectangle, parameters.unclip * width * height / (2 * (width + height)));
+    box.quad = oriented(rectangle, parameters.unclip * size.prod() / (2 * size.sum()));
     boxes.push_back(box);
   }
   return boxes;

@@ -2,7 +2,6 @@
 #ifndef TEXTSLAM_DETECTORS_DB_BOXES_HPP
 #define TEXTSLAM_DETECTORS_DB_BOXES_HPP
 
-#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "io/detections.hpp"
@@ -16,9 +15,16 @@ struct DbParameters {
   double min_side = 3;           ///< px of the map, before it grows.
 };
 
-/// `probability`: CV_32F. Rectangles of least area around the cores, grown, in px of the map and in the order of
-/// OpenCV's contours. Text is assumed to run to the right, or downwards if the box is 1.5 times as high as wide.
-std::vector<Detection> decode_db(const cv::Mat& probability, const DbParameters& parameters);
+/// The map, row by row.
+struct DbMap {
+  int rows = 0, columns = 0;
+  const float* probability = nullptr;
+};
+
+/// Rectangles of least area around the cores, grown, in px of the map and in the order of the cores' first pixels. A
+/// value that is not finite is part of no core. Text is assumed to run to the right, or downwards if the box is 1.5
+/// times as high as wide.
+std::vector<Detection> decode_db(const DbMap& map, const DbParameters& parameters);
 
 }  // namespace textslam
 

@@ -14,6 +14,7 @@
 
 #include "detectors/db_boxes.hpp"
 #include "detectors/east_boxes.hpp"
+#include "detectors/network_input.hpp"
 #include "textslam/detect/text_detector.hpp"
 
 namespace textslam {
@@ -39,7 +40,7 @@ class DnnDetector final : public TextDetector {
   bool is_east() const { return outputs_.size() == 2; }
 
  private:
-  std::vector<cv::Mat> forward(const cv::Mat& image, int width, int height);
+  std::vector<cv::Mat> forward(const cv::Mat& image, const NetworkSize& size);
   std::string reason_it_is_wrong();
 
   std::string model_;

@@ -1,11 +1,8 @@
 #include "detectors/dnn_reader.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 
-#include "detectors/line_picture.hpp"
 #include "detectors/quiet_opencv.hpp"
 #include "io/input_error.hpp"
 #include "io/text_file.hpp"
@@ -19,26 +16,7 @@ std::string letters_file(const std::string& model) {
 
 }  // namespace
 
-TextReader::Reading decode_ctc(const float* probability, int steps, int classes,
-                               const std::vector<std::string>& letters) {
-  TextReader::Reading reading;
-  reading.text.clear();
-  int said = 0, count = 0;
-  for (int step = 0; step < steps; ++step) {
-    const float* row = probability + static_cast<std::ptrdiff_t>(step) * classes;
-    const int best = static_cast<int>(std::max_element(row, row + classes) - row);
-    if (best != 0 && best != said) {
-      reading.text += best == classes - 1 ? " " : letters[static_cast<std::size_t>(best - 1)];
-      reading.score += static_cast<double>(row[best]);
-      ++count;
-    }
-    said = best;
-  }
-  if (count > 0) reading.score /= count;
-  return reading;
-}
-
-DnnReader::DnnReader(const std::string& model, const DnnReaderParameters& parameters) : parameters_(parameters) {
+DnnReader::DnnReader(const std::string& model, const RecogniserParameters& parameters) : parameters_(parameters) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(model, error))
     throw InputError(model, 0, "no such model; scripts/get-detector --reader obtains one, --words-model names another");
@@ -61,29 +39,18 @@ DnnReader::DnnReader(const std::string& model, const DnnReaderParameters& parame
 
 cv::Mat DnnReader::forward(const Image<std::uint8_t>& picture) {
   const std::array<int, 4> shape = {1, 3, parameters_.height, parameters_.width};
-  cv::Mat blob(4, shape.data(), CV_32F, cv::Scalar(0));
-  for (int c = 0; c < 3; ++c)
-    for (int y = 0; y < std::min(parameters_.height, picture.height()); ++y) {
-      float* row = blob.ptr<float>(0, c) + static_cast<std::ptrdiff_t>(y) * parameters_.width;
-      for (int x = 0; x < std::min(parameters_.width, picture.width()); ++x)
-        row[x] = static_cast<float>(picture(x, y)) / 127.5F - 1;
-    }
+  cv::Mat blob(4, shape.data(), CV_32F);
+  recogniser_input(picture, parameters_.width, parameters_.height, blob.ptr<float>());
   net_.setInput(blob);
   return net_.forward();
 }
 
 TextReader::Reading DnnReader::read(ImageView8 raw_image, const Quad<double>& quad) {
-  const double inner = parameters_.height / (1 + 2 * parameters_.margin);
-  const double longest = parameters_.width / inner - 2 * parameters_.margin;
-  const Image<std::uint8_t> picture =
-      line_picture(raw_image, quad, static_cast<int>(std::lround(inner)), parameters_.margin, longest);
+  const Image<std::uint8_t> picture = recogniser_picture(raw_image, quad, parameters_);
   if (picture.width() == 0) return {};
   const QuietOpenCv quiet;
   const cv::Mat output = forward(picture);
-  Reading reading = decode_ctc(output.ptr<float>(), output.size[1], output.size[2], letters_);
-  reading.text = word_of(reading.text);
-  if (reading.text.empty() || reading.score < parameters_.min_confidence) return {};
-  return reading;
+  return read_word(output.ptr<float>(), output.size[1], output.size[2], letters_, parameters_);
 }
 
 std::unique_ptr<TextReader> make_dnn_reader(const DetectorOptions& options) {

@@ -1,6 +1,5 @@
-// DnnReader: the words of quads by a recogniser that OpenCV runs: a network with CTC output, such as PP-OCR's
-// (scripts/get-detector --reader). The output is [1, steps, letters]: the blank, the letters of the list beside the
-// model, the space.
+// DnnReader: the words of quads by a recogniser that OpenCV runs (line_recogniser.hpp; scripts/get-detector --reader).
+// The output is [1, steps, letters]: the blank, the letters of the list beside the model, the space.
 #ifndef TEXTSLAM_DETECTORS_DNN_READER_HPP
 #define TEXTSLAM_DETECTORS_DNN_READER_HPP
 
@@ -9,34 +8,22 @@
 #include <string>
 #include <vector>
 
-#include "textslam/detect/text_detector.hpp"
+#include "detectors/line_recogniser.hpp"
 
 namespace textslam {
-
-struct DnnReaderParameters {
-  int height = 48;              ///< px of the network's input,
-  int width = 320;              ///< longer lines are squeezed into it, shorter ones padded.
-  double margin = 0.1;          ///< Of a quad's height, around it.
-  double min_confidence = 0.5;  ///< 0 to 1: mean probability of the letters.
-};
-
-/// CTC's best path: the likeliest class of each step, without repetitions and blanks (class 0). `probability`: steps x
-/// classes, row by row. `letters` are the classes from 1 on; the last class is the space.
-TextReader::Reading decode_ctc(const float* probability, int steps, int classes,
-                               const std::vector<std::string>& letters);
 
 class DnnReader final : public TextReader {
  public:
   /// The list of letters, one a line, is `model` with the ending .txt. Throws InputError with the name of a file that
   /// is missing, does not load or run, or does not fit.
-  explicit DnnReader(const std::string& model, const DnnReaderParameters& parameters = {});
+  explicit DnnReader(const std::string& model, const RecogniserParameters& parameters = {});
 
   Reading read(ImageView8 raw_image, const Quad<double>& quad) override;
 
  private:
   cv::Mat forward(const Image<std::uint8_t>& picture);
 
-  DnnReaderParameters parameters_;
+  RecogniserParameters parameters_;
   cv::dnn::Net net_;
   std::vector<std::string> letters_;
 };

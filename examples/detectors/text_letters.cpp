@@ -10,94 +10,6 @@ namespace {
 
 using Point = Vector2<double>;
 
-int root_of(std::vector<InkRun>& runs, int i) {
-  while (runs[at(i)].parent != i) {
-    runs[at(i)].parent = runs[at(runs[at(i)].parent)].parent;
-    i = runs[at(i)].parent;
-  }
-  return i;
-}
-
-/// Runs a and b touch. The earlier root stays, so that results do not depend on the order of joins.
-void join(std::vector<InkRun>& runs, int a, int b) {
-  const int i = root_of(runs, a), j = root_of(runs, b);
-  const int low = std::min(i, j), high = std::max(i, j);
-  if (low != high) {
-    runs[at(high)].parent = low;
-    runs[at(low)].joints += runs[at(high)].joints;
-  }
-  ++runs[at(low)].joints;
-}
-
-/// Fills scratch.runs; runs of neighbouring rows touch where they share a column (4-connectivity keeps letters apart).
-void collect_runs(const Image<std::uint8_t>& ink, std::vector<InkRun>& runs) {
-  runs.clear();
-  int above = 0, above_end = 0;
-  for (int y = 0; y < ink.height(); ++y) {
-    const int start = static_cast<int>(runs.size());
-    const std::uint8_t* row = ink.row(y);
-    for (int x = 0; x < ink.width();) {
-      const std::uint8_t value = row[x];
-      const int x0 = x;
-      while (x < ink.width() && row[x] == value) ++x;
-      if (value == kPaper) continue;
-      const int self = static_cast<int>(runs.size());
-      runs.push_back({y, x0, x - 1, self, 0, value});
-      while (above < above_end && runs[at(above)].x1 < x0) ++above;
-      for (int i = above; i < above_end && runs[at(i)].x0 < x; ++i)
-        if (runs[at(i)].ink == value) join(runs, i, self);
-    }
-    above = start;
-    above_end = static_cast<int>(runs.size());
-  }
-}
-
-/// Sorts the runs by piece (counting sort); returns the number of pieces.
-int sort_by_piece(LetterScratch& scratch) {
-  const int count = static_cast<int>(scratch.runs.size());
-  scratch.piece.resize(scratch.runs.size());
-  int pieces = 0;
-  for (int i = 0; i < count; ++i) {
-    const int root = root_of(scratch.runs, i);
-    scratch.piece[at(i)] = root == i ? pieces++ : scratch.piece[at(root)];
-  }
-  scratch.first.assign(at(pieces) + 1, 0);
-  for (int i = 0; i < count; ++i) ++scratch.first[at(scratch.piece[at(i)]) + 1];
-  for (std::size_t p = 0; p < at(pieces); ++p) scratch.first[p + 1] += scratch.first[p];
-  scratch.order.resize(scratch.runs.size());
-  std::vector<int>& place = scratch.distance;
-  place.assign(scratch.first.begin(), scratch.first.end());
-  for (int i = 0; i < count; ++i) scratch.order[at(place[at(scratch.piece[at(i)])]++)] = i;
-  return pieces;
-}
-
-/// The runs of one piece, row by row, and their bounds.
-struct Piece {
-  const InkRun* runs;
-  const int* order;
-  int count;
-  int x0, y0, x1, y1, area;
-
-  const InkRun& operator[](int i) const { return runs[order[i]]; }
-  int width() const { return x1 - x0 + 1; }
-  int height() const { return y1 - y0 + 1; }
-};
-
-Piece piece_of(const LetterScratch& scratch, int p) {
-  const int begin = scratch.first[at(p)], end = scratch.first[at(p) + 1];
-  Piece piece{scratch.runs.data(), scratch.order.data() + begin, end - begin, 0, 0, 0, 0, 0};
-  piece.x0 = piece[0].x0;
-  piece.x1 = piece[0].x1;
-  piece.y0 = piece[0].y;
-  piece.y1 = piece[piece.count - 1].y;
-  for (int i = 0; i < piece.count; ++i) {
-    piece.x0 = std::min(piece.x0, piece[i].x0);
-    piece.x1 = std::max(piece.x1, piece[i].x1);
-    piece.area += piece[i].x1 - piece[i].x0 + 1;
-  }
-  return piece;
-}
-
 bool has_letter_shape(const Piece& piece, const ImageView8& image, const ClassicalParameters& parameters) {
   const int longer = std::max(piece.width(), piece.height()), shorter = std::min(piece.width(), piece.height());
   if (longer < parameters.min_size || longer > parameters.max_size || piece.area < parameters.min_area) return false;
@@ -124,7 +36,7 @@ struct Moments {
 bool measure_tones(const Piece& piece, const ImageView8& image, const ClassicalParameters& parameters, Letter& letter) {
   Moments ink, paper;
   for (int i = 0; i < piece.count; ++i) {
-    const InkRun& run = piece[i];
+    const PixelRun& run = piece[i];
     const std::uint8_t* row = image.row(run.y);
     for (int x = run.x0; x <= run.x1; ++x) ink.add(row[x]);
     // The first pixels outside are blurred; the farther ones may belong to the next letter.
@@ -173,27 +85,6 @@ bool measure_stroke(const Piece& piece, const ClassicalParameters& parameters, s
          ridge.deviation() <= parameters.max_stroke_spread * ridge.mean();
 }
 
-/// Convex hull of the runs' corners. Runs come row by row, so each side is a chain that needs no sorting.
-void trace_outline(const Piece& piece, std::vector<Point>& outline) {
-  const auto turn = [](const Point& a, const Point& b, const Point& c) {
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-  };
-  const auto extend = [&](std::size_t base, const Point& p) {
-    while (outline.size() >= base + 2 && turn(outline[outline.size() - 2], outline.back(), p) <= 0) outline.pop_back();
-    outline.push_back(p);
-  };
-  outline.clear();
-  for (int i = 0; i < piece.count; ++i) {
-    if (i + 1 < piece.count && piece[i + 1].y == piece[i].y) continue;
-    for (const double half : {-0.5, 0.5}) extend(0, {piece[i].x1 + 0.5, piece[i].y + half});
-  }
-  const std::size_t base = outline.size();
-  for (int i = piece.count - 1; i >= 0; --i) {
-    if (i > 0 && piece[i - 1].y == piece[i].y) continue;
-    for (const double half : {0.5, -0.5}) extend(base, {piece[i].x0 - 0.5, piece[i].y + half});
-  }
-}
-
 }  // namespace
 
 Extent extent(const Letter& letter, const Vector2<double>& direction) {
@@ -209,20 +100,19 @@ Extent extent(const Letter& letter, const Vector2<double>& direction) {
 void find_letters(const ImageView8& image, const Image<std::uint8_t>& ink, const ClassicalParameters& parameters,
                   LetterScratch& scratch, std::vector<Letter>& letters) {
   letters.clear();
-  collect_runs(ink, scratch.runs);
-  const int pieces = sort_by_piece(scratch);
+  scratch.pieces.find(ink.view(), Touch::sides);  // what touches by corners would tie letters together
   Letter letter;
-  for (int p = 0; p < pieces; ++p) {
-    if (scratch.first[at(p) + 1] - scratch.first[at(p)] < 2) continue;
-    const Piece piece = piece_of(scratch, p);
+  for (int p = 0; p < scratch.pieces.size(); ++p) {
+    if (scratch.pieces.runs_of(p) < 2) continue;
+    const Piece piece = scratch.pieces[p];
     if (!has_letter_shape(piece, image, parameters)) continue;
-    letter.light = piece[0].ink == kLightInk;
+    letter.light = piece[0].value == kLightInk;
     letter.centre = {0.5 * (piece.x0 + piece.x1), 0.5 * (piece.y0 + piece.y1)};
     letter.size = std::max(piece.width(), piece.height());
     letter.area = piece.area;
     if (!measure_tones(piece, image, parameters, letter)) continue;
     if (!measure_stroke(piece, parameters, scratch.distance, letter)) continue;
-    trace_outline(piece, letter.outline);
+    trace_outline(piece, 0.5, letter.outline);
     letters.push_back(letter);
   }
 }

@@ -2,24 +2,13 @@
 #ifndef TEXTSLAM_DETECTORS_TEXT_LETTERS_HPP
 #define TEXTSLAM_DETECTORS_TEXT_LETTERS_HPP
 
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "detectors/classical_parameters.hpp"
+#include "detectors/pieces.hpp"
 #include "io/names.hpp"
 
 namespace textslam {
-
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// A stretch of equal ink in one row, x0 to x1 inclusive.
-struct InkRun {
-  int y, x0, x1;
-  int parent;  ///< union-find over runs; a root is the first run of its piece
-  int joints;  ///< of a root: pairs of runs of its piece that touch
-  std::uint8_t ink;
-};
 
 /// A piece of ink that may be a letter. Lengths in px of the image it was found in; tones in grey levels.
 struct Letter {
@@ -43,8 +32,7 @@ Extent extent(const Letter& letter, const Vector2<double>& direction);
 
 /// Memory that find_letters() keeps from call to call.
 struct LetterScratch {
-  std::vector<InkRun> runs;
-  std::vector<int> piece, first, order;  ///< of runs: their piece; of pieces: where their runs start in `order`
+  Pieces pieces;
   std::vector<int> distance;
 };
 

@@ -73,7 +73,7 @@ async function begin(name, open) {
       notice(message);
       if (!live.newest) finish();
     },
-  });
+  }, by_id("detector").value === "network" ? window.textslam_network : null);
   const finish = () => {
     by_id("progress").value = 1;
     by_id("stop").hidden = true;
@@ -101,6 +101,22 @@ async function open_files(files) {
     notice(error.message);
   }
 }
+
+/// detector.js beside the page brings a network (scripts/get-detector --page). It is large: it is loaded when it is chosen.
+function choose_detector() {
+  if (by_id("detector").value !== "network" || window.textslam_network) return notice("");
+  const script = document.createElement("script");
+  script.src = "detector.js";
+  by_id("choose").inert = true;
+  script.onload = () => { by_id("choose").inert = false; };
+  script.onerror = () => {
+    by_id("choose").inert = false;
+    by_id("detector").value = "classical";
+    notice("There is no detector.js beside this page. scripts/get-detector --page writes it.");
+  };
+  document.head.append(script);
+}
+by_id("detector").addEventListener("change", choose_detector);
 
 for (const [button, input] of [["open-files", "files"], ["open-folder", "folder"]]) {
   by_id(button).addEventListener("click", () => by_id(input).click());

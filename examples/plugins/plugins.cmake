@@ -6,11 +6,11 @@ option(TEXTSLAM_VIDEO "Read video files (Debian: libavformat-dev libavcodec-dev 
 textplane_add_example_library(plugins textplane_textslam)
 # Those of detectors/ that need no library; the others follow.
 file(GLOB detectors CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/detectors/*.cpp)
-list(FILTER detectors EXCLUDE REGEX "/(db|dnn|tesseract)_[a-z]+\\.cpp$")
+list(FILTER detectors EXCLUDE REGEX "/(dnn|tesseract)_[a-z]+\\.cpp$")
 target_sources(textplane_plugins PRIVATE ${detectors})
 if(TEXTSLAM_DNN)
   find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs dnn)
-  target_sources(textplane_plugins PRIVATE detectors/db_boxes.cpp detectors/dnn_detector.cpp detectors/dnn_reader.cpp)
+  target_sources(textplane_plugins PRIVATE detectors/dnn_detector.cpp detectors/dnn_reader.cpp)
   target_link_libraries(textplane_plugins PUBLIC opencv_core opencv_imgproc opencv_imgcodecs opencv_dnn)
   target_compile_definitions(textplane_plugins PUBLIC TEXTSLAM_WITH_DNN
     PRIVATE TEXTSLAM_DEFAULT_MODEL="${PROJECT_SOURCE_DIR}/models/ppocrv4_det.onnx"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "detectors/boxes_support.hpp"
 #include "detectors/east_boxes.hpp"
 #include "detectors/line_picture.hpp"
 #include "io/io_support.hpp"
@@ -11,8 +12,6 @@
 #include "textslam/detect/text_detector.hpp"
 
 #ifdef TEXTSLAM_WITH_DNN
-#include <opencv2/imgproc.hpp>
-
 #include "detectors/dnn_detector.hpp"
 #include "detectors/dnn_reader.hpp"
 #endif
@@ -24,19 +23,6 @@ namespace textslam {
 namespace {
 
 using Point = Vector2<double>;
-
-Quad<double> turned_box(Point centre, double wide, double high, double turn) {
-  const Point a = wide / 2 * Point(std::cos(turn), std::sin(turn)),
-              d = high / 2 * Point(-std::sin(turn), std::cos(turn));
-  Quad<double> quad;
-  quad.corner = {centre - a - d, centre + a - d, centre + a + d, centre - a + d};
-  return quad;
-}
-
-void expect_quad(const Quad<double>& found, const Quad<double>& expected, double tolerance) {
-  for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_LT((found.corner[k] - expected.corner[k]).norm(), tolerance) << "corner " << k << ": " << found.corner[k];
-}
 
 /// EAST's maps as a network would give them for boxes: of every cell inside one, its distances to the sides.
 class DrawnMaps {
@@ -131,31 +117,6 @@ TEST(Detectors, APlugInThatWasNotBuiltTellsHowToBuildIt) {
   expect_input_error([&] { make_detector(options, Sequence()); }, "--detector dnn", 0, "-DTEXTSLAM_DNN=ON");
 }
 #else
-TEST(DbBoxes, BoxesOfTheCoresGrow) {
-  cv::Mat map = cv::Mat::zeros(200, 300, CV_32F);
-  const auto fill = [&](const Quad<double>& box, double value) {
-    std::vector<cv::Point> corners;
-    for (const Point& c : box.corner)
-      corners.emplace_back(static_cast<int>(std::lround(c.x())), static_cast<int>(std::lround(c.y())));
-    cv::fillPoly(map, std::vector<std::vector<cv::Point>>{corners}, value);
-  };
-  const auto grown = [](Point centre, double wide, double high, double turn) {
-    const double by = 2 * 1.5 * wide * high / (2 * (wide + high));
-    return turned_box(centre, wide + by, high + by, turn);
-  };
-  fill(turned_box({100, 50}, 120, 16, 0.2), 0.9);
-  fill(turned_box({240, 120}, 14, 90, 0), 0.8);  // tall: the text runs downwards
-  fill(turned_box({80, 150}, 60, 12, 0), 0.4);   // too doubtful as a whole
-  fill(turned_box({150, 120}, 1, 1, 0), 1);      // too small
-  std::vector<Detection> found = decode_db(map, DbParameters());
-  ASSERT_EQ(found.size(), 2u);
-  if (found[0].quad.corner[0].x() > 150) std::swap(found[0], found[1]);
-  expect_quad(found[0].quad, grown({100, 50}, 120, 16, 0.2), 2);
-  EXPECT_NEAR(found[0].score, 0.9, 1e-3);
-  const Quad<double> tall = grown({240, 120}, 14, 90, 0);
-  expect_quad(found[1].quad, {{tall.corner[1], tall.corner[2], tall.corner[3], tall.corner[0]}}, 2);
-}
-
 TEST(DnnDetector, MissingAndWrongModelsAreNamed) {
   expect_input_error([] { DnnDetector("/nowhere/model.onnx"); }, "/nowhere/model.onnx", 0, "scripts/get-detector");
   const TemporaryFolder folder;
@@ -163,20 +124,6 @@ TEST(DnnDetector, MissingAndWrongModelsAreNamed) {
     const std::string path = folder.write(name, "no network\n");
     expect_input_error([&] { DnnDetector{path}; }, path, 0, "not a text detector");
   }
-}
-
-TEST(DnnReader, TheBestPathOfCtc) {
-  const std::vector<std::string> letters = {"a", "b"};  // classes: blank, a, b, space
-  const auto said = [&](const std::vector<int>& classes) {
-    std::vector<float> probability(4 * classes.size(), 0.1F);
-    for (std::size_t i = 0; i < classes.size(); ++i)
-      probability[4 * i + static_cast<std::size_t>(classes[i])] = classes[i] == 2 ? 0.5F : 0.7F;
-    return decode_ctc(probability.data(), static_cast<int>(classes.size()), 4, letters);
-  };
-  EXPECT_EQ(said({0, 1, 1, 0, 1, 3, 2, 2}).text, "aa b") << "twice the same letter only with a blank between";
-  EXPECT_NEAR(said({0, 1, 1, 0, 1, 3, 2, 2}).score, (3 * 0.7 + 0.5) / 4, 1e-6);
-  EXPECT_EQ(said({0, 0}).text, "");
-  EXPECT_EQ(said({0, 0}).score, 0);
 }
 
 TEST(DnnReader, MissingAndWrongModelsAreNamed) {

@@ -1,7 +1,7 @@
 // Grey values of a picture: an ImageBitmap or a VideoFrame, which is closed by its owner.
 "use strict";
 
-let canvas = null;
+let canvas = null, with_colours = false;
 
 /// The size in which a picture is looked at: its longer side at most `side` px; 0: as it is.
 function fitted(width, height, side) {
@@ -18,7 +18,8 @@ function by_canvas(picture, side, turn = 0) {
   pen.setTransform(1, 0, 0, 1, width / 2, height / 2);
   pen.rotate(turn * Math.PI / 2);
   pen.drawImage(picture, -w / 2, -h / 2, w, h);
-  return { width, height, pixels: engine.grey_of(pen.getImageData(0, 0, width, height).data) };
+  const { data } = pen.getImageData(0, 0, width, height);
+  return { width, height, pixels: engine.grey_of(data), colours: with_colours ? data : null };
 }
 
 const PLANAR = ["I420", "I420A", "I422", "I444", "NV12"];
@@ -37,10 +38,11 @@ async function luma(frame) {
 }
 const FULL_RANGE = Uint8Array.from({ length: 256 }, (_, v) => Math.max(0, Math.min(255, Math.round((v - 16) * 255 / 219))));
 
-/// { width, height, pixels }. The way of the least work that the picture allows.
+/// { width, height, pixels, colours }, these where they are wanted: red, green, blue and alpha. The way of the least work
+/// that the picture allows.
 async function grey_picture(picture, side = 0, turn = 0) {
   const rect = picture.visibleRect;
-  const as_is = rect && turn === 0 && PLANAR.includes(picture.format) && rect.width === picture.displayWidth &&
+  const as_is = rect && turn === 0 && !with_colours && PLANAR.includes(picture.format) && rect.width === picture.displayWidth &&
     rect.height === picture.displayHeight && fitted(rect.width, rect.height, side)[0] === rect.width;
   return as_is ? luma(picture) : by_canvas(picture, side, turn);
 }

@@ -1,13 +1,15 @@
-// The worker of the eyes: reads frames ahead of the system, as grey values, and detects text in those that it is sent.
+// The worker of the eyes: reads frames ahead of the system, as grey values, with their colours where a network looks; and
+// detects text, by the built-in detector, in those that it is sent.
 "use strict";
 
 const AHEAD = 6;  // frames that wait for the system
-let engine = null, mapper = null, credit = AHEAD, wake = null, stopped = false, dropped = 0, last_time = -Infinity;
+let engine = null, mapper = null, detections = null, credit = AHEAD, wake = null, stopped = false, dropped = 0, last_time = -Infinity;
 
-function send(time, { width, height, pixels }) {
+function send(time, { width, height, pixels, colours }) {
   --credit;
   last_time = time;
-  mapper.postMessage({ type: "frame", time, width, height, pixels }, [pixels.buffer]);
+  const moved = colours ? [pixels.buffer, colours.buffer] : [pixels.buffer];
+  mapper.postMessage({ type: "frame", time, width, height, pixels, colours }, moved);
 }
 
 async function credited() {
@@ -17,7 +19,7 @@ async function credited() {
 function detect({ frame, pixels, width, height }) {
   engine.put(pixels);
   const { quads, ms } = engine.call("detect", width, height);
-  mapper.postMessage({ type: "detections", frame, quads, ms });
+  detections.postMessage({ type: "detections", frame, quads, ms });
 }
 
 /// Every frame of a file or a folder, in order. A camera sends its own: see camera().
@@ -53,14 +55,14 @@ answer(ready, {
 self.addEventListener("message", ({ data }) => {  // beside what waits
   if (data.type === "mapper") {
     mapper = data.port;
-    const queue = new MessageChannel();
-    answer(ready, { detect }, queue.port2);
-    mapper.onmessage = (message) => {
-      if (message.data.type !== "more") return queue.port1.postMessage(message.data, [message.data.pixels.buffer]);
+    with_colours = !data.detections;
+    mapper.onmessage = () => {  // more, please
       ++credit;
       if (wake) wake();
       wake = null;
     };
+    detections = data.detections;
+    if (detections) answer(ready, { detect }, detections);
   } else if (data.type === "read") {
     ready.then(() => read(data)).catch((error) => {
       self.postMessage({ type: "error", message: error.message || String(error) });

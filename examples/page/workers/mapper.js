@@ -6,7 +6,7 @@
 // when it is done with one.
 "use strict";
 
-let engine = null, eyes = null, run = null;
+let engine = null, eyes = null, detector = null, run = null;
 const FOLDER_OF_OUTPUTS = "/.outputs";
 const FILES = ["report.html", "text_map.json", "text_map.ply", "trajectory.txt", "trajectory_live.txt", "keyframes.txt",
   "camera.yaml", "metrics.json", "timing.json", "text_index.json", "covariances.csv"];
@@ -27,25 +27,25 @@ function open({ folder, video, files }) {
   to_page({ type: "opened", sequence: engine.call("open", `/${folder}`, video) });
 }
 
-function begin({ fov, every, live, calibrate }) {
-  run = { kept: calibrate ? [] : null, fov, every, live, size: null, frames: 0, candidate: null, asked: null, answer: null, asked_at: 0,
+function begin({ fov, every, live, calibrate, detector_name }) {
+  run = { kept: calibrate ? [] : null, fov, every, live, detector_name, size: null, frames: 0, candidate: null, asked: null, answer: null, asked_at: 0,
     map_at: 0, maps: -1, began: 0 };
 }
 
-// The newest frame is what the detector sees next, but a key frame keeps its place.
-function offer(frame, pixels) {
+// The newest frame is what the detector sees next, but a key frame keeps its place. Its image: colours, else grey.
+function offer(frame, image) {
   const { candidate } = run;
   if (!candidate || frame.keyframe || !candidate.keyframe)
-    run.candidate = { frame: frame.frame, keyframe: frame.keyframe, pixels };
+    run.candidate = { frame: frame.frame, keyframe: frame.keyframe, image };
 }
 
 function ask() {
   if (!run.candidate) return;
-  const { frame, pixels } = run.candidate, { width, height } = run.size;
+  const { frame, image } = run.candidate, { width, height } = run.size;
   run.asked = frame;
   run.asked_at = run.frames;
   run.candidate = null;
-  eyes.postMessage({ type: "detect", frame, pixels, width, height }, [pixels.buffer]);
+  detector.postMessage({ type: "detect", frame, width, height, ...image }, [Object.values(image)[0].buffer]);
 }
 
 // What the detector answered goes into the map.
@@ -62,6 +62,7 @@ async function take_answer(wait) {
 /// Frames wait until the camera is known; it is estimated from the first ones.
 async function frame(message) {
   if (!run.kept) return track(message);
+  delete message.colours;  // of hundreds of frames they would take a gigabyte
   run.kept.push(message);
   engine.put(message.pixels);
   engine.call("keep", message.time, message.width, message.height);
@@ -79,9 +80,9 @@ async function calibrate() {
 self.calibrating = (done, total) => { if (done % 10 === 0) to_page({ type: "calibrating", done, total }); };
 
 /// `more`: the next frame may come.
-async function track({ time, width, height, pixels }, more = true) {
+async function track({ time, width, height, pixels, colours }, more = true) {
   if (!run.size) {
-    engine.call("begin", width, height, run.fov);
+    engine.call("begin", width, height, run.fov, run.detector_name);
     run.size = { width, height };
     run.began = performance.now();
   }
@@ -90,7 +91,7 @@ async function track({ time, width, height, pixels }, more = true) {
   engine.put(pixels);
   const seen = engine.call("frame", time, width, height);
   ++run.frames;
-  offer(seen, pixels.slice());
+  offer(seen, colours ? { colours } : { pixels: pixels.slice() });
   if (slot && run.asked === null) ask();
   if (more) eyes.postMessage({ type: "more" });
   const now = performance.now();
@@ -116,8 +117,8 @@ async function end({ dropped }) {
   to_page({ type: "finished", ...result, frames: run.frames, ms, dropped, files }, files.map((f) => f.bytes.buffer));
 }
 
-// The detector's answers must not queue behind the frame that waits for them.
-function detections(message) {
+// The detector's answers do not queue behind the frame that waits for them.
+function take_detections(message) {
   run.answer = message;
   if (run.wake) run.wake();
   run.wake = null;
@@ -127,13 +128,10 @@ const ready = start_engine().then((started) => { engine = started; });
 answer(ready, {
   open,
   begin,
-  eyes({ port }) {
-    eyes = port;
-    const queue = new MessageChannel();
-    answer(Promise.resolve(), { frame, end }, queue.port2);
-    port.onmessage = ({ data }) => {
-      if (data.type === "detections") detections(data);
-      else queue.port1.postMessage(data, data.pixels ? [data.pixels.buffer] : []);
-    };
+  ports({ frames, detections }) {
+    eyes = frames;
+    answer(Promise.resolve(), { frame, end }, eyes);
+    detector = detections;
+    detector.onmessage = ({ data }) => take_detections(data);
   },
 }, self);

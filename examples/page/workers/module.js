@@ -21,6 +21,11 @@ async function start_engine() {
       module._page_grey(count);
       return module.HEAPU8.slice(at, at + count);
     },
+    /// `count` values of a network, in the module's memory: good until the next call.
+    values(count) {
+      const at = module._page_network_values(count) / 4;
+      return module.HEAPF32.subarray(at, at + count);
+    },
   };
 }
 

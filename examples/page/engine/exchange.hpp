@@ -1,0 +1,58 @@
+// What JavaScript and the module share: memory that both write and read, and answers as JSON.
+#ifndef TEXTSLAM_PAGE_EXCHANGE_HPP
+#define TEXTSLAM_PAGE_EXCHANGE_HPP
+
+#include <cstdint>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "io/detections.hpp"
+#include "textslam/common/report_json.hpp"
+
+namespace textslam {
+
+struct Exchange {
+  std::vector<std::uint8_t> pixels;  // of the frame that comes
+  std::vector<float> values;         // into and out of a network
+  std::string answer;
+};
+
+inline Exchange& exchange() {
+  static Exchange one;
+  return one;
+}
+
+/// What `call` returns, as a string that is good until the next answer; {"error": "..."} where it threw, so that no
+/// exception leaves the module.
+template <class Call>
+const char* answer(Call call) {
+  Json out;
+  try {
+    out = call();
+  } catch (const std::bad_alloc&) {
+    out = {{"error", "the browser gives the page no more memory"}};
+  } catch (const std::exception& error) {
+    out = {{"error", error.what()}};
+  }
+  exchange().answer = out.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return exchange().answer.c_str();
+}
+
+/// Each quad as its eight coordinates, clockwise from the text's top left, and its score.
+inline Json quads_json(const std::vector<Detection>& detections) {
+  Json out = Json::array();
+  for (const Detection& detection : detections) {
+    Json one = Json::array();
+    for (const auto& corner : detection.quad.corner)
+      for (const double value : {corner.x(), corner.y()}) one.push_back(value);
+    one.push_back(detection.score);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace textslam
+
+#endif  // TEXTSLAM_PAGE_EXCHANGE_HPP
