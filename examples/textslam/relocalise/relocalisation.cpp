@@ -1,6 +1,8 @@
 #include "textslam/relocalise/relocalisation.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "textplane/geometry/quad.hpp"
 #include "textslam/map/text_views.hpp"
@@ -36,8 +38,60 @@ bool is_clear(const Parameters& parameters, const Relocalisation& found) {
   return found.ok && found.inliers >= parameters.relocalise_clear_share * expected_points(parameters, found);
 }
 
+// Whether most points that either shows are the same, at the same places.
+bool agree(const Relocalisation& a, const Relocalisation& b) {
+  constexpr float kSamePlace = 2;  // px
+  std::map<int, Vec2f> places;
+  for (const Track& track : a.tracks)
+    if (track.point >= 0 && track.inlier) places[track.point] = track.px;
+  int same = 0;
+  for (const Track& track : b.tracks) {
+    const auto place = track.inlier ? places.find(track.point) : places.end();
+    same += place != places.end() && (place->second - track.px).norm() <= kSamePlace ? 1 : 0;
+  }
+  return 2 * same > std::max(a.inliers, b.inliers);
+}
+
+// What gave the pose first stays named where the better one is the same.
 void take_better(Relocalisation other, Relocalisation* found) {
-  if (other.ok && (!found->ok || other.shown() > found->shown())) *found = std::move(other);
+  if (!other.ok || (found->ok && other.shown() <= found->shown())) return;
+  if (found->ok && found->by != FoundBy::nothing && agree(*found, other)) other.by = found->by;
+  *found = std::move(other);
+}
+
+// Key frames that saw a sign, those nearest to where it puts the camera first.
+std::vector<int> nearest_views(const Map& map, const Parameters& parameters, const TextHypothesis& hypothesis) {
+  const TextObject& text = map.text(hypothesis.text);
+  const Vec3 centre = hypothesis.T_c_w.inverse().t;
+  std::vector<std::pair<double, int>> views;
+  const auto add = [&](int id) {
+    if (!map.keyframe(id).culled) views.emplace_back((map.keyframe(id).T_w_c.t - centre).norm(), id);
+  };
+  add(text.host);
+  for (const int id : text.views) add(id);
+  std::sort(views.begin(), views.end());
+  std::vector<int> ids;
+  for (const auto& [distance, id] : views)
+    if (static_cast<int>(ids.size()) < parameters.place_candidates) ids.push_back(id);
+  return ids;
+}
+
+// One small sign gives a rough pose: farther off than points are searched. Then the looks of the points around it tell
+// the pose, and the sign must still stand where the detector saw one.
+Relocalisation recognise_around(const Map& map, const Parameters& parameters, FrameLooks& looks,
+                                const TextHypothesis& hypothesis) {
+  const std::vector<int> keyframes = nearest_views(map, parameters, hypothesis);
+  if (keyframes.empty()) return {};
+  const MatchedPose pose = pose_by_places(map, parameters, looks, keyframes);
+  if (pose.inliers == 0) return {};
+  Relocalisation found = recognise_from(map, parameters, looks.frame(), pose.T_c_w);
+  Quad<double> quad;
+  if (!found.ok || !project_text(map, map.text(hypothesis.text), found.T_c_w, &quad)) return {};
+  const auto& detections = looks.frame().detections;
+  const bool stands = std::any_of(detections.begin(), detections.end(), [&](const Detection& detection) {
+    return textplane::iou(quad, detection.quad) >= parameters.text_shown_iou;
+  });
+  return stands ? found : Relocalisation();
 }
 
 Relocalisation relocalise_by_keyframes(const Map& map, const Parameters& parameters, const Frame& frame) {
@@ -101,11 +155,15 @@ Relocalisation recognise_from(const Map& map, const Parameters& parameters, cons
 }
 
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
-                                   const std::vector<WordMatch>& ways) {
+                                   const std::vector<WordMatch>& ways, FrameLooks* looks) {
   Relocalisation best;
   for (const WordMatch words : ways) {
-    for (const TextHypothesis& hypothesis : text_hypotheses(map, parameters, frame, words))
+    const std::vector<TextHypothesis> hypotheses = text_hypotheses(map, parameters, frame, words);
+    for (const TextHypothesis& hypothesis : hypotheses)
       take_better(recognise_from(map, parameters, frame, hypothesis.T_c_w), &best);
+    for (const TextHypothesis& hypothesis : hypotheses)
+      if (looks != nullptr && !is_clear(parameters, best))
+        take_better(recognise_around(map, parameters, *looks, hypothesis), &best);
     if (is_clear(parameters, best)) break;
   }
   best.by = FoundBy::texts;
@@ -136,7 +194,7 @@ Relocalisation relocalise(const Map& map, const Parameters& parameters, const Fr
                           bool lost) {
   Relocalisation found;
   if (parameters.mode == Mode::text)
-    found = relocalise_by_texts(map, parameters, frame, {WordMatch::same, WordMatch::other});
+    found = relocalise_by_texts(map, parameters, frame, {WordMatch::same, WordMatch::other}, &looks);
   if (!is_clear(parameters, found)) take_better(relocalise_by_keyframes(map, parameters, frame), &found);
   if (is_clear(parameters, found)) return found;
   const int most = lost ? parameters.place_compared : parameters.place_compared_in_passing;

@@ -42,9 +42,10 @@ Relocalisation recognise_from(const Map& map, const Parameters& parameters, cons
 
 /// Of the poses that the frame's detections suggest, one that holds and from which the frame shows most of the map:
 /// from a few corners another may hold by chance. `ways` to compare words are tried one after another until one gives a
-/// clear pose: the image shows most of what the map expects (relocalise_clear_share).
+/// clear pose: the image shows most of what the map expects (relocalise_clear_share). With the frame's `looks`, points
+/// that look like those around a sign help where its own pose is not clear.
 Relocalisation relocalise_by_texts(const Map& map, const Parameters& parameters, const Frame& frame,
-                                   const std::vector<WordMatch>& ways);
+                                   const std::vector<WordMatch>& ways, FrameLooks* looks = nullptr);
 
 /// The first pose that holds of those by the looks of points, in key frames that rank_places() found.
 Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
@@ -52,8 +53,8 @@ Relocalisation relocalise_by_places(const Map& map, const Parameters& parameters
 
 /// Tries the poses that the frame's detections suggest (mode text). Where none is clear, tries the key frames whose
 /// coarsest images correlate best with the frame's, then those with points that look alike, and takes the pose from
-/// which the frame shows most. `looks` are the frame's. A frame that is not lost, but may show this map too, is
-/// compared with fewer of these.
+/// which the frame shows most; where that confirms the pose of what was tried before, `by` names the first. `looks` are
+/// the frame's. A frame that is not lost, but may show this map too, is compared with fewer of these.
 Relocalisation relocalise(const Map& map, const Parameters& parameters, const Frame& frame, FrameLooks& looks,
                           bool lost);
 

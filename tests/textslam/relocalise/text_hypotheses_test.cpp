@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "textslam/lens_support.hpp"
@@ -172,6 +173,48 @@ TEST_F(TextRecoveryTest, APoseThatExplainsLittleIsNotTakenBeforeOthersAreTried) 
   const Relocalisation recovery = relocalise(map, parameters, frame);
   ASSERT_TRUE(recovery.ok);
   EXPECT_GT(recovery.inliers, by_texts.inliers + by_texts.texts);
+  expect_pose(recovery.T_c_w, truth, 0.01, 0.2);
+}
+
+// Key frames and points find the same pose, by chance with some points more.
+TEST_F(TextRecoveryTest, ThePoseOfASignStaysItsOwnWhereOthersConfirmIt) {
+  parameters = at_size(parameters, map.width, map.height);
+  boards.push_back({moved({-0.3, -0.8, 3.3}, {0.1, 0.2, 0}), 4});
+  boards.push_back({moved({-0.7, 0.7, 3.2}, {0.2, -0.1, 0}), 5});
+  map.keyframes[0].frame = frame_at(SE3d{});
+  add_points(0);
+  parameters.relocalise_clear_share = 2;  // no pose is so clear that no others are tried
+  for (const int i : {18, 49}) {          // of sixty, where the points have some more
+    const double x = 0.6 * std::sin(i * 1.7), y = 0.4 * std::sin(i * 2.9);
+    const SE3d truth = moved({x, y, 0.6 * std::sin(i * 0.7)}, {0.2 * x, -0.2 * y, 0.3 * std::sin(i * 3.3)});
+    Frame frame = frame_at(truth);
+    frame.detections = {detection(1, truth, "OPEN")};
+    const Relocalisation sign = relocalise_by_texts(map, parameters, frame, {WordMatch::same});
+    const Relocalisation recovery = relocalise(map, parameters, frame);
+    ASSERT_TRUE(sign.ok && recovery.ok) << i;
+    EXPECT_GT(recovery.shown(), sign.shown());
+    EXPECT_EQ(recovery.by, FoundBy::texts) << i;
+    expect_pose(recovery.T_c_w, truth, 0.01, 0.2);
+  }
+}
+
+// From so far away the pose by the sign alone is off by more than points are searched.
+TEST_F(TextRecoveryTest, PointsAroundASignHelpWhereItsPoseIsRough) {
+  parameters = at_size(parameters, map.width, map.height);
+  boards.push_back({moved({-0.3, -0.8, 3.3}, {0.1, 0.2, 0}), 4});
+  boards.push_back({moved({-0.7, 0.7, 3.2}, {0.2, -0.1, 0}), 5});
+  map.keyframes[0].frame = frame_at(SE3d{});
+  add_points(0);
+  constexpr int i = 67;  // of 120, the one where the search alone fails
+  const double x = 0.8 * std::sin(i * 1.7), y = 0.6 * std::sin(i * 2.9), z = -0.6 + 1.2 * std::sin(i * 0.7);
+  const SE3d truth = moved({x, y, z}, {0.3 * x, -0.3 * y, 0.3 * std::sin(i * 3.3)});
+  Frame frame = frame_at(truth);
+  frame.detections = {detection(1, truth, "OPEN")};
+  FrameLooks looks(frame, parameters);
+  EXPECT_FALSE(relocalise_by_texts(map, parameters, frame, {WordMatch::same}).ok);
+  const Relocalisation recovery = relocalise_by_texts(map, parameters, frame, {WordMatch::same}, &looks);
+  ASSERT_TRUE(recovery.ok);
+  EXPECT_EQ(recovery.by, FoundBy::texts);
   expect_pose(recovery.T_c_w, truth, 0.01, 0.2);
 }
 
