@@ -53,6 +53,13 @@ inline Json quads_json(const std::vector<Detection>& detections) {
   return out;
 }
 
+/// The quad of such a line.
+inline Quad<double> quad_of(const Json& line) {
+  Quad<double> quad;
+  for (std::size_t i = 0; i < 4; ++i) quad.corner[i] = {line.at(2 * i).get<double>(), line.at(2 * i + 1).get<double>()};
+  return quad;
+}
+
 }  // namespace textslam
 
 #endif  // TEXTSLAM_PAGE_EXCHANGE_HPP

@@ -34,8 +34,7 @@ std::vector<Detection> from_json(const std::string& text) {
   std::vector<Detection> out;
   for (const Json& one : Json::parse(text)) {
     Detection detection;
-    for (std::size_t i = 0; i < 4; ++i)
-      detection.quad.corner[i] = {one.at(2 * i).get<double>(), one.at(2 * i + 1).get<double>()};
+    detection.quad = quad_of(one);
     detection.score = one.at(8).get<double>();
     if (one.size() > 9) detection.text = one.at(9).get<std::string>();
     out.push_back(std::move(detection));

@@ -29,14 +29,6 @@ Looked& looked() {
   return one;
 }
 
-Quad<double> quad_of(const std::string& text) {
-  const Json corners = Json::parse(text);
-  Quad<double> quad;
-  for (std::size_t i = 0; i < 4; ++i)
-    quad.corner[i] = {corners.at(2 * i).get<double>(), corners.at(2 * i + 1).get<double>()};
-  return quad;
-}
-
 }  // namespace
 }  // namespace textslam
 
@@ -77,11 +69,13 @@ EMSCRIPTEN_KEEPALIVE const char* page_network_image(int width, int height, int l
 
 /// The quads of the detector's map in that image.
 EMSCRIPTEN_KEEPALIVE const char* page_network_boxes() {
-  return answer([&] {
+  return answer([&]() -> Json {
     const Looked& l = looked();
+    if (exchange().values.size() != static_cast<std::size_t>(l.size.width) * static_cast<std::size_t>(l.size.height))
+      return {{"error", "detector.js: its detector's map has not the size of its input"}};
     std::vector<Detection> found = decode_db({l.size.height, l.size.width, exchange().values.data()}, DbParameters());
     for (Detection& detection : found) to_image(l.size, l.grey.width(), l.grey.height(), &detection.quad);
-    return Json{{"quads", quads_json(found)}};
+    return {{"quads", quads_json(found)}};
   });
 }
 
@@ -89,7 +83,8 @@ EMSCRIPTEN_KEEPALIVE const char* page_network_boxes() {
 EMSCRIPTEN_KEEPALIVE const char* page_network_line(const char* quad) {
   return answer([&] {
     const RecogniserParameters parameters;
-    const Image<std::uint8_t> picture = recogniser_picture(looked().grey.view(), quad_of(quad), parameters);
+    const Image<std::uint8_t> picture =
+        recogniser_picture(looked().grey.view(), quad_of(Json::parse(quad)), parameters);
     const int width = std::min(parameters.width, (picture.width() + kLineStep - 1) / kLineStep * kLineStep);
     page_network_values(3 * width * parameters.height);
     recogniser_input(picture, width, parameters.height, exchange().values.data());
