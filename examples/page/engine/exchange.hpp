@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/detections.hpp"
+#include "io/image_codecs.hpp"
 #include "textslam/common/report_json.hpp"
 
 namespace textslam {
@@ -23,6 +24,15 @@ inline Exchange& exchange() {
   static Exchange one;
   return one;
 }
+
+/// Red, green, blue and alpha of each of `count` pixels become their grey value, at the same place.
+inline void to_grey(int count) {
+  std::uint8_t* p = exchange().pixels.data();
+  for (int i = 0; i < count; ++i) p[i] = grey_of(p[4 * i], p[4 * i + 1], p[4 * i + 2]);
+}
+
+/// The grey image there.
+inline ImageView8 grey_view(int width, int height) { return {exchange().pixels.data(), width, height, width}; }
 
 /// What `call` returns, as a string that is good until the next answer; {"error": "..."} where it threw, so that no
 /// exception leaves the module.

@@ -8,7 +8,6 @@
 #include "detectors/classical_detector.hpp"
 #include "exchange.hpp"
 #include "io/clock.hpp"
-#include "io/image_codecs.hpp"
 #include "page_run.hpp"
 
 // clang-format off
@@ -27,8 +26,6 @@ Module& module() {
   static Module one;
   return one;
 }
-
-ImageView8 view(int width, int height) { return {exchange().pixels.data(), width, height, width}; }
 
 std::vector<Detection> from_json(const std::string& text) {
   std::vector<Detection> out;
@@ -56,10 +53,7 @@ EMSCRIPTEN_KEEPALIVE std::uint8_t* page_pixels(int bytes) {
 }
 
 /// Red, green, blue and alpha of each of `count` pixels there become their grey value, at the same place.
-EMSCRIPTEN_KEEPALIVE void page_grey(int count) {
-  std::uint8_t* p = exchange().pixels.data();
-  for (int i = 0; i < count; ++i) p[i] = grey_of(p[4 * i], p[4 * i + 1], p[4 * i + 2]);
-}
+EMSCRIPTEN_KEEPALIVE void page_grey(int count) { to_grey(count); }
 
 EMSCRIPTEN_KEEPALIVE const char* page_open(const char* folder, const char* video) {
   return answer([&] {
@@ -70,7 +64,7 @@ EMSCRIPTEN_KEEPALIVE const char* page_open(const char* folder, const char* video
 
 EMSCRIPTEN_KEEPALIVE const char* page_keep(double time, int width, int height) {
   return answer([&] {
-    module().run->keep(time, view(width, height));
+    module().run->keep(time, grey_view(width, height));
     return Json::object();
   });
 }
@@ -91,13 +85,13 @@ EMSCRIPTEN_KEEPALIVE const char* page_begin(int width, int height, double fov, c
 }
 
 EMSCRIPTEN_KEEPALIVE const char* page_frame(double time, int width, int height) {
-  return answer([&] { return module().run->frame(time, view(width, height)); });
+  return answer([&] { return module().run->frame(time, grey_view(width, height)); });
 }
 
 EMSCRIPTEN_KEEPALIVE const char* page_detect(int width, int height) {
   return answer([&] {
     const double start = now_ms();
-    const std::vector<Detection> found = module().detector.detect({}, view(width, height));
+    const std::vector<Detection> found = module().detector.detect({}, grey_view(width, height));
     return Json{{"quads", quads_json(found)}, {"ms", now_ms() - start}};
   });
 }

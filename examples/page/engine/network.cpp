@@ -10,16 +10,15 @@
 #include "detectors/line_recogniser.hpp"
 #include "detectors/network_input.hpp"
 #include "exchange.hpp"
-#include "io/image_codecs.hpp"
 
 namespace textslam {
 namespace {
 
 constexpr int kLineStep = 32;  // px: a recogniser takes lines of any width, but for each width anew its time
 
-/// The image that the network looks at.
+/// The image that the network looks at, grey in page_pixels().
 struct Looked {
-  Image<std::uint8_t> grey;
+  int width = 0, height = 0;
   NetworkSize size{};
   std::vector<std::string> letters;
 };
@@ -52,17 +51,16 @@ EMSCRIPTEN_KEEPALIVE const char* page_network_letters(const char* text) {
   });
 }
 
-/// Of the image in page_pixels(), red, green, blue and alpha, the input of the detector.
+/// Of the image in page_pixels(), red, green, blue and alpha, the input of the detector. It becomes grey there.
 EMSCRIPTEN_KEEPALIVE const char* page_network_image(int width, int height, int long_side) {
   return answer([&] {
     Looked& l = looked();
-    const std::uint8_t* p = exchange().pixels.data();
+    l.width = width;
+    l.height = height;
     l.size = network_size(width, height, long_side);
     page_network_values(3 * l.size.width * l.size.height);
-    network_input({p, width, height, 4, true}, kDbColours, l.size, exchange().values.data());
-    l.grey = Image<std::uint8_t>(width, height);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x, p += 4) l.grey(x, y) = grey_of(p[0], p[1], p[2]);
+    network_input({exchange().pixels.data(), width, height, 4, true}, kDbColours, l.size, exchange().values.data());
+    to_grey(width * height);
     return Json{{"width", l.size.width}, {"height", l.size.height}};
   });
 }
@@ -74,7 +72,7 @@ EMSCRIPTEN_KEEPALIVE const char* page_network_boxes() {
     if (exchange().values.size() != static_cast<std::size_t>(l.size.width) * static_cast<std::size_t>(l.size.height))
       return {{"error", "detector.js: its detector's map has not the size of its input"}};
     std::vector<Detection> found = decode_db({l.size.height, l.size.width, exchange().values.data()}, DbParameters());
-    for (Detection& detection : found) to_image(l.size, l.grey.width(), l.grey.height(), &detection.quad);
+    for (Detection& detection : found) to_image(l.size, l.width, l.height, &detection.quad);
     return {{"quads", quads_json(found)}};
   });
 }
@@ -84,7 +82,7 @@ EMSCRIPTEN_KEEPALIVE const char* page_network_line(const char* quad) {
   return answer([&] {
     const RecogniserParameters parameters;
     const Image<std::uint8_t> picture =
-        recogniser_picture(looked().grey.view(), quad_of(Json::parse(quad)), parameters);
+        recogniser_picture(grey_view(looked().width, looked().height), quad_of(Json::parse(quad)), parameters);
     const int width = std::min(parameters.width, (picture.width() + kLineStep - 1) / kLineStep * kLineStep);
     page_network_values(3 * width * parameters.height);
     recogniser_input(picture, width, parameters.height, exchange().values.data());

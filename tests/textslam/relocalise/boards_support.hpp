@@ -83,6 +83,15 @@ class TextRecoveryTest : public testing::Test {
       }
   }
 
+  // Two boards more, without texts, and the points that the first key frame sees on all of them.
+  void map_points_of_five_boards() {
+    parameters = at_size(parameters, map.width, map.height);
+    boards.push_back({moved({-0.3, -0.8, 3.3}, {0.1, 0.2, 0}), 4});
+    boards.push_back({moved({-0.7, 0.7, 3.2}, {0.2, -0.1, 0}), 5});
+    map.keyframes[0].frame = frame_at(SE3d{});
+    add_points(0);
+  }
+
   static constexpr double kHalfWidth = 0.35, kHalfHeight = 0.15;
 
   // Letters of a kind: random spots of 6 cm, other ones for each print.

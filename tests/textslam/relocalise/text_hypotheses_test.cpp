@@ -148,13 +148,9 @@ TEST_F(TextRecoveryTest, ThePoseThatExplainsMostIsTaken) {
 // show. What an earlier frame saw from nearby is the better answer.
 TEST_F(TextRecoveryTest, APoseThatExplainsLittleIsNotTakenBeforeOthersAreTried) {
   const SE3d truth = moved({0.1, -0.05, 0.1}, {0.02, -0.03, 0.02}), T_w_other = moved({30, 0, 0}, {0, 0, 0});
-  parameters = at_size(parameters, map.width, map.height);
-  boards.push_back({moved({-0.3, -0.8, 3.3}, {0.1, 0.2, 0}), 4});
-  boards.push_back({moved({-0.7, 0.7, 3.2}, {0.2, -0.1, 0}), 5});
+  map_points_of_five_boards();
   const std::vector<Board> room = boards;
   map.texts.clear();
-  map.keyframes[0].frame = frame_at(SE3d{});
-  add_points(0);
   boards = {{T_w_other * room[0].T_w_b, room[0].print}, {T_w_other * room[1].T_w_b, room[1].print}};
   for (const double x : {-1.0, -0.2, 0.6, 1.4})
     boards.push_back({T_w_other * moved({x, -0.9, 3.5}, {0, 0, 0}), static_cast<unsigned>(20 + 10 * x)});
@@ -178,11 +174,7 @@ TEST_F(TextRecoveryTest, APoseThatExplainsLittleIsNotTakenBeforeOthersAreTried) 
 
 // Key frames and points find the same pose, by chance with some points more.
 TEST_F(TextRecoveryTest, ThePoseOfASignStaysItsOwnWhereOthersConfirmIt) {
-  parameters = at_size(parameters, map.width, map.height);
-  boards.push_back({moved({-0.3, -0.8, 3.3}, {0.1, 0.2, 0}), 4});
-  boards.push_back({moved({-0.7, 0.7, 3.2}, {0.2, -0.1, 0}), 5});
-  map.keyframes[0].frame = frame_at(SE3d{});
-  add_points(0);
+  map_points_of_five_boards();
   parameters.relocalise_clear_share = 2;  // no pose is so clear that no others are tried
   for (const int i : {18, 49}) {          // of sixty, where the points have some more
     const double x = 0.6 * std::sin(i * 1.7), y = 0.4 * std::sin(i * 2.9);
@@ -200,11 +192,7 @@ TEST_F(TextRecoveryTest, ThePoseOfASignStaysItsOwnWhereOthersConfirmIt) {
 
 // From so far away the pose by the sign alone is off by more than points are searched.
 TEST_F(TextRecoveryTest, PointsAroundASignHelpWhereItsPoseIsRough) {
-  parameters = at_size(parameters, map.width, map.height);
-  boards.push_back({moved({-0.3, -0.8, 3.3}, {0.1, 0.2, 0}), 4});
-  boards.push_back({moved({-0.7, 0.7, 3.2}, {0.2, -0.1, 0}), 5});
-  map.keyframes[0].frame = frame_at(SE3d{});
-  add_points(0);
+  map_points_of_five_boards();
   constexpr int i = 67;  // of 120, the one where the search alone fails
   const double x = 0.8 * std::sin(i * 1.7), y = 0.6 * std::sin(i * 2.9), z = -0.6 + 1.2 * std::sin(i * 0.7);
   const SE3d truth = moved({x, y, z}, {0.3 * x, -0.3 * y, 0.3 * std::sin(i * 3.3)});
