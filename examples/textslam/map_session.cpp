@@ -27,10 +27,9 @@ bool goes_with(const CameraModel& given, const MapRecord& record) {
   return is_same_camera(given, record.camera) || (record.given_camera && is_same_camera(given, *record.given_camera));
 }
 
-// A saved run has at least a map of two key frames.
-bool has_map(const System& system) { return system.map().keyframe_ids().size() >= 2; }
-
 }  // namespace
+
+bool has_map(const System& system) { return system.map().keyframe_ids().size() >= 2; }
 
 bool is_same_camera(const CameraModel& a, const CameraModel& b) {
   constexpr double kTolerance = 1e-9;  // numbers that went through a text
@@ -40,24 +39,23 @@ bool is_same_camera(const CameraModel& a, const CameraModel& b) {
                     [&](double x, double y) { return std::abs(x - y) <= kTolerance * (1 + std::abs(x)); });
 }
 
-MapSession::MapSession(const RunOptions& options, Sequence* sequence) : options_(options), started_(utc_now()) {
+MapSession::MapSession(MapSessionOptions options, Sequence* sequence)
+    : options_(std::move(options)), started_(utc_now()) {
   if (sequence->camera_origin == CameraOrigin::file) given_ = sequence->camera;
-  if (!options.localise && !options.save_map.empty()) check_can_save(options.save_map);
-  if (options.map.empty()) return;
-  earlier_ = load_map(options.map, options.parameters);
-  if (!options.localise && options.save_map.empty()) check_can_save(options.map);
+  if (options_.map.empty()) return;
+  earlier_ = load_map(options_.map, options_.parameters);
   const CameraModel& camera = earlier_->record.camera;
   if (camera.width != sequence->camera.width || camera.height != sequence->camera.height)
-    throw InputError(options.map, 0,
+    throw InputError(options_.map, 0,
                      "its images are " + std::to_string(camera.width) + " x " + std::to_string(camera.height) +
                          ", those of the sequence are not");
   if (given_ && !goes_with(*given_, earlier_->record))
     throw InputError(
-        options.map, 0,
+        options_.map, 0,
         "its camera is not that of the sequence's camera file: a map has one camera, with the same numbers "
         "in all sessions");
   if (given_ && !is_same_camera(*given_, camera))
-    sequence->notes.push_back(options.map +
+    sequence->notes.push_back(options_.map +
                               ": its camera is better than that of the camera file, as its first session found");
   sequence->camera = camera;
   sequence->camera.knows_readout = true;
@@ -103,25 +101,24 @@ MapRecord MapSession::record_of(const System& system, const CameraModel& camera,
   return record;
 }
 
-std::string MapSession::save(const System& system, const CameraModel& camera, const std::optional<MetricScale>& metric,
-                             const std::function<std::string(int)>& image) const {
+std::string MapSession::save(const System& system, const CameraModel& camera, const MapSaving& saving) const {
   const bool in_earlier = earlier_ && system.is_in_earlier();
   const std::string none = options_.map + ": no frame was found in this map, which stays as it is";
   if (options_.localise) {
-    write_file(options_.output + "/localisation.csv", localisation_table(system));
+    write_file(saving.folder + "/localisation.csv", localisation_table(system));
     return in_earlier ? "" : none;
   }
-  std::string path = options_.save_map.empty() ? options_.map : options_.save_map;
+  std::string path = saving.path.empty() ? options_.map : saving.path;
   if (path.empty() || !has_map(system)) return "";
   const bool apart = earlier_ && !in_earlier;
-  if (apart) path = options_.output + "/unjoined_map.db";
-  MapRecord record = record_of(system, camera, in_earlier, image);
+  if (apart) path = saving.folder + "/unjoined_map.db";
+  MapRecord record = record_of(system, camera, in_earlier, saving.image);
   if (path != options_.map) record.revision = 0;
-  if (metric) record.scale_sigma = metric->sigma;
+  if (saving.metric) record.scale_sigma = saving.metric->sigma;
   try {
     save_map(path, system.map(), record);
   } catch (const std::exception& error) {
-    const std::string instead = options_.output + "/map.db";
+    const std::string instead = saving.folder + "/map.db";
     record.revision = 0;
     save_map(instead, system.map(), record);
     throw std::runtime_error(std::string(error.what()) + "; the map of this run is in " + instead);

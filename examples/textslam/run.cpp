@@ -218,7 +218,7 @@ class Run {
     RunResult& result = mapping_->result;
     const auto image = [&](int index) { return index < 0 ? session_.image(index) : source_.name(index); };
     write_outputs(options_.output, system, result.summary, image);
-    result.unmapped = session_.save(system, sequence_.camera, metric_, image);
+    result.unmapped = session_.save(system, sequence_.camera, {options_.save_map, options_.output, metric_, image});
     if (calibration_ || options_.parameters.estimate_readout)
       write_camera(options_, sequence_.camera, system.map().shutter.readout, calibration_);
   }
@@ -262,7 +262,9 @@ RunResult run(const RunOptions& options) {
   Sequence sequence = read_sequence(options.sequence, input);
   know_rows(options, &sequence.camera);
   std::vector<std::size_t> asked = frames_asked(sequence, options);
-  MapSession session(options, &sequence);
+  if (!options.localise && !options.save_map.empty()) check_can_save(options.save_map);
+  MapSession session({options.map, options.localise, options.sequence, options.command, options.parameters}, &sequence);
+  if (session.has_earlier() && !options.localise && options.save_map.empty()) check_can_save(options.map);
   std::optional<SelfCalibration> calibration;
   if (!session.has_earlier()) calibration = know_camera(options, asked, &sequence);
   RunOptions known = options;

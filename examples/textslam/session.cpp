@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -36,9 +37,12 @@ Session::Session(Sequence sequence, const SessionOptions& options)
     : options_(options),
       at_size_(at_size(options.parameters, sequence.camera.width, sequence.camera.height)),
       sequence_(without_frames(std::move(sequence))),
+      map_({options.map, options.localise, sequence_.folder, options.command, options.parameters}, &sequence_),
       camera_(sequence_.camera),
       system_(camera_.view(), sequence_.camera.width, sequence_.camera.height, options.parameters,
-              sequence_.camera.shutter) {}
+              sequence_.camera.shutter) {
+  map_.begin(&system_);
+}
 
 const FrameRecord& Session::process(ImageView8 image, double timestamp, std::vector<Detection> detections,
                                     double detect_ms) {
@@ -117,11 +121,28 @@ RunSummary Session::summary() {
 
 void Session::save(const std::string& folder) {
   create_output_folder(folder);
-  write_outputs(folder, system_, summary(),
-                [this](int index) { return frame_name(sequence_, static_cast<std::size_t>(index)); });
+  const auto image = [this](int index) { return image_name(index); };
+  write_outputs(folder, system_, summary(), image);
+  if (options_.localise) map_.save(system_, sequence_.camera, {"", folder, std::nullopt, image});
   if (options_.calibration) write_file(folder + "/camera.yaml", camera_yaml(sequence_.camera, options_.calibration));
   const std::string page = report();
   if (!page.empty()) write_file(folder + "/report.html", page);
+}
+
+std::string Session::image_name(int index) const {
+  return index < 0 ? map_.image(index) : frame_name(sequence_, static_cast<std::size_t>(index));
+}
+
+std::string Session::save_map(const std::string& path) {
+  if (options_.localise) throw std::invalid_argument("save_map: the run only localises");
+  const std::string& file = path.empty() ? options_.map : path;
+  if (file.empty()) throw std::invalid_argument("save_map: expected a path, as the run began in no map");
+  finish();
+  if (!has_map(system_)) throw std::invalid_argument("save_map: there is no map of two key frames");
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  return map_.save(system_, sequence_.camera, {path, folder.empty() ? "." : folder, std::nullopt, [this](int index) {
+                                                 return image_name(index);
+                                               }});
 }
 
 std::string Session::report() {

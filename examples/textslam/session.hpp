@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "textslam/input/sequence_camera.hpp"
+#include "textslam/map_session.hpp"
 #include "textslam/report/summary.hpp"
 #include "textslam/system/system.hpp"
 
@@ -25,6 +26,8 @@ struct SessionOptions {
   std::optional<SelfCalibration> calibration;  ///< Of the camera, where it was estimated.
   std::string detector = "of the program";     ///< Its name, for the outputs.
   std::vector<std::string> command;            ///< What the report gives as the command line.
+  std::string map;                             ///< The map file of earlier sessions that it begins in; empty: none.
+  bool localise = false;                       ///< Frames are only localised in it, and it stays as it is.
 };
 
 /// The sequence of a host that has nothing but a camera.
@@ -32,7 +35,8 @@ Sequence sequence_of(const CameraModel& camera);
 
 class Session {
  public:
-  /// Of `sequence` the camera, the truth and the words for people count; its frames are those that come.
+  /// Of `sequence` the camera, the truth and the words for people count; its frames are those that come. A map of
+  /// earlier sessions has its own camera: throws InputError where it is no map, or of another camera.
   Session(Sequence sequence, const SessionOptions& options);
 
   /// The next frame. Throws std::invalid_argument for an image of another size, a time that does not increase, or after
@@ -46,9 +50,12 @@ class Session {
   void finish();
   bool finished() const { return finished_; }
   /// Ends the run and writes the files of report/outputs.hpp, the report too unless it would be empty, and an
-  /// estimated camera as camera.yaml. Throws
-  /// std::runtime_error where it cannot.
+  /// estimated camera as camera.yaml. Throws std::runtime_error where it cannot.
   void save(const std::string& folder);
+  /// Ends the run and writes its map (map_file/map_file.hpp); without a path into the map that it began in. Returns one
+  /// line where no frame was found in that map; what the run made is then in unjoined_map.db beside `path`. Throws
+  /// std::invalid_argument where there is no path, no map, or the run only localises, and what save_map() throws.
+  std::string save_map(const std::string& path);
   /// Ends the run; the page of report/report.hpp. Empty before the first frame, and without images.
   std::string report();
   /// Ends the run; its numbers. Throws InputError for a broken file of true signs.
@@ -60,10 +67,12 @@ class Session {
 
  private:
   Frame kept(int index) const;
+  std::string image_name(int index) const;
 
   SessionOptions options_;
   Parameters at_size_;
   Sequence sequence_;  // its frames are those that came
+  MapSession map_;
   SequenceCamera camera_;
   System system_;
   bool finished_ = false;

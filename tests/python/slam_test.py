@@ -1,5 +1,6 @@
 """The system through Python: on a rendered room it does what the program does."""
 import pathlib
+import sqlite3
 
 import numpy as np
 import pytest
@@ -74,6 +75,67 @@ def test_system_computes_what_the_program_does(room, ran, tmp_path):
     assert "<iframe" in system._repr_html_()
     with pytest.raises(ValueError, match="the run has ended"):
         system.process(image, timestamp + 1)
+
+
+@pytest.fixture(scope="module")
+def mapped(room, tmp_path_factory):
+    """A map's file, and the texts in it."""
+    path = str(tmp_path_factory.mktemp("map") / "room.db")
+    system = slam.System(camera(room), *SIZE)
+    for shown in frames(room):
+        system.process(shown[1], shown[0], shown[2])
+    assert not system.in_map and system.save_map(path) == "" and system.finished
+    return path, {text.id: text for text in system.texts}
+
+
+def test_frames_are_found_in_a_saved_map(room, mapped, tmp_path):
+    path, texts = mapped
+    before = pathlib.Path(path).read_bytes()
+    system = slam.System(map=path, localise=True)
+    results = [system.process(image, timestamp, seen) for timestamp, image, seen in frames(room)]
+    assert system.in_map and {text.id for text in system.texts} == set(texts)
+    first = next(r for r in results if r.state == slam.FrameState.tracked)
+    assert first.found_by == "texts" and results[-1].found_by == "tracking" and 0 < first.position_sigma < 0.02
+    _, poses = system.trajectory
+    system.save(str(tmp_path / "out"))
+    lines = (tmp_path / "out" / "localisation.csv").read_text().splitlines()
+    assert len(lines) == FRAMES + 1 and all(r.state == slam.FrameState.tracked for r in results[5:])
+    assert len(poses) >= FRAMES - 5 and pathlib.Path(path).read_bytes() == before
+    with pytest.raises(ValueError, match="only localises"):
+        system.save_map(path)
+
+
+def test_a_session_goes_on_in_a_saved_map(room, mapped, tmp_path):
+    path, texts = mapped
+    grown = tmp_path / "grown.db"
+    grown.write_bytes(pathlib.Path(path).read_bytes())
+    system = slam.System(camera(room), *SIZE, map=str(grown))
+    for timestamp, image, seen in frames(room):
+        system.process(image, timestamp, seen)
+    assert system.in_map and system.save_map() == ""
+    for text in system.texts:
+        if text.id in texts:
+            assert np.abs(text.corners - texts[text.id].corners).max() < 0.02
+    database = sqlite3.connect(grown)
+    assert database.execute("select revision from map").fetchone() == (2,)
+    assert database.execute("select count(*) from sessions").fetchone() == (2,)
+    with pytest.raises(RuntimeError, match="its camera is not that"):
+        slam.System(tp.Pinhole(100, 100, 160, 120), *SIZE, map=str(grown))
+    with pytest.raises(RuntimeError, match="no map of textslam"):
+        slam.System(map=str(pathlib.Path(room) / "camera.yaml"))
+
+
+def test_what_has_no_map_saves_none(room, tmp_path):
+    with pytest.raises(ValueError, match="camera: expected one"):
+        slam.System()
+    with pytest.raises(ValueError, match="localise: expected a map"):
+        slam.System(camera(room), *SIZE, localise=True)
+    system = slam.System(camera(room), *SIZE)
+    with pytest.raises(ValueError, match="expected a path"):
+        system.save_map()
+    with pytest.raises(ValueError, match="no map of two key frames"):
+        system.save_map(str(tmp_path / "none.db"))
+    assert not (tmp_path / "none.db").exists()
 
 
 def test_a_detector_is_a_callable(room, tmp_path):

@@ -10,6 +10,13 @@ LoadedMap load_map(const std::string& path, const Parameters& parameters) {
   return load_tables(database, parameters);
 }
 
+CameraModel load_map_camera(const std::string& path) {
+  Database database = open_map(path);
+  MapRecord record;
+  load_sessions(database, &record);
+  return record.camera;
+}
+
 LoadedMap load_tables(Database& database, const Parameters& parameters) {
   if (Statement(database, "pragma foreign_key_check").next())
     database.refuse("damaged: rows refer to rows that are gone");

@@ -59,6 +59,8 @@ inline int earlier_keyframe_id(int index, std::size_t keyframes) { return index 
 
 /// Throws InputError where the file is no map, is damaged or is newer than this program.
 LoadedMap load_map(const std::string& path, const Parameters& parameters);
+/// Its camera alone; throws likewise.
+CameraModel load_map_camera(const std::string& path);
 
 /// Writes the map. `record.revision` says which one it replaces: with 0 whatever map is there. Points and texts that
 /// are not finite are left out. Throws InputError where the file is no map, or has another revision by now, as another

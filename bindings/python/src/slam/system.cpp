@@ -2,8 +2,9 @@
 #include <memory>
 #include <stdexcept>
 
+#include "slam/results.hpp"
 #include "slam/slam.hpp"
-#include "textplane/landmarks/text_view.hpp"
+#include "textslam/map_file/map_file.hpp"
 #include "textslam/report/text_map.hpp"
 #include "textslam/session.hpp"
 
@@ -12,7 +13,6 @@ namespace binding {
 namespace {
 
 using textslam::FrameRecord;
-using textslam::FrameState;
 using textslam::Session;
 
 // A session, its detector, and whether a thread is in it.
@@ -36,37 +36,32 @@ class Claim {
   System& system_;
 };
 
-struct FrameResult {
-  int index = -1;
-  double timestamp = 0;
-  FrameState state = FrameState::waiting;
-  tp::SE3d T_w_c;
-  int map = -1, keyframe = -1, points = 0, texts = 0;
-};
-
-struct MappedText {
-  int id = -1, observations = 0, host = -1;
-  std::string word;
-  std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  Vec3 normal = Vec3::Zero(), theta = Vec3::Zero();
-  double zncc = 0;
-};
-
-std::unique_ptr<System> make_system(const Camera& camera, int width, int height, const std::string& mode,
-                                    const py::object& detector, bool keep_images, const py::dict& parameters) {
+// Of the arguments; of the map's file where there is none.
+textslam::CameraModel camera_of(const Camera* camera, int width, int height, const std::string& map) {
+  if (!camera && map.empty()) throw py::value_error("camera: expected one, as there is no map that has it");
+  if (!camera) return textslam::load_map_camera(map);
   if (width < 32 || height < 32 || width > 65535 || height > 65535)
     throw py::value_error("width, height: expected 32 to 65535 pixels");
-  if (!detector.is_none() && !PyCallable_Check(detector.ptr())) expected("detector", "a callable", detector);
   textslam::CameraModel model;
-  model.raw = camera.model;
+  model.raw = camera->model;
   model.width = width;
   model.height = height;
+  return model;
+}
+
+std::unique_ptr<System> make_system(const Camera* camera, int width, int height, const std::string& mode,
+                                    const py::object& detector, bool keep_images, const py::dict& parameters,
+                                    const std::string& map, bool localise) {
+  if (!detector.is_none() && !PyCallable_Check(detector.ptr())) expected("detector", "a callable", detector);
+  if (localise && map.empty()) throw py::value_error("localise: expected a map as well");
   auto out = std::make_unique<System>();
   textslam::SessionOptions options;
   options.parameters = parameters_of(mode, parameters);
   options.keep_images = keep_images;
   options.command = {"textplane.slam.System"};
-  out->session = std::make_unique<Session>(textslam::sequence_of(model), options);
+  options.map = map;
+  options.localise = localise;
+  out->session = std::make_unique<Session>(textslam::sequence_of(camera_of(camera, width, height, map)), options);
   out->detector = detector;
   return out;
 }
@@ -79,36 +74,8 @@ FrameResult process(System& self, const py::object& pixels, double timestamp, co
   const Claim claim(self);
   return unlocked([&] {
     const FrameRecord& r = self.session->process(view, timestamp, std::move(seen), 0);
-    FrameResult out;
-    out.index = static_cast<int>(self.session->frames()) - 1;
-    out.timestamp = r.timestamp;
-    out.state = r.state;
-    if (r.state == FrameState::tracked) out.T_w_c = r.T_w_c_live;
-    out.map = r.map;
-    out.keyframe = r.keyframe;
-    out.points = r.points;
-    out.texts = r.texts;
-    return out;
+    return result_of(r, static_cast<int>(self.session->frames()) - 1);
   });
-}
-
-std::vector<MappedText> texts_of(const textslam::Map& map) {
-  std::vector<MappedText> out;
-  for (const tp::TextObject& text : map.texts) {
-    MappedText one;
-    if (text.state != tp::TextState::mapped || !tp::is_ok(tp::text_corners(text, &one.corners))) continue;
-    const tp::SE3d& T_w_h = map.keyframe(text.host).T_w_c;
-    for (Vec3& corner : one.corners) corner = T_w_h * corner;
-    one.id = text.id;
-    one.observations = static_cast<int>(text.views.size()) + 1;
-    one.host = map.keyframe(text.host).frame.index;
-    one.word = text.votes.empty() ? std::string() : tp::consensus(text.votes);
-    one.theta = text.theta;
-    one.normal = tp::product(T_w_h.R, tp::plane_normal(text.theta));
-    one.zncc = text.zncc;
-    out.push_back(std::move(one));
-  }
-  return out;
 }
 
 py::object points_of(System& self) {
@@ -140,52 +107,6 @@ py::object trajectory_of(System& self) {
   return py::make_tuple(times, out);
 }
 
-void bind_frame(py::module_& m) {
-  py::enum_<FrameState>(m, "FrameState", "What became of a frame.")
-      .value("waiting", FrameState::waiting)
-      .value("tracked", FrameState::tracked)
-      .value("lost", FrameState::lost);
-  py::class_<FrameResult> c(m, "FrameResult", "What System.process() found.");
-  field(c, "index", &FrameResult::index, "int: Of the frame, from 0.");
-  field(c, "timestamp", &FrameResult::timestamp, "float: Of the frame, s.");
-  field(c, "state", &FrameResult::state, "FrameState: Whether it has a pose.");
-  c.def_property_readonly(
-      "T_w_c",
-      [](const FrameResult& self) {
-        return self.state == FrameState::tracked ? py::cast(self.T_w_c) : py::object(py::none());
-      },
-      "SE3 | None: Camera to the live world; None unless it is tracked.");
-  field(c, "map", &FrameResult::map, "int: Number of its map; -1: none.");
-  field(c, "keyframe", &FrameResult::keyframe, "int: Key frame that its pose is relative to; -1: none.");
-  field(c, "points", &FrameResult::points, "int: Points that its pose rests on.");
-  field(c, "texts", &FrameResult::texts, "int: Texts that its pose rests on.");
-  c.def(
-      "__repr__", [](Handle self) { return describe(self); }, "__repr__() -> str\n\nIts numbers.");
-
-  py::class_<MappedText> text(m, "MappedText", "A text of the map, in its world.");
-  field(text, "id", &MappedText::id, "int: Never used twice.");
-  field(text, "observations", &MappedText::observations, "int: Key frames that show it.");
-  field(text, "host", &MappedText::host, "int: Index of its host frame.");
-  text.def_property_readonly(
-      "word", [](const MappedText& self) { return py::bytes(self.word).attr("decode")("utf-8", "replace"); },
-      "str: What most readings agree on; empty or ### where it is not read.");
-  text.def_property_readonly(
-      "corners",
-      [](const MappedText& self) {
-        py::array_t<double> out({4, 3});
-        double* p = out.mutable_data();
-        for (const Vec3& corner : self.corners)
-          for (const int k : {0, 1, 2}) *p++ = corner[k];
-        return out;
-      },
-      "Array: Clockwise from the text's top left, (4, 3).");
-  field(text, "normal", &MappedText::normal, "Array: Unit normal towards the host camera, (3,).");
-  field(text, "theta", &MappedText::theta, "Array: The plane in the host's frame, (3,).");
-  field(text, "zncc", &MappedText::zncc, "float: Mean over its last refinement.");
-  text.def(
-      "__repr__", [](Handle self) { return describe(self); }, "__repr__() -> str\n\nIts numbers.");
-}
-
 // What it knows so far.
 void bind_answers(py::class_<System>& c) {
   c.def_property_readonly(
@@ -199,6 +120,13 @@ void bind_answers(py::class_<System>& c) {
       "list[MappedText]: The mapped texts of now.");
   c.def_property_readonly(
       "finished", [](const System& self) { return self.session->finished(); }, "bool: Whether the run has ended.");
+  c.def_property_readonly(
+      "in_map",
+      [](System& self) {
+        const Claim claim(self);
+        return self.session->system().is_in_earlier();
+      },
+      "bool: Whether its world is that of the map it was given: a frame was found there.");
   c.def_property_readonly("points", &points_of, "Array: The points of the map, (n, 3).");
   c.def_property_readonly("trajectory", &trajectory_of,
                           "tuple[Array, Array]: Time stamps, s, (n,), and poses, camera to world, (n, 4, 4), of the "
@@ -226,21 +154,22 @@ void bind_answers(py::class_<System>& c) {
 
 void bind_system(py::module_& m) {
   using namespace py::literals;
-  bind_frame(m);
+  bind_results(m);
   py::class_<System> c(
       m, "System",
       "Monocular SLAM with points and planar text, frame by frame. The map has no scale of its own. One "
       "thread at a time.");
   c.def(
-      py::init(&make_system), "camera"_a, "width"_a, "height"_a, "mode"_a = "text", "detector"_a = py::none(),
-      "keep_images"_a = true, "parameters"_a = py::dict(),
-      "__init__(camera: Camera, width: int, height: int, mode: str = \"text\", detector: Callable[[Array], Any] | None "
-      "= "
-      "None, keep_images: bool = True, parameters: dict[str, float] = ...) -> None\n\nwidth, height: of all images, "
-      "px. "
+      py::init(&make_system), "camera"_a = py::none(), "width"_a = 0, "height"_a = 0, "mode"_a = "text",
+      "detector"_a = py::none(), "keep_images"_a = true, "parameters"_a = py::dict(), "map"_a = "",
+      "localise"_a = false,
+      "__init__(camera: Camera | None = None, width: int = 0, height: int = 0, mode: str = \"text\", detector: "
+      "Callable[[Array], Any] | None = None, keep_images: bool = True, parameters: dict[str, float] = ..., map: str = "
+      "\"\", localise: bool = False) -> None\n\nwidth, height: of all images, px. "
       "mode: text, points or loose. detector: image -> quads, or (quads, scores, words), called for each frame without "
       "detections. keep_images: for poses before the map began and for the report; 0.3 MB a frame of 640 x 480. "
-      "parameters: by the names of docs/textslam.md.");
+      "parameters: by the names of docs/textslam.md. map: a file of save_map() or textslam --save-map to go on in; it "
+      "has the camera, its size too. localise: frames only find their place in that map, which stays as it is.");
   c.def("process", &process, "image"_a, "timestamp"_a, "detections"_a = py::none(),
         "process(image: Array, timestamp: float, detections: Any = None) -> FrameResult\n\nThe next image, uint8 "
         "(height, "
@@ -264,6 +193,17 @@ void bind_system(py::module_& m) {
       "save(folder: str) -> None\n\nEnds the run and writes trajectories, map and report, as the program textslam "
       "does: "
       "docs/textslam.md.");
+  c.def(
+      "save_map",
+      [](System& self, const std::string& path) {
+        const Claim claim(self);
+        return unlocked([&] { return self.session->save_map(path); });
+      },
+      "path"_a = "",
+      "save_map(path: str = \"\") -> str\n\nEnds the run and writes its map for later sessions: docs/map.md. No path: "
+      "into "
+      "the map that it began in. Returns why that map stays as it is where no frame was found in it, else an empty "
+      "string; what the run made is then in unjoined_map.db beside it.");
   bind_answers(c);
 }
 
