@@ -23,7 +23,9 @@ use_ninja
 packages_build='cmake g++ make libeigen3-dev'
 packages_demo="$packages_build libjpeg-dev|libjpeg62-turbo-dev|libjpeg-turbo8-dev libpng-dev libstb-dev libcli11-dev
   nlohmann-json3-dev libyaml-cpp-dev libsqlite3-dev fonts-dejavu-core fonts-dejavu-extra"
-packages_page='cmake g++ make libeigen3-dev emscripten node-acorn nlohmann-json3-dev libstb-dev'
+# npm comes with some builds of node; Debian's package of it is refused beside these.
+package_npm=$(command -v npm >/dev/null 2>&1 || echo npm)
+packages_page="cmake g++ make libeigen3-dev emscripten node-acorn $package_npm nlohmann-json3-dev libstb-dev"
 packages_test="$packages_build libgtest-dev"
 packages_ci="$packages_demo ninja-build libgtest-dev libopencv-dev libceres-dev librapidcheck-dev clang libclang-rt-dev binutils qemu-user
   libsimde-dev g++-aarch64-linux-gnu googletest chromium valgrind doxygen
@@ -32,7 +34,7 @@ packages_ci="$packages_demo ninja-build libgtest-dev libopencv-dev libceres-dev 
 packages_all="$packages_ci pandoc libjs-katex fonts-katex python3-sympy python3-matplotlib libpq-dev postgresql libtesseract-dev tesseract-ocr-eng gcovr cppcheck clang-tidy g++-12-multilib
   g++-11-s390x-linux-gnu g++-riscv64-linux-gnu lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32
   clang-19 lld-19 libclang-rt-19-dev-wasm32 nodejs
-  g++-mingw-w64-x86-64-posix wine64 wine emscripten node-acorn ffmpeg
+  g++-mingw-w64-x86-64-posix wine64 wine emscripten node-acorn $package_npm ffmpeg
   lintian colcon python3-colcon-ros python3-colcon-recursive-crawl"
 
 say() { printf '\n== %s\n' "$*"; }
@@ -90,8 +92,33 @@ install_packages() {
   use_ninja
 }
 
+# fetch_npm PACKAGE SHA256 FOLDER MEMBER...: members of an npm package, into the folder as they lie in it.
+fetch_npm() {
+  command -v npm >/dev/null 2>&1 || die "npm is not installed (Debian: npm)${npm_hint:-}"
+  rm -f "$3"/*.tgz
+  (cd "$3" && npm pack --silent "$1" >/dev/null) || die "npm could not fetch $1"
+  packed=$(find "$3" -maxdepth 1 -name '*.tgz')
+  [ "$(sha256sum "$packed" | cut -d ' ' -f 1)" = "$2" ] || die "$1 is not the package that this script knows: wrong checksum"
+  into=$3
+  shift 3
+  tar -xzf "$packed" -C "$into" "$@"
+  rm -f "$packed"
+}
+
+# get_sqlite: SQLite's source (public domain), for the page; the npm package is one that carries it whole.
+get_sqlite() {
+  sqlite=$root/build/sqlite
+  if [ -f "$sqlite/sqlite3.c" ]; then return 0; fi
+  mkdir -p "$sqlite"
+  fetch_npm better-sqlite3@12.9.0 ad0e29650140c49d0335b1d356596aa8166f12b758f418a98446130e3278f250 "$sqlite" \
+    package/deps/sqlite3/sqlite3.c package/deps/sqlite3/sqlite3.h
+  mv "$sqlite/package/deps/sqlite3/sqlite3.h" "$sqlite/package/deps/sqlite3/sqlite3.c" "$sqlite"
+  rm -r "$sqlite/package"
+}
+
 # build_page: the preset page. A node that is not Debian's looks elsewhere for Debian's modules, which Emscripten needs.
 build_page() {
   export NODE_PATH="${NODE_PATH:-/usr/share/nodejs}"
+  get_sqlite
   cmake -S "$root" --preset page && cmake --build "$root/build/page" --target page --parallel "$jobs"
 }

@@ -1,7 +1,7 @@
 // Puts the parts together: choose, run, results.
 "use strict";
 
-const live = new Live(), results = new Results();
+const live = new Live(), results = new Results(), maps = new Maps();
 let run = null;
 
 function notice(text) {
@@ -9,12 +9,13 @@ function notice(text) {
   by_id("notice").hidden = !text;
 }
 
-function settings() {
+async function settings() {
   const number = (id, low, high, usual) => {
     const value = Number(by_id(id).value);
     return Number.isFinite(value) && value >= low && value <= high ? value : usual;
   };
-  return { fov: number("fov", 10, 170, 60), every: Math.round(number("every", 1, 100, 10)), calibrate: by_id("calibrate").checked };
+  return { fov: number("fov", 10, 170, 60), every: Math.round(number("every", 1, 100, 10)), calibrate: by_id("calibrate").checked,
+    map: await maps.bytes(), localise: by_id("localise").checked };
 }
 
 function show_choice() {
@@ -68,6 +69,8 @@ async function begin(name, open) {
       const missed = message.dropped + (now.webcam ? now.webcam.missed : 0);
       by_id("progress-text").textContent = `${message.frames} frames${missed ? `, ${missed} left out as the system was busy` : ""}`;
       results.show(message, name);
+      const map = message.files.find((file) => file.name === "map.db");
+      if (map) maps.add(`the map of ${name}`, new Blob([map.bytes]));
     },
     error(message) {
       notice(message);
@@ -94,9 +97,12 @@ async function begin(name, open) {
 
 async function open_files(files) {
   try {
-    const sequence = await sequence_of(await files);
+    const given = await files, map = given.find(({ path }) => MAP_FILE.test(path));
+    if (map) maps.open(map.file);
+    if (map && given.length === 1) return notice("");
+    const sequence = await sequence_of(given);
     const name = sequence.video ? sequence.video.name : sequence.folder;
-    await begin(name, async (now) => (await now.open_files(sequence, settings())).frames);
+    await begin(name, async (now) => now.open_files(sequence, await settings()));
   } catch (error) {
     notice(error.message);
   }
@@ -126,7 +132,7 @@ for (const [button, input] of [["open-files", "files"], ["open-folder", "folder"
   });
 }
 by_id("open-camera").addEventListener("click", () => begin("camera", async (now) => {
-  await now.open_camera(settings());
+  await now.open_camera(await settings());
   return 0;
 }));
 by_id("stop").addEventListener("click", () => { if (run.stop) run.stop(); });

@@ -1,9 +1,10 @@
 // Results: the numbers of a run, its report, and its files to save.
 "use strict";
 
-const MAIN_FILES = [["report.html", "Save the report"], ["text_map.json", "Save the text map"],
+const MAIN_FILES = [["report.html", "Save the report"], ["map.db", "Save the map"], ["text_map.json", "Save the text map"],
   ["text_map.ply", "Save as PLY"], ["trajectory.txt", "Save the trajectory"]];
-const KINDS = { html: "text/html", json: "application/json", txt: "text/plain", csv: "text/csv", ply: "application/octet-stream" };
+const KINDS = { html: "text/html", json: "application/json", txt: "text/plain", csv: "text/csv", ply: "application/octet-stream",
+  db: "application/vnd.sqlite3" };
 
 class Results {
   constructor() { this.urls = []; }

@@ -1,7 +1,14 @@
 // Run: one source through the workers. The page gets the map and the frames as they are done, then the results.
 "use strict";
 
-const MOST_SIDE = 960;  // px, of frames without a camera file: larger ones are made smaller
+let engine_compiled = null;
+
+/// The compiled system, once for all workers.
+async function compile_engine() {
+  const packed = await fetch(`data:application/gzip;base64,${by_id("engine-bytes").textContent.trim()}`);
+  const bytes = new Response(packed.body.pipeThrough(new DecompressionStream("gzip")));
+  return WebAssembly.compile(await bytes.arrayBuffer());
+}
 
 function start_worker(...parts) {
   const code = ["engine", "worker-module", ...parts].map((id) => by_id(id).textContent).join("\n");
@@ -16,7 +23,7 @@ class Run {
   constructor(on, network) {
     this.on = on;
     this.over = false;
-    this.detector_name = network ? "PP-OCRv4" : "classical";
+    this.detector = network ? { detector_name: "PP-OCRv4", reads: true } : { detector_name: "classical", reads: false };
     this.mapper = start_worker("worker-mapper");
     this.eyes = start_worker("worker-pictures", "worker-images", "worker-mp4", "worker-mp4-fragments", "worker-webm", "worker-video",
       "worker-eyes");
@@ -26,7 +33,10 @@ class Run {
     const own = network ? [] : [detections.port2];
     this.eyes.postMessage({ type: "mapper", port: frames.port2, detections: own[0] }, [frames.port2, ...own]);
     if (network) this.network.postMessage({ port: detections.port2, parts: network }, [detections.port2]);
+    engine_compiled = engine_compiled || compile_engine();
+    engine_compiled.catch((error) => this.fail(error.message));
     for (const worker of this.workers()) {
+      engine_compiled.then((compiled) => worker.postMessage({ type: "engine", compiled }), () => {});
       worker.onmessage = ({ data }) => this.take(data);
       worker.onerror = (event) => this.fail(event.message);
     }
@@ -48,14 +58,19 @@ class Run {
     this.failed = true;
   }
 
-  settings(of_page) { return { ...of_page, detector_name: this.detector_name }; }
+  /// What the module says of a sequence: see PageRun::sequence(). The settings go to the mapper.
+  async open(files, settings, live) {
+    this.mapper.postMessage({ type: "open", ...files, map: settings.map });
+    const sequence = await new Promise((done) => { this.on.opened = (message) => done(message.sequence); });
+    const { map, calibrate, ...others } = settings;
+    this.mapper.postMessage({ type: "begin", ...others, ...this.detector, calibrate: calibrate && !sequence.known_camera && !live, live });
+    return sequence;
+  }
 
   /// The files of a sequence, see sequence_of().
   async open_files(sequence, settings) {
-    this.mapper.postMessage({ type: "open", folder: sequence.folder, video: sequence.video ? sequence.video.name : "", files: sequence.texts });
-    const { frames, camera } = await new Promise((done) => { this.on.opened = (message) => done(message.sequence); });
-    this.mapper.postMessage({ type: "begin", ...this.settings(settings), calibrate: settings.calibrate && !camera, live: false });
-    const side = camera ? 0 : MOST_SIDE;
+    const video = sequence.video ? sequence.video.name : "";
+    const { frames, most_side: side } = await this.open({ folder: sequence.folder, video, files: sequence.texts }, settings, false);
     const named = frames.map(({ path, time }) => {
       const name = path.slice(path.indexOf("/", 1) + 1);
       const file = sequence.by_path.get(name) || sequence.by_path.get(name.split("/").pop());  // chosen without its folder
@@ -64,14 +79,12 @@ class Run {
     const source = sequence.video ? { kind: "video", file: sequence.video, side } : { kind: "images", frames: named, side };
     this.eyes.postMessage({ type: "read", source });
     this.stop = () => this.eyes.postMessage({ type: "halt" });
-    return { frames: named.length, camera };
+    return named.length;
   }
 
   async open_camera(settings) {
     this.webcam = await Webcam.open();
-    this.mapper.postMessage({ type: "open", folder: "camera", video: "live", files: [] });
-    await new Promise((done) => { this.on.opened = () => done(); });
-    this.mapper.postMessage({ type: "begin", ...this.settings(settings), calibrate: false, live: true });
+    const { most_side: side } = await this.open({ folder: "camera", video: "live", files: [] }, settings, true);
     this.camera_is_free = true;
     this.stop = () => {
       this.webcam.stop();
@@ -79,7 +92,7 @@ class Run {
     };
     await this.webcam.start(() => this.camera_is_free, (frame, time) => {
       this.camera_is_free = false;
-      this.eyes.postMessage({ type: "camera", frame, time, side: MOST_SIDE }, [frame]);
+      this.eyes.postMessage({ type: "camera", frame, time, side }, [frame]);
     });
   }
 

@@ -107,6 +107,11 @@ void Session::finish() {
   }
 }
 
+void Session::read_texts(TextReader& reader) {
+  finish();
+  system_.read_texts(reader);
+}
+
 RunSummary Session::summary() {
   finish();
   RunSummary summary = summarise(system_, sequence_, sequence_.frames.size());

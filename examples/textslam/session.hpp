@@ -49,6 +49,8 @@ class Session {
   /// Ends the run; twice does nothing.
   void finish();
   bool finished() const { return finished_; }
+  /// Ends the run and reads the mapped texts once more, as text/text_reading.hpp says.
+  void read_texts(TextReader& reader);
   /// Ends the run and writes the files of report/outputs.hpp, the report too unless it would be empty, and an
   /// estimated camera as camera.yaml. Throws std::runtime_error where it cannot.
   void save(const std::string& folder);

@@ -1,20 +1,42 @@
-// The image formats of io/image_codecs.hpp without libjpeg and libpng. The browser decodes; the report's pictures are
-// encoded by stb_image_write, as a canvas would answer too late for a function that returns bytes.
+// The image formats of io/image_codecs.hpp without libjpeg and libpng, by stb. The browser decodes the frames; the
+// report's pictures are encoded here, and a map's images decoded, as a canvas would answer too late for a function that
+// returns bytes.
+#include <algorithm>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_STDIO
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_PNG
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
 #include "io/image_codecs.hpp"
 #include "io/image_file.hpp"
 #include "io/input_error.hpp"
+#include "stb/stb_image.h"
 #include "stb/stb_image_write.h"
 
 namespace textslam {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path) { throw InputError(path, 0, "images are decoded by the browser"); }
+Image<std::uint8_t> decode(const std::string& bytes, const std::string& path) {
+  int width = 0, height = 0, channels = 0;
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  if (stbi_info_from_memory(data, static_cast<int>(bytes.size()), &width, &height, &channels) != 0)
+    check_image_size(static_cast<std::size_t>(width), static_cast<std::size_t>(height), path);
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(data, static_cast<int>(bytes.size()), &width, &height, &channels, 1), stbi_image_free);
+  if (!pixels) throw InputError(path, 0, std::string("does not decode: ") + stbi_failure_reason());
+  Image<std::uint8_t> image(width, height);
+  for (int y = 0; y < height; ++y)
+    std::copy_n(pixels.get() + static_cast<std::ptrdiff_t>(y) * width, width, image.row(y));
+  return image;
+}
 
 std::vector<std::uint8_t> packed(ImageView8 image) {
   if (!image.valid()) throw std::invalid_argument("encode: the view is not valid");
@@ -30,8 +52,8 @@ void append(void* out, void* bytes, int size) {
 
 }  // namespace
 
-Image<std::uint8_t> decode_jpeg(const std::string&, const std::string& path) { refuse(path); }
-Image<std::uint8_t> decode_png(const std::string&, const std::string& path) { refuse(path); }
+Image<std::uint8_t> decode_jpeg(const std::string& bytes, const std::string& path) { return decode(bytes, path); }
+Image<std::uint8_t> decode_png(const std::string& bytes, const std::string& path) { return decode(bytes, path); }
 
 // The browser turns pictures as their EXIF data say.
 int jpeg_orientation(std::string_view) { return 1; }

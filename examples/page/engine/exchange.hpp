@@ -50,13 +50,19 @@ const char* answer(Call call) {
   return exchange().answer.c_str();
 }
 
-/// Each quad as its eight coordinates, clockwise from the text's top left, and its score.
+/// A quad's eight coordinates, clockwise from the text's top left.
+inline Json quad_json(const Quad<double>& quad) {
+  Json out = Json::array();
+  for (const auto& corner : quad.corner)
+    for (const double value : {corner.x(), corner.y()}) out.push_back(value);
+  return out;
+}
+
+/// Each quad as such a line, and its score.
 inline Json quads_json(const std::vector<Detection>& detections) {
   Json out = Json::array();
   for (const Detection& detection : detections) {
-    Json one = Json::array();
-    for (const auto& corner : detection.quad.corner)
-      for (const double value : {corner.x(), corner.y()}) one.push_back(value);
+    Json one = quad_json(detection.quad);
     one.push_back(detection.score);
     out.push_back(std::move(one));
   }

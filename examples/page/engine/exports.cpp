@@ -55,9 +55,9 @@ EMSCRIPTEN_KEEPALIVE std::uint8_t* page_pixels(int bytes) {
 /// Red, green, blue and alpha of each of `count` pixels there become their grey value, at the same place.
 EMSCRIPTEN_KEEPALIVE void page_grey(int count) { to_grey(count); }
 
-EMSCRIPTEN_KEEPALIVE const char* page_open(const char* folder, const char* video) {
+EMSCRIPTEN_KEEPALIVE const char* page_open(const char* folder, const char* video, const char* map) {
   return answer([&] {
-    module().run = std::make_unique<PageRun>(folder, video);
+    module().run = std::make_unique<PageRun>(folder, video, map);
     return module().run->sequence();
   });
 }
@@ -77,9 +77,9 @@ EMSCRIPTEN_KEEPALIVE const char* page_calibrate(double fov) {
   });
 }
 
-EMSCRIPTEN_KEEPALIVE const char* page_begin(int width, int height, double fov, const char* detector) {
+EMSCRIPTEN_KEEPALIVE const char* page_begin(int width, int height, double fov, const char* detector, int localise) {
   return answer([&] {
-    module().run->begin(width, height, fov, detector);
+    module().run->begin(width, height, fov, detector, localise != 0);
     return Json::object();
   });
 }
@@ -105,6 +105,38 @@ EMSCRIPTEN_KEEPALIVE const char* page_add_detections(int frame, const char* quad
 
 EMSCRIPTEN_KEEPALIVE const char* page_map() {
   return answer([] { return module().run->map(); });
+}
+
+/// Ends the run; how many pictures of texts there are to read.
+EMSCRIPTEN_KEEPALIVE const char* page_unread() {
+  return answer([] { return Json{{"pictures", module().run->unread()}}; });
+}
+
+/// One of them, grey in page_pixels().
+EMSCRIPTEN_KEEPALIVE const char* page_picture(int index) {
+  return answer([&] {
+    const TextPicture& picture = module().run->picture(static_cast<std::size_t>(index));
+    const ImageView8 view = picture.image.view();
+    std::vector<std::uint8_t>& pixels = exchange().pixels;
+    pixels.clear();
+    for (int y = 0; y < view.height(); ++y) pixels.insert(pixels.end(), view.row(y), view.row(y) + view.width());
+    return Json{{"width", view.width()}, {"height", view.height()}, {"quad", quad_json(picture.quad)}};
+  });
+}
+
+/// What was read in them, in their order.
+EMSCRIPTEN_KEEPALIVE const char* page_read(const char* readings) {
+  return answer([&] {
+    std::vector<TextReader::Reading> all;
+    for (const Json& one : Json::parse(readings)) {
+      TextReader::Reading reading;
+      if (const std::string text = one.at("text").get<std::string>(); !text.empty())
+        reading = {text, one.at("score").get<double>()};
+      all.push_back(reading);
+    }
+    module().run->take_readings(all);
+    return Json::object();
+  });
 }
 
 EMSCRIPTEN_KEEPALIVE const char* page_finish(const char* folder) {

@@ -77,6 +77,15 @@ EMSCRIPTEN_KEEPALIVE const char* page_network_boxes() {
   });
 }
 
+/// Another image is looked at: grey, in page_pixels().
+EMSCRIPTEN_KEEPALIVE const char* page_network_picture(int width, int height) {
+  return answer([&] {
+    looked().width = width;
+    looked().height = height;
+    return Json::object();
+  });
+}
+
 /// Of a quad there, the input of the recogniser; a width of 0 where it is too small.
 EMSCRIPTEN_KEEPALIVE const char* page_network_line(const char* quad) {
   return answer([&] {

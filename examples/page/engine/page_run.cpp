@@ -4,10 +4,12 @@
 #include <cstdio>
 
 #include "io/input_error.hpp"
+#include "textslam/map_file/map_file.hpp"
 
 namespace textslam {
 namespace {
 
+constexpr int kMostSide = 960;                                 // px, of frames without a camera file
 constexpr std::size_t kMostImageBytes = std::size_t{3} << 29;  // of 4 GB that a module can have
 
 Sequence without_images(const std::string& folder, const std::string& video) {
@@ -19,16 +21,45 @@ Sequence without_images(const std::string& folder, const std::string& video) {
   return sequence;
 }
 
-Sequence read(const std::string& folder, const std::string& video) {
+Sequence sequence_in(const std::string& folder, const std::string& video) {
   if (!video.empty()) return without_images(folder, video);
   SequenceOptions options;
   options.needs_camera = false;
   return read_sequence(folder, options);
 }
 
+Image<std::uint8_t> copy_of(ImageView8 image) {
+  Image<std::uint8_t> copy(image.width(), image.height());
+  for (int y = 0; y < image.height(); ++y) std::copy_n(image.row(y), image.width(), copy.row(y));
+  return copy;
+}
+
 std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
 }  // namespace
+
+// Where a network answers later than a reader may, the texts are read twice in the same order: first for the pictures,
+// then with the answers.
+class PictureTaker : public TextReader {
+ public:
+  explicit PictureTaker(std::vector<TextPicture>* pictures) : pictures_(pictures) {}
+  Reading read(ImageView8 image, const Quad<double>& quad) override {
+    pictures_->push_back({copy_of(image), quad});
+    return {};
+  }
+
+ private:
+  std::vector<TextPicture>* pictures_;
+};
+
+class ReadingGiver : public TextReader {
+ public:
+  explicit ReadingGiver(const std::vector<Reading>& readings) : next_(readings.begin()) {}
+  Reading read(ImageView8, const Quad<double>&) override { return *next_++; }
+
+ private:
+  std::vector<Reading>::const_iterator next_;
+};
 
 // The frames that self-calibration maps again and again.
 class KeptFrames : public VideoFile {
@@ -39,8 +70,7 @@ class KeptFrames : public VideoFile {
   std::size_t damaged() const override { return 0; }
   void add(double time, ImageView8 image) {
     times_.push_back(time);
-    Image<std::uint8_t>& copy = images_.emplace_back(image.width(), image.height());
-    for (int y = 0; y < image.height(); ++y) std::copy_n(image.row(y), image.width(), copy.row(y));
+    images_.push_back(copy_of(image));
   }
 
  private:
@@ -48,15 +78,19 @@ class KeptFrames : public VideoFile {
   std::vector<Image<std::uint8_t>> images_;
 };
 
-PageRun::PageRun(const std::string& folder, const std::string& video) : sequence_(read(folder, video)) {}
+PageRun::PageRun(const std::string& folder, const std::string& video, const std::string& map)
+    : map_(map), sequence_(sequence_in(folder, video)), has_camera_file_(sequence_.camera.width > 0) {
+  if (!map.empty() && !has_camera_file_) sequence_.camera = load_map_camera(map);
+}
 
 Json PageRun::sequence() const {
   Json frames = Json::array();
   for (const FrameRef& frame : sequence_.frames) frames.push_back({{"path", frame.path}, {"time", frame.timestamp}});
   const CameraModel& camera = sequence_.camera;
-  return {{"frames", frames},
-          {"camera", camera.width > 0 ? Json{{"width", camera.width}, {"height", camera.height}} : Json(nullptr)},
-          {"truth", sequence_.groundtruth.size()}};
+  const bool known = camera.width > 0;
+  // A file's camera is of its images as they are; a map's may be of images that were made smaller.
+  const int side = has_camera_file_ ? 0 : known ? std::max(camera.width, camera.height) : kMostSide;
+  return {{"frames", frames}, {"known_camera", known}, {"most_side", side}, {"truth", sequence_.groundtruth.size()}};
 }
 
 void PageRun::keep(double time, ImageView8 image) {
@@ -90,12 +124,13 @@ void PageRun::assume_camera(int width, int height, double fov) {
   sequence_.camera_origin = CameraOrigin::fov;
 }
 
-void PageRun::begin(int width, int height, double fov, const std::string& detector) {
+void PageRun::begin(int width, int height, double fov, const std::string& detector, bool localise) {
   CameraModel& camera = sequence_.camera;
   if (camera.width == 0) assume_camera(width, height, fov);
   if (camera.width != width || camera.height != height)
     throw InputError(sequence_.images_file, 0,
-                     "the frames are " + size_text(width, height) + " px, the camera file says " +
+                     "the frames are " + size_text(width, height) + " px, " +
+                         (has_camera_file_ ? "the camera file says " : "those of the map ") +
                          size_text(camera.width, camera.height));
   if (camera.shutter.rows != height) camera.shutter = all_at_once(height);  // as know_rows() has it
   SessionOptions options;
@@ -103,6 +138,8 @@ void PageRun::begin(int width, int height, double fov, const std::string& detect
   options.detector = detector;
   options.calibration = calibration_;
   options.command = {"textslam", "in", "the", "browser"};
+  options.map = map_;
+  options.localise = localise_ = localise && !map_.empty();
   session_ = std::make_unique<Session>(sequence_, options);
 }
 
@@ -128,11 +165,39 @@ void PageRun::add_detections(int frame, std::vector<Detection> detections, doubl
 
 Json PageRun::map() { return live_map(session_->system(), sequence_, pictures_); }
 
+std::size_t PageRun::unread() {
+  unread_.clear();
+  PictureTaker taker(&unread_);
+  session_->read_texts(taker);
+  return unread_.size();
+}
+
+void PageRun::take_readings(const std::vector<TextReader::Reading>& readings) {
+  if (readings.size() != unread_.size()) throw std::invalid_argument("take_readings: as many readings as pictures are expected");
+  ReadingGiver giver(readings);
+  session_->read_texts(giver);
+}
+
+// Into the map that it began in, else into the folder; empty where there is none.
+std::string PageRun::write_map(const std::string& folder, std::vector<std::string>* lines) {
+  if (localise_ || !has_map(session_->system())) return {};
+  const std::string path = map_.empty() ? folder + "/map.db" : map_;
+  const std::string line = session_->save_map(path);
+  if (line.empty()) return path;
+  lines->push_back(line);
+  return "unjoined_map.db";  // beside it
+}
+
 Json PageRun::finish(const std::string& folder) {
   session_->save(folder);
   const RunSummary summary = session_->summary();
   const Fields fields = describe(summary);
-  return {{"metrics", fields.file}, {"table", fields.table}, {"warnings", warnings(summary)}};
+  std::vector<std::string> lines = warnings(summary);
+  const std::string map = write_map(folder, &lines);
+  return {{"metrics", fields.file},
+          {"table", fields.table},
+          {"warnings", lines},
+          {"map", map.empty() ? Json(nullptr) : Json(map)}};
 }
 
 }  // namespace textslam

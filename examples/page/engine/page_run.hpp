@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "live_map.hpp"
 #include "textslam/session.hpp"
@@ -15,19 +16,26 @@ namespace textslam {
 
 class KeptFrames;
 
+/// A text in a picture, px.
+struct TextPicture {
+  Image<std::uint8_t> image;
+  Quad<double> quad;
+};
+
 class PageRun {
  public:
   /// What the folder says. `video`: the name of a video whose frames will come, or of a camera; empty: the folder's
-  /// images, which lie there as empty files. Throws InputError for broken files.
-  PageRun(const std::string& folder, const std::string& video);
+  /// images, which lie there as empty files. `map`: a map's file to begin in; empty: none. Throws InputError for broken
+  /// files.
+  PageRun(const std::string& folder, const std::string& video, const std::string& map);
 
-  /// {"frames": [{"path", "time"}], "camera": {"width", "height"} or null, "truth"}: those of a folder of images, in
-  /// order; whether the camera is known; how many true poses there are.
+  /// {"frames": [{"path", "time"}], "known_camera", "most_side", "truth"}: those of a folder of images, in order;
+  /// whether the camera is known; px to which larger frames are to be made smaller, 0: none; how many true poses.
   Json sequence() const;
 
-  /// The size of the frames is known now. Without a camera file the camera is a pinhole of `fov` degrees. Throws
-  /// InputError where the camera file has another size.
-  void begin(int width, int height, double fov, const std::string& detector);
+  /// The size of the frames is known now. Without a map and a camera file the camera is a pinhole of `fov` degrees.
+  /// `localise`: the map stays as it is. Throws InputError where the map or the camera file has another size or camera.
+  void begin(int width, int height, double fov, const std::string& detector, bool localise);
   /// A frame that calibrate() is to see, before begin().
   void keep(double time, ImageView8 image);
   /// Estimates the camera from the frames kept, and forgets them; begin() then takes it, where they tell it. It starts
@@ -37,16 +45,27 @@ class PageRun {
   Json frame(double time, ImageView8 image);
   void add_detections(int frame, std::vector<Detection> detections, double ms);
   Json map();
-  /// Ends the run and writes its outputs into `folder`. Returns {"metrics", "table", "warnings"}.
+  /// Ends the run; how many pictures a reader of the mapped texts is to see.
+  std::size_t unread();
+  const TextPicture& picture(std::size_t index) const { return unread_.at(index); }
+  /// Takes what it read in them, in their order.
+  void take_readings(const std::vector<TextReader::Reading>& readings);
+  /// Ends the run and writes its outputs into `folder`. Returns {"metrics", "table", "warnings", "map"}: the path of the
+  /// map to save, null where there is none.
   Json finish(const std::string& folder);
 
  private:
   void assume_camera(int width, int height, double fov);
+  std::string write_map(const std::string& folder, std::vector<std::string>* lines);
 
+  std::string map_;
+  bool localise_ = false;
   Sequence sequence_;
+  bool has_camera_file_ = false;
   std::shared_ptr<KeptFrames> kept_;
   std::optional<SelfCalibration> calibration_;
   std::unique_ptr<Session> session_;
+  std::vector<TextPicture> unread_;
   TextPictures pictures_;
 };
 

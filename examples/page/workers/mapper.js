@@ -9,14 +9,15 @@
 let engine = null, eyes = null, detector = null, run = null;
 const FOLDER_OF_OUTPUTS = "/.outputs";
 const FILES = ["report.html", "text_map.json", "text_map.ply", "trajectory.txt", "trajectory_live.txt", "keyframes.txt",
-  "camera.yaml", "metrics.json", "timing.json", "text_index.json", "covariances.csv"];
+  "camera.yaml", "metrics.json", "timing.json", "text_index.json", "covariances.csv", "localisation.csv"];
+const FOLDER_OF_MAPS = "/.maps";
 const CALIBRATED_BY = 900;  // frames, at most: as CalibrationOptions has it
 const MAP_EVERY = 300;  // ms, at least, between two maps for the page
 
 const to_page = (message, moved = []) => self.postMessage(message, moved);
 
-/// The small files of a sequence, as the module's folder.
-function open({ folder, video, files }) {
+/// The small files of a sequence, as the module's folder. `map`: { name, bytes }, or null.
+function open({ folder, video, files, map }) {
   const fs = engine.files;
   for (const { path, text } of files) {
     const full = `/${folder}/${path}`;
@@ -24,11 +25,14 @@ function open({ folder, video, files }) {
     fs.writeFile(full, text);
   }
   fs.mkdirTree(`/${folder}`);
-  to_page({ type: "opened", sequence: engine.call("open", `/${folder}`, video) });
+  fs.mkdirTree(FOLDER_OF_MAPS);
+  fs.chdir(FOLDER_OF_MAPS);  // so that messages name the map as the user does
+  if (map) fs.writeFile(map.name, map.bytes);
+  to_page({ type: "opened", sequence: engine.call("open", `/${folder}`, video, map ? map.name : "") });
 }
 
-function begin({ fov, every, live, calibrate, detector_name }) {
-  run = { kept: calibrate ? [] : null, fov, every, live, detector_name, size: null, frames: 0, candidate: null, asked: null, answer: null, asked_at: 0,
+function begin({ fov, every, live, calibrate, detector_name, reads, localise }) {
+  run = { kept: calibrate ? [] : null, fov, every, live, detector_name, reads, localise, size: null, frames: 0, candidate: null, asked: null, answer: null, asked_at: 0,
     map_at: 0, maps: -1, began: 0 };
 }
 
@@ -82,7 +86,7 @@ self.calibrating = (done, total) => { if (done % 10 === 0) to_page({ type: "cali
 /// `more`: the next frame may come.
 async function track({ time, width, height, pixels, colours }, more = true) {
   if (!run.size) {
-    engine.call("begin", width, height, run.fov, run.detector_name);
+    engine.call("begin", width, height, run.fov, run.detector_name, run.localise ? 1 : 0);
     run.size = { width, height };
     run.began = performance.now();
   }
@@ -104,17 +108,33 @@ async function track({ time, width, height, pixels, colours }, more = true) {
   to_page({ type: "frame", seen, width, height, pixels, ms: performance.now() - run.began }, [pixels.buffer]);
 }
 
+/// Once their planes are known, a network reads the mapped texts from the front.
+async function read_texts() {
+  const { pictures: count } = engine.call("unread"), pictures = [];
+  for (let i = 0; i < count; ++i) {
+    const { width, height, quad } = engine.call("picture", i);
+    pictures.push({ width, height, quad, pixels: engine.pixels(width * height) });
+  }
+  const came = new Promise((done) => { run.readings_came = done; });
+  detector.postMessage({ type: "read", pictures });
+  const readings = await came;
+  engine.call("read", JSON.stringify(readings));
+  return readings.filter(({ text }) => text).length;
+}
+
 async function end({ dropped }) {
   if (run && run.kept && run.kept.length) await calibrate();
   if (!run || !run.frames) throw new Error("no frame came");
   await take_answer(true);
   const ms = performance.now() - run.began;
   to_page({ type: "finishing", frames: run.frames, ms });
+  const readings = run.reads ? await read_texts() : 0;
   const result = engine.call("finish", FOLDER_OF_OUTPUTS), fs = engine.files;
   to_page({ type: "map", map: engine.call("map") });
   const files = FILES.filter((name) => fs.analyzePath(`${FOLDER_OF_OUTPUTS}/${name}`).exists)
     .map((name) => ({ name, bytes: fs.readFile(`${FOLDER_OF_OUTPUTS}/${name}`) }));
-  to_page({ type: "finished", ...result, frames: run.frames, ms, dropped, files }, files.map((f) => f.bytes.buffer));
+  if (result.map) files.push({ name: "map.db", bytes: fs.readFile(result.map) });
+  to_page({ type: "finished", ...result, readings, frames: run.frames, ms, dropped, files }, files.map((f) => f.bytes.buffer));
 }
 
 // The detector's answers do not queue behind the frame that waits for them.
@@ -132,6 +152,6 @@ answer(ready, {
     eyes = frames;
     answer(Promise.resolve(), { frame, end }, eyes);
     detector = detections;
-    detector.onmessage = ({ data }) => take_detections(data);
+    detector.onmessage = ({ data }) => data.type === "readings" ? run.readings_came(data.readings) : take_detections(data);
   },
 }, self);

@@ -1,9 +1,20 @@
-// The compiled system in a worker: calls with JSON, pixels in its memory. Both workers begin with it.
+// The compiled system in a worker: calls with JSON, pixels in its memory. Every worker begins with it, and gets it
+// compiled from the page.
 "use strict";
 
 /// engine.call(name, ...numbers and strings) returns the parsed answer; throws where it is an error.
 async function start_engine() {
-  const module = await textslam_engine();
+  const compiled = await new Promise((done) => {
+    self.addEventListener("message", ({ data }) => { if (data.type === "engine") done(data.compiled); });
+  });
+  const module = await new Promise((done, fail) => {
+    textslam_engine({
+      instantiateWasm(imports, begin) {
+        WebAssembly.instantiate(compiled, imports).then((instance) => begin(instance, compiled), fail);
+        return {};
+      },
+    }).then(done, fail);
+  });
   return {
     files: module.FS,
     call(name, ...values) {
@@ -14,6 +25,11 @@ async function start_engine() {
     },
     /// Copies pixels to where frame and detect look for them.
     put(pixels) { module.HEAPU8.set(pixels, module._page_pixels(pixels.length)); },
+    /// A copy of the pixels that the module left there.
+    pixels(count) {
+      const at = module._page_pixels(count);
+      return module.HEAPU8.slice(at, at + count);
+    },
     /// Grey values of red, green, blue and alpha.
     grey_of(colours) {
       const at = module._page_pixels(colours.length), count = colours.length / 4;

@@ -40,6 +40,14 @@ function overlap(a, b) {
   return common / (area(a) + area(b) - common || 1);
 }
 
+/// The word in a quad of the image that the engine looks at; "" where the network is not sure.
+async function word_in(quad) {
+  const { width, height } = engine.call("network_line", JSON.stringify(quad));
+  if (!width) return { text: "", score: 0 };
+  const [, steps, classes] = await infer(reader, [1, 3, height, width]);
+  return engine.call("network_word", steps, classes);
+}
+
 /// The lines that were read least often go first, so that in time all are read.
 async function read_lines(quads) {
   const lines = quads.map((quad) => {
@@ -48,10 +56,7 @@ async function read_lines(quads) {
   });
   for (const line of lines.filter(({ read }) => read < ENOUGH).sort((a, b) => a.read - b.read).slice(0, MOST_READ)) {
     ++line.read;
-    const { width, height } = engine.call("network_line", JSON.stringify(line.quad));
-    if (!width) continue;
-    const [, steps, classes] = await infer(reader, [1, 3, height, width]);
-    const { text, score } = engine.call("network_word", steps, classes);
+    const { text, score } = await word_in(line.quad);
     if (text) line.quad.splice(8, 1, score, text);
   }
   before = lines;
@@ -72,8 +77,10 @@ async function quads_of({ width, height, pixels, colours }) {
   return quads;
 }
 
+const engine_ready = start_engine().then((started) => { engine = started; });
 self.onmessage = ({ data: { port, parts } }) => {
-  const ready = start_engine().then((started) => { engine = started; }).then(() => start(parts));
+  if (!port) return;
+  const ready = engine_ready.then(() => start(parts));
   ready.catch(() => {});  // told with the first frame
   async function detect(message) {
     const begin = performance.now();
@@ -86,5 +93,19 @@ self.onmessage = ({ data: { port, parts } }) => {
     }
     port.postMessage({ type: "detections", frame: message.frame, quads, ms: performance.now() - begin });
   }
-  answer(Promise.resolve(), { detect }, port);
+  async function read({ pictures }) {
+    const readings = [];
+    try {
+      await ready;
+      for (const { width, height, pixels, quad } of pictures) {
+        engine.put(pixels);
+        engine.call("network_picture", width, height);
+        readings.push(await word_in(quad));
+      }
+    } catch (error) {  // told with the frames
+      while (readings.length < pictures.length) readings.push({ text: "", score: 0 });
+    }
+    port.postMessage({ type: "readings", readings });
+  }
+  answer(Promise.resolve(), { detect, read }, port);
 };
