@@ -28,16 +28,17 @@ class Live {
       if (path[last]) return this.view.set_frame(last);
   }
 
-  /// `message`: of the mapper; grey pixels and what was found.
+  /// `message`: of the mapper; grey pixels and what was found. Whether it is one of the few that are shown.
   show_frame(message) {
     this.newest = message;
-    if (this.waiting) return;
+    if (this.waiting) return false;
     this.waiting = setTimeout(() => {
       this.waiting = null;
       this.take_pixels();
       this.draw();
       this.describe();
     }, Math.max(0, SHOW_EVERY - (performance.now() - this.shown_at)));
+    return true;
   }
 
   take_pixels() {

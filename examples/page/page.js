@@ -53,7 +53,7 @@ async function begin(name, open) {
       by_id("progress-text").textContent = `Estimating the camera: ${done} of ${all} frames of a pass`;
     },
     frame(message) {
-      live.show_frame(message);
+      if (!live.show_frame(message)) return;
       const done = message.seen.frame + 1, rate = (1000 * done / message.ms).toFixed(1);
       if (total) by_id("progress").value = done / total;
       by_id("progress-text").textContent = `${done}${total ? ` of ${total}` : ""} frames, ${rate} a second`;

@@ -90,6 +90,8 @@ class Run {
       this.webcam.stop();
       this.eyes.postMessage({ type: "stop" });
     };
+    const readable = this.webcam.stream_of_frames();
+    if (readable) return this.eyes.postMessage({ type: "stream", readable, side }, [readable]);
     await this.webcam.start(() => this.camera_is_free, (frame, time) => {
       this.camera_is_free = false;
       this.eyes.postMessage({ type: "camera", frame, time, side }, [frame]);

@@ -46,9 +46,9 @@ class MapSession {
   void begin(System* system);
   /// The image of a key frame of an earlier session, by its frame's index.
   std::string image(int index) const;
-  /// Writes the map; of a run that only localises, localisation.csv. What cannot be saved where it should be is saved as
-  /// map.db into the folder before the error is thrown. Returns one line where no frame was found in the map of earlier
-  /// sessions; what the run made is then in unjoined_map.db of the folder.
+  /// Writes the map; of a run that only localises, localisation.csv. What cannot be saved where it should be is saved
+  /// as map.db into the folder before the error is thrown. Returns one line where no frame was found in the map of
+  /// earlier sessions; what the run made is then in unjoined_map.db of the folder.
   std::string save(const System& system, const CameraModel& camera, const MapSaving& saving) const;
 
  private:

@@ -173,7 +173,8 @@ std::size_t PageRun::unread() {
 }
 
 void PageRun::take_readings(const std::vector<TextReader::Reading>& readings) {
-  if (readings.size() != unread_.size()) throw std::invalid_argument("take_readings: as many readings as pictures are expected");
+  if (readings.size() != unread_.size())
+    throw std::invalid_argument("take_readings: as many readings as pictures are expected");
   ReadingGiver giver(readings);
   session_->read_texts(giver);
 }

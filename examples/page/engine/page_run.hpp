@@ -50,8 +50,8 @@ class PageRun {
   const TextPicture& picture(std::size_t index) const { return unread_.at(index); }
   /// Takes what it read in them, in their order.
   void take_readings(const std::vector<TextReader::Reading>& readings);
-  /// Ends the run and writes its outputs into `folder`. Returns {"metrics", "table", "warnings", "map"}: the path of the
-  /// map to save, null where there is none.
+  /// Ends the run and writes its outputs into `folder`. Returns {"metrics", "table", "warnings", "map"}: the path of
+  /// the map to save, null where there is none.
   Json finish(const std::string& folder);
 
  private:

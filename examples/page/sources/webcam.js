@@ -20,6 +20,13 @@ class Webcam {
     Object.assign(this.video, { muted: true, playsInline: true, srcObject: stream });
   }
 
+  /// The frames as they come, as the camera has them, to be read by a worker; null where the browser has no such stream. By
+  /// way of a video they are drawn first, and on the page's own thread.
+  stream_of_frames() {
+    if (!self.MediaStreamTrackProcessor) return null;
+    return new MediaStreamTrackProcessor({ track: this.stream.getVideoTracks()[0], maxBufferSize: 1 }).readable;
+  }
+
   /// `take(frame, time)` gets each frame, a VideoFrame or an ImageBitmap that it owns, when `free()` is true.
   start(free, take) {
     const next = () => {

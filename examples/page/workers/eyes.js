@@ -33,14 +33,27 @@ async function read({ source }) {
   mapper.postMessage({ type: "end", dropped });
 }
 
-/// A frame of the camera. The system busy, it is dropped.
+/// The frames of a camera, until it stops. The system busy, they are dropped.
+async function stream({ readable, side }) {
+  const frames = readable.getReader();
+  for (let next; !(next = await frames.read()).done;) await take(next.value, next.value.timestamp / 1e6, side);
+}
+
+/// One that the page took.
 async function camera({ frame, time, side }) {
+  try {
+    await take(frame, time, side);
+  } finally {
+    self.postMessage({ type: "seen" });
+  }
+}
+
+async function take(frame, time, side) {
   try {
     if (credit > AHEAD - 2 && time > last_time && !stopped) send(time, await grey_picture(frame, side));
     else ++dropped;
   } finally {
     frame.close();
-    self.postMessage({ type: "seen" });
   }
 }
 
@@ -68,6 +81,8 @@ self.addEventListener("message", ({ data }) => {  // beside what waits
       self.postMessage({ type: "error", message: error.message || String(error) });
       if (last_time > -Infinity) mapper.postMessage({ type: "end", dropped });
     });
+  } else if (data.type === "stream") {
+    ready.then(() => stream(data)).catch((error) => self.postMessage({ type: "error", message: error.message || String(error) }));
   } else if (data.type === "halt") {  // the rest of a file is left out
     stopped = true;
     if (wake) wake();
